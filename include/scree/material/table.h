@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_material_table_h
+#define scree_material_table_h
+
+#include <scree/material/linear_elastic.h>
+#include <scree/material/material.h>
+#include <scree/material/mohr_coulomb.h>
+#include <scree/material/nor_sand.h>
+
+#include <memory>
+
+namespace scree
+{
+  /// Entry "Material" and the subsections of all laws; those of laws that are not chosen are read but not used.
+  struct MaterialParameters
+  {
+    std::string law = "Nor-Sand";
+    LinearElasticParameters linear_elastic;
+    MohrCoulombParameters mohr_coulomb;
+    NorSandParameters nor_sand;
+
+    /// Declare entry and subsections inside whatever subsection `prm` has entered.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Check the chosen law; `subsection` is the path of the enclosing subsection for messages, e.g. "Soil".
+    void check(const std::string &subsection) const;
+  };
+
+  /// The law `parameters.law` names. Throws dealii::ExcMessage if there is none of that name.
+  template <int dim>
+  std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters);
+} // namespace scree
+
+#endif
