@@ -1,0 +1,100 @@
+# Everything between a fresh Debian 12 and a build: packages, environment, build/. Called (sh doc/setup.sh) or sourced by
+# doc/quickstart.sh and tests/run.sh; leaves the variable `root` (this repository) and the function configure_scree behind.
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
+if [ ! -f "$root/doc/setup.sh" ]; then
+  echo "setup.sh: call it (sh doc/setup.sh), or source it from a script in doc/ or tests/." >&2
+  exit 1
+fi
+
+# Packages -------------------------------------------------------------------------------------------------------------
+
+packages="libdeal.ii-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy"
+
+missing_packages()
+{
+  for package in $packages; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || printf '%s ' "$package"
+  done
+}
+
+install_packages()
+{
+  # shellcheck disable=SC2086  # a list of words
+  $as_root apt-get update && $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+}
+
+if command -v dpkg-query >/dev/null; then
+  missing=$(missing_packages)
+  if [ -n "$missing" ]; then
+    as_root=
+    if [ "$(id -u)" -ne 0 ]; then
+      as_root=sudo
+      if ! command -v sudo >/dev/null; then
+        echo "setup.sh: as root, please: apt-get install --no-install-recommends $missing" >&2
+        exit 1
+      fi
+    fi
+    echo "Installing $missing"
+    if ! install_packages; then
+      echo "setup.sh: the installation failed; once more." >&2
+      sleep 10
+      install_packages || exit 1
+    fi
+  fi
+else
+  echo "setup.sh: not a Debian; deal.II 9.4 or later, numdiff, CMake, Ninja and the VTK module of Python must be there." >&2
+fi
+
+# Environment ----------------------------------------------------------------------------------------------------------
+
+# Debian's programs, and not those of another Python or MPI earlier in the path.
+PATH=/usr/bin:/bin:$PATH
+export PATH
+
+# Scree's ranks have one thread each.
+export OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1
+
+# Two ranks start on any one machine: as root, on one core, without a network and in a container that forbids reading
+# another process's memory. Unbound, because runs that start side by side would all be bound to the first cores.
+if [ "$(id -u)" -eq 0 ]; then
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+export OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_hwloc_base_binding_policy=none
+export OMPI_MCA_btl=self,vader
+export OMPI_MCA_btl_vader_single_copy_mechanism=none
+
+# Build ----------------------------------------------------------------------------------------------------------------
+
+# How many compilers fit: one for each processor, and 1.5 GB of free memory for each (deal.II's headers are large).
+compile_jobs()
+{
+  jobs=$(nproc)
+  memory=$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo)
+  limit=$(cat /sys/fs/cgroup/memory.max 2>/dev/null)
+  case $limit in
+    '' | *[!0-9]*) ;;
+    *)
+      limit=$((limit / 1048576))
+      [ "$limit" -lt "$memory" ] && memory=$limit
+      ;;
+  esac
+  [ $((memory / 1500)) -lt "$jobs" ] && jobs=$((memory / 1500))
+  [ "$jobs" -lt 1 ] && jobs=1
+  echo "$jobs"
+}
+
+# Also for the builds that a test starts.
+CMAKE_BUILD_PARALLEL_LEVEL=$(compile_jobs)
+export CMAKE_BUILD_PARALLEL_LEVEL
+
+# configure_scree FOLDER TYPE: FOLDER is relative to the root, TYPE is Release or Debug.
+configure_scree()
+{
+  generator=
+  [ -f "$root/$1/CMakeCache.txt" ] || generator=-GNinja
+  cmake -S "$root" -B "$root/$1" ${generator:+"$generator"} -DCMAKE_BUILD_TYPE="$2" ${CI:+-DSCREE_WARNINGS_AS_ERRORS=ON}
+}
+
+configure_scree build Release && cmake --build "$root/build" || exit 1

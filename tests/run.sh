@@ -1,0 +1,39 @@
+#!/bin/sh
+# sh tests/run.sh [ctest arguments]: builds, runs all tests (Release), then the short cases of tests/debug in a Debug build.
+# For instance, sh tests/run.sh -R nor_sand
+
+# shellcheck source=doc/setup.sh
+. "$(dirname -- "$0")/../doc/setup.sh"
+
+# Two tests at a time on whatever cores there are: waiting ranks give way.
+export OMPI_MCA_mpi_yield_when_idle=1
+
+# run_tests FOLDER [ctest arguments]: also keeps what ctest says in FOLDER/tests.log.
+run_tests()
+{
+  log=$root/$1/tests.log
+  folder=$root/$1/tests
+  shift
+  # Is one of the tests asked for here?
+  ctest --test-dir "$folder" -N "$@" | grep -q 'Test *#' || return 0
+  ctest --test-dir "$folder" --output-on-failure -j2 --output-log "$log" "$@"
+}
+
+# The line "100% tests passed, 0 tests failed out of 12".
+summary()
+{
+  grep 'tests passed' "$root/$1/tests.log" 2>/dev/null || echo "no tests were found"
+}
+
+rm -f "$root/build/tests.log" "$root/build-debug/tests.log"
+failed=0
+run_tests build "$@" || failed=1
+# The first of the Debug tests compiles scree.
+configure_scree build-debug Debug && run_tests build-debug -L '^debug$' "$@" || failed=1
+[ -f "$root/build/tests.log" ] || [ -f "$root/build-debug/tests.log" ] || failed=1
+
+echo
+[ "$failed" -eq 0 ] || echo "FAILED: see above, or build/tests.log and build-debug/tests.log"
+echo "Debug:   $(summary build-debug)"
+echo "Release: $(summary build)"
+exit "$failed"
