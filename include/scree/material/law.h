@@ -4,16 +4,16 @@
 #define scree_material_law_h
 
 #include <scree/material/material.h>
+#include <scree/tensor/principal.h>
 
-#include <array>
 #include <string>
 
 namespace scree
 {
-  /// Three principal values, of the logarithmic elastic strain or of the Kirchhoff stress (Pa); tension positive.
-  using PrincipalValues = std::array<double, 3>;
-
   /// What a return map did to the trial strain.
+  ///
+  /// A law is a class with the members of LinearElastic, all in principal values: logarithmic elastic strain and
+  /// Kirchhoff stress (Pa), tension positive. HenckyMaterial makes a Material of it.
   enum class Response
   {
     elastic, ///< The trial strain stands

@@ -7,6 +7,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace scree
 {
   /// Entries of subsection "Linear elastic".
@@ -26,25 +29,32 @@ namespace scree
   class LinearElastic
   {
   public:
-    static constexpr unsigned int n_internal_variables = 0;
-    static constexpr unsigned int n_output_values      = 0;
-
     explicit LinearElastic(const LinearElasticParameters &parameters);
 
-    /// No limit: elasticity knows no path.
+    /// Largest strain of one return map: no limit, elasticity knows no path.
     double substep_strain() const;
 
+    /// Pa.
     double shear_modulus() const;
+
+    /// Tangent at a mean compressive Kirchhoff stress, Pa.
     double bulk_modulus(const double pressure) const;
+
+    /// J per m^3 of reference volume.
     double energy(const PrincipalValues &strain) const;
+
+    /// Zero: the law knows no pores.
     double initial_porosity() const;
 
+    /// From trial to returned `strain` and internal variables, at J = `volume_ratio`; sets `stress`, counts in
+    /// `report`.
     Response return_map(PrincipalValues &strain,
                         double *internal_variables,
                         const double volume_ratio,
                         PrincipalValues &stress,
                         UpdateReport &report) const;
 
+    /// See Material::initialise().
     void initialise(const PrincipalValues &wanted_stress,
                     PrincipalValues &strain,
                     PrincipalValues &stress,
@@ -58,9 +68,16 @@ namespace scree
                 double *values) const;
 
   private:
-    const double shear;
-    const double bulk;
+    const double shear; // Pa
+    const double bulk;  // Pa
   };
+
+
+  inline double
+  LinearElastic::substep_strain() const
+  {
+    return std::numeric_limits<double>::infinity();
+  }
 
 
   inline Response

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
+
 namespace scree
 {
   /// Entries of subsection "Nor-Sand". Defaults: Xie, Navas & Lopez-Querol 2024, Table 1, dense.
@@ -32,6 +34,182 @@ namespace scree
     /// Throws dealii::ExcMessage naming the entry if a combination is impossible.
     void check(const std::string &subsection) const;
   };
+
+
+  /// Nor-Sand, critical state plasticity of sand in finite strain (Borja & Andrade 2006; Andrade & Borja 2006).
+  ///
+  /// With P the mean compressive Kirchhoff stress, q = sqrt(3/2)|dev tau|, Pi the image pressure, r = ln(P/Pi):
+  /// elastic P = P_0 exp(-eps_v/kappa), q = 3 G eps_s, energy kappa P + 3/2 G eps_s^2; P_0 = 1 kPa only fixes the zero
+  /// of eps_v. Yield zeta q = P eta(r), eta = (M/N)(1 - (1-N) exp(r N/(1-N))), for N = 0 eta = M (1 - r); zeta = 1.
+  /// Flow d eps_s^p = gamma, d eps_v^p = gamma D, D = (eta - M)/((1 - Nbar) zeta). Hardening d Pi = h (Pi* - Pi) gamma
+  /// towards Pi* = P x^{-(1-N)/N}, x = max(1 - Abar psi N/M, 0.15), Abar = alpha (1-Nbar)/(1-N),
+  /// psi = v - v_c0 + lambda ln(Pi/p_ref), v = v_0 J. Backward Euler; psi is taken at the returned Pi, v at the end of
+  /// the step.
+  ///
+  /// At the vertex q = 0 the multiplier gamma exceeds the plastic shear strain; D and the hardening go with gamma, so
+  /// isotropic compression hardens.
+  ///
+  /// No tension: a point whose trial or returned P is below the minimum pressure has no stress. Its b_e becomes
+  /// isotropic and keeps eps_v: the gap, to be closed before it bears again; grains apart do not dilate. Pi becomes
+  /// Pi* of the minimum pressure.
+  class NorSand
+  {
+  public:
+    explicit NorSand(const NorSandParameters &parameters);
+
+    /// Largest strain of one return map.
+    double substep_strain() const;
+
+    /// Pa.
+    double shear_modulus() const;
+
+    /// Tangent at a mean compressive Kirchhoff stress, Pa.
+    double bulk_modulus(const double pressure) const;
+
+    /// J per m^3 of reference volume.
+    double energy(const PrincipalValues &strain) const;
+
+    /// 1 - 1/v_0.
+    double initial_porosity() const;
+
+    /// From trial to returned `strain` and internal variables, at J = `volume_ratio`; sets `stress`, counts in
+    /// `report`.
+    Response return_map(PrincipalValues &strain,
+                        double *internal_variables,
+                        const double volume_ratio,
+                        PrincipalValues &stress,
+                        UpdateReport &report) const;
+
+    /// See Material::initialise(). The yield surface passes through the stress, times the overconsolidation ratio.
+    /// Throws for tension and for q/P >= M/N. A stress below the minimum pressure becomes no stress and no gap.
+    void initialise(const PrincipalValues &wanted_stress,
+                    PrincipalValues &strain,
+                    PrincipalValues &stress,
+                    double *internal_variables) const;
+
+    static std::vector<std::string> internal_variable_names();
+    static std::vector<std::string> output_names();
+    void output(const PrincipalValues &strain,
+                const double *internal_variables,
+                const double volume_ratio,
+                double *values) const;
+
+    /// (zeta q - P eta)/P of a state, for tests; negative inside.
+    double yield(const PrincipalValues &strain, const double image_pressure) const;
+
+  private:
+    /// Invariants of the trial state.
+    struct Trial
+    {
+      double log_pressure; // ln P
+      double deviator;     // q, Pa
+      double log_image;    // ln Pi at the start
+      double volume;       // v
+    };
+
+    /// Invariants after the return.
+    struct Returned
+    {
+      double log_pressure;
+      double log_ratio; // r
+    };
+
+    /// Residuals of (gamma, r) and their derivatives.
+    struct Residual
+    {
+      double log_pressure, deviator_ratio;
+      double yield, yield_gamma, yield_ratio;
+      double image, image_gamma, image_ratio;
+    };
+
+    double log_pressure_of(const double volume_strain) const;
+    double stress_ratio(const double log_ratio) const;
+    double dilatancy(const double stress_ratio) const;
+
+    /// ln(Pi*/P) and its derivative in ln Pi.
+    double log_limit(const double log_image, const double volume, double &derivative) const;
+
+    Response plastic_return(const Trial &trial,
+                            PrincipalValues &strain,
+                            double *internal_variables,
+                            PrincipalValues &stress,
+                            UpdateReport &report) const;
+    Residual residual(const Trial &trial, const double multiplier, const double log_ratio) const;
+    bool newton(const Trial &trial, Returned &returned) const;
+    Returned search(const Trial &trial, UpdateReport &report) const;
+    Returned search_vertex(const Trial &trial, UpdateReport &report) const;
+    double deviator_on_yield(const Trial &trial, const double log_ratio) const;
+    double image_residual(const Trial &trial, const double multiplier, const double log_ratio) const;
+    void separate(const double volume_strain,
+                  const double volume,
+                  PrincipalValues &strain,
+                  double *internal_variables,
+                  PrincipalValues &stress) const;
+
+    const NorSandParameters parameters;
+    const double inverse_swelling_index;
+    const double log_minimum_pressure;
+    const double log_reference_pressure;
+    const double exponent;          // N/(1-N)
+    const double largest_log_ratio; // r at q = 0
+    const double limit_factor;      // Abar N/M
+  };
+
+
+  inline double
+  NorSand::substep_strain() const
+  {
+    return parameters.substep_strain;
+  }
+
+
+  inline double
+  NorSand::log_pressure_of(const double volume_strain) const
+  {
+    constexpr double log_zero_strain_pressure = 6.907755278982137; // ln(1 kPa/1 Pa)
+    return log_zero_strain_pressure - volume_strain * inverse_swelling_index;
+  }
+
+
+  inline double
+  NorSand::stress_ratio(const double log_ratio) const
+  {
+    const double N = parameters.yield_constant, M = parameters.critical_stress_ratio;
+    return N > 0 ? M / N * (1 - (1 - N) * std::exp(exponent * log_ratio)) : M * (1 - log_ratio);
+  }
+
+
+  inline Response
+  NorSand::return_map(PrincipalValues &strain,
+                      double *internal_variables,
+                      const double volume_ratio,
+                      PrincipalValues &stress,
+                      UpdateReport &report) const
+  {
+    const double volume_strain = strain[0] + strain[1] + strain[2];
+    const double mean          = volume_strain / 3;
+    double deviator_square     = 0;
+    for (unsigned int i = 0; i < 3; ++i)
+      deviator_square += (strain[i] - mean) * (strain[i] - mean);
+
+    const double deviator     = 3 * parameters.shear_modulus * std::sqrt(2. / 3. * deviator_square);
+    const double log_pressure = log_pressure_of(volume_strain);
+    const double pressure     = std::exp(log_pressure);
+    const double log_image    = std::log(internal_variables[0]);
+
+    if (!(log_pressure >= log_minimum_pressure && deviator <= pressure * stress_ratio(log_pressure - log_image)))
+      return plastic_return({ log_pressure, deviator, log_image, parameters.initial_specific_volume * volume_ratio },
+                            strain,
+                            internal_variables,
+                            stress,
+                            report);
+
+    for (unsigned int i = 0; i < 3; ++i)
+      stress[i] = -pressure + 2 * parameters.shear_modulus * (strain[i] - mean);
+    report.largest_pressure     = std::max(report.largest_pressure, pressure);
+    report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, pressure * inverse_swelling_index);
+    return Response::elastic;
+  }
 } // namespace scree
 
 #endif

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <scree/material/nor_sand.h>
+
+#include <limits>
+
+namespace scree
+{
+  namespace
+  {
+    // The data know no dependence on the Lode angle; zeta of Gudehus-Argyris or Willam-Warnke would enter here.
+    constexpr double lode_factor = 1;
+
+    /// Where `f` turns from positive at `positive` to not positive at `negative`, to the last digit.
+    template <typename Function>
+    double
+    bisect(const Function &f, double positive, double negative)
+    {
+      for (unsigned int i = 0; i < 200; ++i)
+        {
+          const double middle = 0.5 * (positive + negative);
+          if (middle == positive || middle == negative)
+            break;
+          (f(middle) > 0 ? positive : negative) = middle;
+        }
+      return negative;
+    }
+
+
+    /// ln(exp(a) + exp(b)) without overflow.
+    double
+    log_sum(const double a, const double b)
+    {
+      return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
+    }
+  } // namespace
+
+
+  double
+  NorSand::dilatancy(const double stress_ratio) const
+  {
+    return (stress_ratio - parameters.critical_stress_ratio) / ((1 - parameters.potential_constant) * lode_factor);
+  }
+
+
+  double
+  NorSand::log_limit(const double log_image, const double volume, double &derivative) const
+  {
+    constexpr double smallest_argument = 0.15; // Below, the limit pressure runs away for very dense sand.
+
+    const double state = volume - parameters.critical_state_specific_volume +
+                         parameters.compression_index * (log_image - log_reference_pressure);
+    if (exponent == 0) // the limit N -> 0
+      {
+        const double factor =
+            parameters.dilatancy_multiplier * (1 - parameters.potential_constant) / parameters.critical_stress_ratio;
+        derivative = factor * parameters.compression_index;
+        return factor * state;
+      }
+    const double argument = 1 - limit_factor * state;
+    if (argument <= smallest_argument)
+      {
+        derivative = 0;
+        return -std::log(smallest_argument) / exponent;
+      }
+    derivative = limit_factor * parameters.compression_index / (exponent * argument);
+    return -std::log(argument) / exponent;
+  }
+
+
+  NorSand::Residual
+  NorSand::residual(const Trial &trial, const double multiplier, const double log_ratio) const
+  {
+    const double M = parameters.critical_stress_ratio, h = parameters.hardening_coefficient;
+    const double E = exponent > 0 ? std::exp(exponent * log_ratio) : 1;
+    const double eta =
+        exponent > 0 ? M / parameters.yield_constant * (1 - (1 - parameters.yield_constant) * E) : M * (1 - log_ratio);
+    const double eta_ratio    = -M * E; // d eta/dr
+    const double D            = dilatancy(eta);
+    const double D_ratio      = eta_ratio / ((1 - parameters.potential_constant) * lode_factor);
+    const double log_pressure = trial.log_pressure + multiplier * D * inverse_swelling_index;
+
+    const double log_pressure_gamma = D * inverse_swelling_index;
+    const double log_pressure_ratio = multiplier * D_ratio * inverse_swelling_index;
+    const double log_image_ratio    = log_pressure_ratio - 1;
+
+    const double compliance     = std::exp(-log_pressure);
+    const double deviator_slope = 3 * parameters.shear_modulus * compliance;
+    const double deviator_ratio = trial.deviator * compliance - deviator_slope * multiplier; // q/P
+
+    double limit_slope;
+    const double limit     = log_limit(log_pressure - log_ratio, trial.volume, limit_slope);
+    const double image_old = std::exp(trial.log_image - log_pressure + log_ratio); // Pi_n/Pi
+    const double image_new = h * std::exp(log_ratio + limit);                      // h Pi*/Pi
+    const double sum       = image_old + multiplier * image_new;
+    const double sum_gamma = image_new + (multiplier * image_new * limit_slope - image_old) * log_pressure_gamma;
+    const double sum_ratio = multiplier * image_new * (1 + limit_slope * log_image_ratio) - image_old * log_image_ratio;
+
+    Residual r;
+    r.log_pressure   = log_pressure;
+    r.deviator_ratio = trial.deviator * compliance;
+    r.yield          = lode_factor * deviator_ratio - eta;
+    r.yield_gamma    = -lode_factor * (deviator_slope + deviator_ratio * log_pressure_gamma);
+    r.yield_ratio    = -lode_factor * deviator_ratio * log_pressure_ratio - eta_ratio;
+    r.image          = std::log((1 + h * multiplier) / sum);
+    r.image_gamma    = h / (1 + h * multiplier) - sum_gamma / sum;
+    r.image_ratio    = -sum_ratio / sum;
+    return r;
+  }
+
+
+  bool
+  NorSand::newton(const Trial &trial, Returned &returned) const
+  {
+    constexpr unsigned int largest_number_of_iterations = 14;
+    constexpr unsigned int largest_number_of_halvings   = 6;
+    constexpr double tolerance                          = 1e-11;
+    constexpr double largest_change_of_ratio            = 1;
+    constexpr double largest_part_of_the_way            = 0.9; // to a bound
+
+    const double largest_multiplier = trial.deviator / (3 * parameters.shear_modulus);
+    double multiplier               = 0;
+    double log_ratio                = std::min(trial.log_pressure - trial.log_image, largest_log_ratio);
+    Residual now                    = residual(trial, multiplier, log_ratio);
+    for (unsigned int i = 0; i < largest_number_of_iterations; ++i)
+      {
+        if (std::abs(now.yield) <= tolerance * (1 + now.deviator_ratio) && std::abs(now.image) <= tolerance)
+          {
+            returned = { now.log_pressure, log_ratio };
+            return true;
+          }
+        const double determinant = now.yield_gamma * now.image_ratio - now.yield_ratio * now.image_gamma;
+        double step_multiplier   = (now.yield_ratio * now.image - now.image_ratio * now.yield) / determinant;
+        double step_ratio        = (now.image_gamma * now.yield - now.yield_gamma * now.image) / determinant;
+
+        double part = std::min(1., largest_change_of_ratio / std::abs(step_ratio));
+        if (step_ratio > 0)
+          part = std::min(part, largest_part_of_the_way * (largest_log_ratio - log_ratio) / step_ratio);
+        const double room = step_multiplier > 0 ? largest_multiplier - multiplier : multiplier;
+        if (step_multiplier != 0)
+          part = std::min(part, largest_part_of_the_way * room / std::abs(step_multiplier));
+
+        const double merit = now.yield * now.yield + now.image * now.image;
+        for (unsigned int halving = 0;; ++halving, part *= 0.5)
+          {
+            const Residual next = residual(trial, multiplier + part * step_multiplier, log_ratio + part * step_ratio);
+            if (next.yield * next.yield + next.image * next.image < merit)
+              {
+                now = next;
+                break;
+              }
+            if (halving == largest_number_of_halvings)
+              return false;
+          }
+        multiplier += part * step_multiplier;
+        log_ratio += part * step_ratio;
+      }
+    return false;
+  }
+
+
+  double
+  NorSand::image_residual(const Trial &trial, const double multiplier, const double log_ratio) const
+  {
+    const double log_pressure =
+        trial.log_pressure + multiplier * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index;
+    const double hardening = parameters.hardening_coefficient * multiplier;
+    double derivative;
+    const double log_limit_pressure = log_pressure + log_limit(log_pressure - log_ratio, trial.volume, derivative);
+    return log_pressure - log_ratio + std::log1p(hardening) -
+           log_sum(trial.log_image, std::log(hardening) + log_limit_pressure);
+  }
+
+
+  double
+  NorSand::deviator_on_yield(const Trial &trial, const double log_ratio) const
+  {
+    // F = 0 in u = ln q: g(u) = u + d exp(u) - c = 0, one root below ln q_tr.
+    const double eta = stress_ratio(log_ratio);
+    if (eta <= 0)
+      return 0;
+    const double d = dilatancy(eta) * inverse_swelling_index / (3 * parameters.shear_modulus);
+    const double c = trial.log_pressure + d * trial.deviator + std::log(eta / lode_factor);
+    double low     = c - std::max(d, 0.) * trial.deviator;
+    double high    = std::log(trial.deviator);
+    double u       = high;
+    for (unsigned int i = 0; i < 200 && low < high; ++i)
+      {
+        const double g       = u + d * std::exp(u) - c;
+        (g > 0 ? high : low) = u;
+        double next          = u - g / (1 + d * std::exp(u));
+        if (!(next > low && next < high))
+          next = 0.5 * (low + high);
+        if (std::abs(next - u) <= 1e-16 * std::abs(u))
+          break;
+        u = next;
+      }
+    return std::min(std::exp(u), trial.deviator);
+  }
+
+
+  NorSand::Returned
+  NorSand::search(const Trial &trial, UpdateReport &report) const
+  {
+    ++report.n_fallbacks;
+    const auto multiplier = [&](const double log_ratio) {
+      return (trial.deviator - deviator_on_yield(trial, log_ratio)) / (3 * parameters.shear_modulus);
+    };
+    const auto image = [&](const double log_ratio) { return image_residual(trial, multiplier(log_ratio), log_ratio); };
+
+    if (image_residual(trial, trial.deviator / (3 * parameters.shear_modulus), largest_log_ratio) > 0)
+      return search_vertex(trial, report);
+
+    // Down to where the image pressure is above its old value or its limit: the residual is positive there.
+    const double N = parameters.yield_constant, M = parameters.critical_stress_ratio;
+    const double argument = 1 - lode_factor * N / M * trial.deviator * std::exp(-trial.log_pressure);
+    double low            = largest_log_ratio - 1;
+    if (N > 0 && argument > 0)
+      low = std::log(argument / (1 - N)) / exponent;
+    else
+      for (double step = 1; !(image(low) > 0) && step < 1e9; step *= 2)
+        low -= step;
+
+    const double log_ratio = bisect(image, low, largest_log_ratio);
+    if (!(std::abs(image(log_ratio)) < 1e-6))
+      ++report.n_unresolved;
+    return { trial.log_pressure + multiplier(log_ratio) * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index,
+             log_ratio };
+  }
+
+
+  NorSand::Returned
+  NorSand::search_vertex(const Trial &trial, UpdateReport &report) const
+  {
+    ++report.n_vertices;
+    const auto image = [&](const double multiplier) { return image_residual(trial, multiplier, largest_log_ratio); };
+
+    const double smallest = trial.deviator / (3 * parameters.shear_modulus);
+    double largest        = smallest + parameters.swelling_index;
+    for (double step = parameters.swelling_index; image(largest) > 0 && step < 1e9; step *= 2)
+      largest += step;
+
+    const double multiplier = bisect(image, smallest, largest);
+    if (!(std::abs(image(multiplier)) < 1e-6))
+      ++report.n_unresolved;
+    return { trial.log_pressure + multiplier * dilatancy(0) * inverse_swelling_index, largest_log_ratio };
+  }
+
+
+  void
+  NorSand::separate(const double volume_strain,
+                    const double volume,
+                    PrincipalValues &strain,
+                    double *internal_variables,
+                    PrincipalValues &stress) const
+  {
+    double derivative;
+    strain.fill(volume_strain / 3);
+    stress.fill(0);
+    internal_variables[0] = std::exp(log_minimum_pressure + log_limit(log_minimum_pressure, volume, derivative));
+  }
+
+
+  Response
+  NorSand::plastic_return(const Trial &trial,
+                          PrincipalValues &strain,
+                          double *internal_variables,
+                          PrincipalValues &stress,
+                          UpdateReport &report) const
+  {
+    Returned returned{ trial.log_pressure, 0 };
+    if (trial.log_pressure >= log_minimum_pressure && !newton(trial, returned))
+      returned = search(trial, report);
+
+    const double volume_strain = (log_pressure_of(0) - returned.log_pressure) * parameters.swelling_index;
+    if (returned.log_pressure < log_minimum_pressure)
+      {
+        ++report.n_separated;
+        separate(volume_strain, trial.volume, strain, internal_variables, stress);
+        return Response::plastic;
+      }
+
+    // q from the yield surface: q_tr - 3 G gamma would lose digits where gamma is large.
+    const double pressure = std::exp(returned.log_pressure);
+    const double deviator =
+        returned.log_ratio < largest_log_ratio ? pressure * stress_ratio(returned.log_ratio) / lode_factor : 0;
+    const double factor = trial.deviator > 0 ? deviator / trial.deviator : 0;
+    const double mean   = (strain[0] + strain[1] + strain[2]) / 3;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const double elastic_deviator = factor * (strain[i] - mean);
+        strain[i]                     = volume_strain / 3 + elastic_deviator;
+        stress[i]                     = -pressure + 2 * parameters.shear_modulus * elastic_deviator;
+      }
+    internal_variables[0] = std::exp(returned.log_pressure - returned.log_ratio);
+    internal_variables[1] += (trial.deviator - deviator) / (3 * parameters.shear_modulus);
+    report.largest_pressure     = std::max(report.largest_pressure, pressure);
+    report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, pressure * inverse_swelling_index);
+    return Response::plastic;
+  }
+} // namespace scree

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <scree/material/hencky_material.h>
+#include <scree/material/table.h>
+
+using namespace dealii;
+
+namespace scree
+{
+  namespace
+  {
+    const char linear_elastic_name[] = "linear elastic";
+    const char mohr_coulomb_name[]   = "Mohr-Coulomb";
+    const char nor_sand_name[]       = "Nor-Sand";
+
+    const char linear_elastic_subsection[] = "Linear elastic";
+  } // namespace
+
+
+  void
+  MaterialParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+        "Material",
+        law,
+        "Constitutive law; its entries are in the subsection of its name.",
+        Patterns::Selection(std::string(linear_elastic_name) + "|" + mohr_coulomb_name + "|" + nor_sand_name));
+    prm.enter_subsection(linear_elastic_subsection);
+    linear_elastic.add_parameters(prm);
+    prm.leave_subsection();
+    prm.enter_subsection(mohr_coulomb_name);
+    mohr_coulomb.add_parameters(prm);
+    prm.leave_subsection();
+    prm.enter_subsection(nor_sand_name);
+    nor_sand.add_parameters(prm);
+    prm.leave_subsection();
+  }
+
+
+  void
+  MaterialParameters::check(const std::string &subsection) const
+  {
+    const std::string prefix = subsection.empty() ? "" : subsection + "/";
+    if (law == linear_elastic_name)
+      linear_elastic.check(prefix + linear_elastic_subsection);
+    else if (law == mohr_coulomb_name)
+      mohr_coulomb.check(prefix + mohr_coulomb_name);
+    else
+      nor_sand.check(prefix + nor_sand_name);
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Material<dim>>
+  make_material(const MaterialParameters &parameters)
+  {
+    if (parameters.law == linear_elastic_name)
+      return std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
+    if (parameters.law == mohr_coulomb_name)
+      return std::make_unique<HenckyMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
+    if (parameters.law == nor_sand_name)
+      return std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(parameters.nor_sand));
+    AssertThrow(false, ExcMessage("There is no material \"" + parameters.law + "\"."));
+    return nullptr;
+  }
+
+
+  template std::unique_ptr<Material<2>> make_material<2>(const MaterialParameters &);
+  template std::unique_ptr<Material<3>> make_material<3>(const MaterialParameters &);
+} // namespace scree
