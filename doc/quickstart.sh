@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # sh doc/quickstart.sh: from a fresh Debian 12 to the first pictures.
 
 # shellcheck source=doc/setup.sh

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Everything between a fresh Debian 12 and a build: packages, environment, build/. Called (sh doc/setup.sh) or sourced by
 # doc/quickstart.sh and tests/run.sh; leaves the variable `root` (this repository) and the function configure_scree behind.
 

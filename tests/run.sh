@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # sh tests/run.sh [ctest arguments]: builds, runs all tests (Release), then the short cases of tests/debug in a Debug build.
 # For instance, sh tests/run.sh -R nor_sand
 

@@ -1,0 +1,345 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Draws a run folder: its points at a few times, and its statistics against time.
+
+/usr/bin/python3 doc/render.py results/quickstart --field deviatoric_stress --times 0,0.5,1
+
+Writes points.png and statistics.png into the run folder. Needs Debian's python3-vtk9 and python3-matplotlib.
+"""
+
+import argparse
+import pathlib
+import re
+import sys
+import xml.etree.ElementTree
+from typing import NamedTuple
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.collections
+import matplotlib.pyplot as plt
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+import variants
+
+
+class Field(NamedTuple):
+    """How a field is shown: its name in words, the unit, and the factor from SI to that unit."""
+    label: str
+    unit: str
+    factor: float
+    colours: str = "viridis"
+
+
+FIELDS = {
+    "mean_effective_stress": Field("mean effective stress", "kPa", 1e-3),
+    "deviatoric_stress": Field("deviatoric stress", "kPa", 1e-3),
+    "stress_ratio": Field("stress ratio", "", 1),
+    "stress": Field("norm of the stress", "kPa", 1e-3),
+    "velocity": Field("speed", "m/s", 1),
+    "specific_volume": Field("specific volume", "", 1),
+    "state_parameter": Field("state parameter", "", 1, "RdBu_r"),
+    "plastic_shear_strain": Field("plastic shear strain", "", 1, "magma"),
+    "mass": Field("mass", "kg", 1),
+}
+
+
+class Points(NamedTuple):
+    """The material points of one picture: time in s, positions (n, 3) in m, arrays by name in SI units."""
+    time: float
+    positions: np.ndarray
+    arrays: dict
+
+
+class Box(NamedTuple):
+    """The box of the mesh: corners in m, cell size in m, axis of gravity (0, 1, 2)."""
+    lower: np.ndarray
+    upper: np.ndarray
+    cell_size: float
+    vertical: int
+
+    @property
+    def dim(self):
+        return len(self.lower)
+
+
+# Reading --------------------------------------------------------------------------------------------------------------
+
+
+def read_times(run):
+    """The times of the pictures of a run folder, s, in ascending order."""
+    return np.array(sorted(_pictures(run)))
+
+
+def read_points(run, time=None):
+    """The points of the picture next to `time`, s; of the last one without `time`."""
+    pictures = _pictures(run)
+    chosen = max(pictures) if time is None else min(pictures, key=lambda candidate: abs(candidate - time))
+    pieces = [piece for piece in map(_read_piece, _pieces(pictures[chosen])) if piece]
+    if not pieces:
+        return Points(chosen, np.zeros((0, 3)), {})
+    arrays = {name: np.concatenate([piece.arrays[name] for piece in pieces]) for name in pieces[0].arrays}
+    return Points(chosen, np.concatenate([piece.positions for piece in pieces]), arrays)
+
+
+def read_statistics(run):
+    """The columns of the statistics file: {"Time (s)": values, ...}. A line that is not complete yet is left out."""
+    names, rows = [], []
+    with open(pathlib.Path(run) / "statistics", encoding="utf-8") as file:
+        for line in file:
+            header = re.match(r"#\s*\d+:\s*(.*\S)", line)
+            if header:
+                names.append(header.group(1))
+            elif line.strip() and not line.startswith("#"):
+                values = [_number(word) for word in line.split()]
+                if len(values) >= len(names):
+                    rows.append(values[:len(names)])
+    return dict(zip(names, np.array(rows, dtype=float).reshape(len(rows), len(names)).T))
+
+
+def read_box(run):
+    """The box of the mesh from parameters.prm."""
+    entries = variants.read_entries(pathlib.Path(run) / "parameters.prm")
+
+    def vector(key):
+        return np.array([float(word) for word in entries[key].split(",")])
+
+    dim = int(entries.get("Dimension", 2))
+    gravity = vector("Gravity") if "Gravity" in entries else np.zeros(dim)
+    vertical = int(np.argmax(np.abs(gravity[:dim]))) if np.any(gravity) else dim - 1
+    return Box(vector("Mesh/Lower corner")[:dim], vector("Mesh/Upper corner")[:dim],
+               float(entries["Mesh/Cell size"].split(",")[0]), vertical)
+
+
+def column(statistics, pattern):
+    """The first column whose name matches the regular expression (case ignored); None if there is none."""
+    return next((values for name, values in statistics.items() if re.search(pattern, name, re.IGNORECASE)), None)
+
+
+def _pictures(run):
+    """{time: file} of solution/points.pvd."""
+    pvd = pathlib.Path(run) / "solution" / "points.pvd"
+    if not pvd.exists():
+        raise FileNotFoundError(f"{pvd} is not there: is {run} a run folder, and has the run written a picture?")
+    sets = xml.etree.ElementTree.parse(pvd).getroot().iter("DataSet")
+    pictures = {float(data_set.get("timestep")): pvd.parent / data_set.get("file") for data_set in sets}
+    if not pictures:
+        raise ValueError(f"{pvd} lists no picture.")
+    return pictures
+
+
+def _pieces(path):
+    """The .vtu files of a .pvtu, one a rank. VTK's own reader of .pvtu trusts its types, and crashes if they are wrong."""
+    if path.suffix == ".vtu":
+        return [path]
+    return [path.parent / piece.get("Source") for piece in xml.etree.ElementTree.parse(path).getroot().iter("Piece")]
+
+
+def _read_piece(path):
+    """The points of one .vtu without their time; None if it has none."""
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    if grid.GetNumberOfPoints() == 0:
+        return None
+    data = grid.GetPointData()
+    arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    return Points(np.nan, vtk_to_numpy(grid.GetPoints().GetData()), arrays)
+
+
+def _number(word):
+    try:
+        return float(word)
+    except ValueError:
+        return np.nan
+
+
+# Drawing --------------------------------------------------------------------------------------------------------------
+
+
+def field_style(name):
+    return FIELDS.get(name, Field(name.replace("_", " "), "", 1))
+
+
+def field_label(name):
+    style = field_style(name)
+    return f"{style.label} ({style.unit})" if style.unit else style.label
+
+
+def field_values(points, name):
+    """A field in its display unit, one number a point; of a vector or tensor the norm."""
+    if len(points.positions) == 0:
+        return np.zeros(0)
+    if name not in points.arrays:
+        raise KeyError(f"No field {name}; there are: {', '.join(sorted(points.arrays))}.")
+    values = field_style(name).factor * points.arrays[name]
+    return values if values.ndim == 1 else np.linalg.norm(values, axis=1)
+
+
+def colour_limits(values, name):
+    """From the first to the 99th percentile: single points must not take the colours from all others."""
+    values = values[np.isfinite(values)]
+    if len(values) == 0:
+        return 0., 1.
+    low, high = np.percentile(values, [1, 99])
+    if field_style(name).colours.startswith("RdBu"):
+        high = max(abs(low), abs(high))
+        low = -high
+    elif 0 <= low < 0.3 * high:
+        low = 0.
+    return (low, high) if high > low else (low - 0.5, high + 0.5)
+
+
+def point_sides(points, box):
+    """Side of the square (or cube) with each point's volume, m."""
+    if "volume" not in points.arrays:
+        return np.full(len(points.positions), box.cell_size / 4)
+    sides = np.maximum(points.arrays["volume"], 0) ** (1 / box.dim)
+    # A point that flies alone keeps opening; its volume is no longer the room it fills.
+    return np.minimum(sides, 1.3 * np.median(sides))
+
+
+def draw_points(axes, points, box, name, limits):
+    """Draws the points of one picture, coloured by a field; returns what a colour bar needs."""
+    values = field_values(points, name)
+    if box.dim == 3:
+        return _draw_points_3d(axes, points, box, values, limits, field_style(name).colours)
+    centres = points.positions[:, None, :2]
+    # A little larger than the point, so that a stretched body does not look like a comb.
+    half = 0.6 * point_sides(points, box)[:, None, None]
+    corners = centres + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) if len(values) else []
+    squares = matplotlib.collections.PolyCollection(corners, array=values, cmap=field_style(name).colours,
+                                                    linewidths=0, antialiased=False, rasterized=True)
+    squares.set_clim(*limits)
+    axes.add_collection(squares)
+    axes.set_xlim(box.lower[0], box.upper[0])
+    axes.set_ylim(box.lower[1], box.upper[1])
+    axes.set_aspect("equal")
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+    return squares
+
+
+def _draw_points_3d(axes, points, box, values, limits, colours):
+    # Gravity's axis points up in the picture.
+    order = [axis for axis in range(3) if axis != box.vertical] + [box.vertical]
+    size = box.upper - box.lower
+    inches_a_metre = 0.55 * axes.figure.get_figwidth() / len(axes.figure.axes) ** 0.5 / max(size)
+    sides = point_sides(points, box) if len(values) else np.zeros(0)
+    scatter = axes.scatter(*points.positions[:, order].T, c=values, cmap=colours, marker="s",
+                           s=np.maximum(72 * sides * inches_a_metre, 0.5) ** 2, linewidths=0, depthshade=False)
+    scatter.set_clim(*limits)
+    setters = [(axes.set_xlim, axes.set_xlabel), (axes.set_ylim, axes.set_ylabel), (axes.set_zlim, axes.set_zlabel)]
+    for axis, (set_limits, set_label) in zip(order, setters):
+        set_limits(box.lower[axis], box.upper[axis])
+        set_label(f"{'xyz'[axis]} (m)")
+    axes.set_box_aspect(size[order])
+    axes.view_init(elev=25, azim=-60)
+    return scatter
+
+
+def panels(rows, columns, box, width=10.):
+    """Figure and axes of rows x columns pictures of the box, without much white around them."""
+    three_dimensional = box.dim == 3
+    size = box.upper - box.lower
+    ratio = 0.75 if three_dimensional else size[1] / size[0]
+    height = rows * (ratio * (width - 1.5) / columns + 0.4) + 0.4
+    return plt.subplots(rows, columns, figsize=(width, height), squeeze=False, layout="constrained",
+                        sharex=not three_dimensional, sharey=not three_dimensional,
+                        subplot_kw={"projection": "3d"} if three_dimensional else {})
+
+
+def render_points(run, output, name="mean_effective_stress", times=None, limits=None):
+    """Panels of a few times (default: first, a quarter, half, last) in one PNG."""
+    box = read_box(run)
+    if times is None:
+        available = read_times(run)
+        times = available[0] + np.array([0, 0.25, 0.5, 1]) * (available[-1] - available[0])
+    pictures = {picture.time: picture for picture in (read_points(run, time) for time in times)}
+    pictures = [pictures[time] for time in sorted(pictures)]
+    if limits is None:
+        limits = colour_limits(np.concatenate([field_values(points, name) for points in pictures]), name)
+
+    size = box.upper - box.lower
+    columns = 1 if box.dim == 2 and size[0] > 2 * size[1] else min(2, len(pictures))
+    rows = -(-len(pictures) // columns)
+    figure, axes = panels(rows, columns, box)
+    for panel in axes.flat[len(pictures):]:
+        panel.set_visible(False)
+    for panel, points in zip(axes.flat, pictures):
+        drawn = draw_points(panel, points, box, name, limits)
+        panel.set_title(f"t = {points.time:.4g} s", fontsize="medium")
+        if box.dim == 2:
+            panel.label_outer()
+    figure.colorbar(drawn, ax=axes, label=field_label(name), extend="both", aspect=40, shrink=0.8, pad=0.02 if box.dim == 2 else 0.08)
+    figure.savefig(output, dpi=150)
+    plt.close(figure)
+
+
+# Title of the panel, and which columns of the statistics belong to it. Each column is drawn once, in the first that fits.
+STATISTICS_PANELS = [
+    ("energy", r"energy|work|dissipat"),
+    ("front", r"front|run.?out"),
+    ("stress oscillation", r"oscillation"),
+    ("step size", r"step.*\(s\)"),
+]
+
+
+def render_statistics(run, output):
+    """The columns of interest against time in one PNG; returns False when there is nothing to draw."""
+    statistics = read_statistics(run)
+    time = column(statistics, r"^time\b(?!.*step)")
+    drawn, groups = set(), []
+    for title, pattern in STATISTICS_PANELS:
+        names = [name for name, values in statistics.items()
+                 if name not in drawn and re.search(pattern, name, re.IGNORECASE) and np.any(np.isfinite(values))]
+        drawn.update(names)
+        if names:
+            groups.append((title, names))
+    if time is None or not groups:
+        return False
+
+    figure, axes = plt.subplots(len(groups), 1, figsize=(8, 0.6 + 2.3 * len(groups)), squeeze=False, sharex=True,
+                                layout="constrained")
+    for panel, (title, names) in zip(axes.flat, groups):
+        units = {match.group(1) for match in (re.search(r"\(([^()]*)\)\s*$", name) for name in names) if match}
+        for name in names:
+            panel.plot(time, statistics[name], label=re.sub(r"\s*\([^()]*\)\s*$", "", name) if len(units) == 1 else name)
+        panel.set_ylabel(f"{title} ({units.pop()})" if len(units) == 1 else title)
+        panel.legend(fontsize="small", loc="best")
+        panel.grid(alpha=0.3)
+    axes.flat[-1].set_xlabel("time (s)")
+    figure.savefig(output, dpi=150)
+    plt.close(figure)
+    return True
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
+    parser.add_argument("--field", default="mean_effective_stress", help=f"{', '.join(FIELDS)} or any array of the file")
+    parser.add_argument("--times", help="times in s, separated by commas; default: first, 1/4, 1/2 and last")
+    parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
+    parser.add_argument("--output", type=pathlib.Path, help="default: points.png in the run folder")
+    arguments = parser.parse_args()
+
+    def numbers(text):
+        return text and [float(word) for word in text.split(",")]
+
+    output = arguments.output or arguments.run / "points.png"
+    try:
+        render_points(arguments.run, output, arguments.field, numbers(arguments.times), numbers(arguments.limits))
+        print(f"Wrote {output}")
+        statistics = output.with_name("statistics.png")
+        if (arguments.run / "statistics").exists() and render_statistics(arguments.run, statistics):
+            print(f"Wrote {statistics}")
+    except (OSError, KeyError, ValueError) as error:
+        sys.exit(f"render.py: {error.args[0] if isinstance(error, KeyError) else error}")
+
+
+if __name__ == "__main__":
+    main()
