@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_element_element_driver_h
+#define scree_element_element_driver_h
+
+#include <scree/element/element_parameters.h>
+
+namespace scree
+{
+  /// One material point along a prescribed path, as in a laboratory test. Axis y is vertical.
+  ///
+  /// Each step prescribes the increment of one stretch or of the shear; where a stress is held, the stretch that holds
+  /// it is found by the secant method. Stresses are Cauchy stresses, strains logarithmic.
+  class ElementDriver
+  {
+  public:
+    /// The point after a step.
+    struct State
+    {
+      double strain       = 0; ///< Prescribed: vertical logarithmic strain, compression positive, or shear strain
+      double volume_ratio = 1; ///< J
+      std::array<double, 6> left_cauchy_green;
+      std::array<double, 6> stress;
+      std::vector<double> internal_variables;
+
+      double mean_pressure() const;   ///< P, Pa
+      double deviator() const;        ///< q, Pa
+      double stress_ratio() const;    ///< q/P; 0 without pressure
+      double mobilised_ratio() const; ///< Shear over vertical stress; 0 without stress
+    };
+
+    explicit ElementDriver(const ElementParameters &parameters);
+
+    /// Go along the path. Throws dealii::ExcMessage if the material cannot follow.
+    void run();
+
+    /// States from the start on.
+    const std::vector<State> &history() const;
+
+    /// What the updates of the accepted steps reported.
+    const UpdateReport &report() const;
+
+    /// All states, a row each; the first row names the columns and their units.
+    void write_table(std::ostream &out) const;
+
+    /// Peak and final values of order one, a line each.
+    void print_summary(std::ostream &out) const;
+
+  private:
+    State start() const;
+
+    /// `state` after the increment with the free stretch `stretch`.
+    State advance(const State &state, const double stretch, UpdateReport &report) const;
+
+    /// Relative distance of the held stress from its value.
+    double held_stress_error(const State &state) const;
+
+    /// The stretch that holds the stress over the next step, from that of the step before.
+    double find_stretch(const State &state, const double guess) const;
+
+    const ElementParameters parameters;
+    const ElementParameters::Path path;
+    const double strain_step;
+    const std::unique_ptr<Material<3>> material;
+    std::vector<State> states;
+    UpdateReport accepted;
+  };
+} // namespace scree
+
+#endif
