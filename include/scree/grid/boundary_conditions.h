@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_grid_boundary_conditions_h
+#define scree_grid_boundary_conditions_h
+
+#include <scree/grid/nodal_field.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// What a face of the box does to the soil.
+  enum class WallType
+  {
+    fixed,     ///< no motion
+    free_slip, ///< no motion along the normal
+    friction,  ///< no motion into the wall, Coulomb friction along it; the soil may lift off
+    open       ///< nothing; points may leave
+  };
+
+  struct Wall
+  {
+    WallType type                 = WallType::open;
+    double   friction_coefficient = 0; ///< tan of the friction angle
+  };
+
+  /// Subsection Boundaries: one entry a face of the box.
+  struct BoundaryParameters
+  {
+    std::string left = "free slip", right = "free slip", front = "free slip", back = "free slip", bottom = "fixed",
+                top = "open";
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws if an entry does not read as a wall.
+    void check() const;
+
+    /// Names of the faces in deal.II's numbering: lower and upper face of each axis.
+    static std::vector<std::string> face_names(const unsigned int dim);
+
+    /// The walls in the same order.
+    std::vector<Wall> walls(const unsigned int dim) const;
+  };
+
+  /// Walls of the box acting on nodal velocities.
+  template <int dim>
+  class BoundaryConditions
+  {
+  public:
+    BoundaryConditions(const BackgroundGrid<dim> &grid, const BoundaryParameters &parameters);
+
+    /// Corrects the end-of-step velocity of a node that lies on the given faces of the box.
+    void apply(dealii::Tensor<1, dim> &velocity, const std::uint8_t faces) const;
+
+    const Wall &wall(const unsigned int face) const
+    {
+      return walls[face];
+    }
+
+    /// Name of the face of the box nearest to a point outside, and whether it is open.
+    std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const;
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    std::vector<Wall>          walls;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_initial_geostatic_h
+#define scree_initial_geostatic_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/points/phase.h>
+#include <scree/points/region.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <map>
+#include <vector>
+
+namespace scree
+{
+  /// The weight that lies above a place: bodies are taken as stacked along gravity, each with its bulk density.
+  template <int dim>
+  class Overburden
+  {
+  public:
+    struct Layer
+    {
+      Region<dim> region;
+      double      density; ///< kg/m^3
+    };
+
+    /// @param gravity m/s^2; must lie along an axis (throws otherwise)
+    /// @param spacing distance at which the layers are sampled along gravity, m
+    Overburden(const BackgroundGrid<dim>    &grid,
+               std::vector<Layer>            layers,
+               const dealii::Tensor<1, dim> &gravity,
+               const double                  spacing);
+
+    /// Vertical total stress from the weight above `x`, Pa, compression positive.
+    double weight_above(const dealii::Point<dim> &x);
+
+    /// The axis of gravity.
+    unsigned int vertical_axis() const
+    {
+      return axis;
+    }
+
+  private:
+    struct Piece
+    {
+      double begin, end; ///< heights against gravity, m
+      double unit_weight;
+    };
+
+    std::vector<Piece> pieces_above(const dealii::Point<dim> &x) const;
+
+    const BackgroundGrid<dim> &grid;
+    std::vector<Layer>         layers;
+    double                     gravity;
+    double                     spacing;
+    unsigned int               axis;
+    double                     up; ///< +1 if gravity points to lower coordinates
+
+    std::map<std::array<long, dim - 1>, std::vector<Piece>> columns; // cached: neighbours share a column
+  };
+
+  /// Gives the points the geostatic stress of their depth: vertical from the weight above, horizontal K0 times that.
+  template <int dim>
+  void set_k0_stress(Phase<dim> &phase, Overburden<dim> &overburden, const double k0);
+
+  /// Gives the points an isotropic stress, Pa, compression positive.
+  template <int dim>
+  void set_isotropic_stress(Phase<dim> &phase, const double pressure);
+} // namespace scree
+
+#endif

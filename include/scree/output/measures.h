@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_measures_h
+#define scree_output_measures_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/points/phase.h>
+
+#include <list>
+#include <vector>
+
+namespace scree
+{
+  /// Mean compressive effective stress P = -tr(sigma)/3, Pa, from stress components.
+  inline double mean_effective_stress(const double *stress)
+  {
+    return -(stress[0] + stress[1] + stress[2]) / 3.;
+  }
+
+  /// Deviatoric stress q = sqrt(3/2 s:s), Pa, from stress components.
+  template <int dim>
+  double deviatoric_stress(const double *stress);
+
+  /// The coordinates along `axis` below which the given fractions of the mass of all phases lie, m. Collective.
+  template <int dim>
+  std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
+                                       const BackgroundGrid<dim>   &grid,
+                                       const unsigned int           axis,
+                                       const std::vector<double>   &fractions);
+
+  /// Kinetic over elastic energy of all phases; infinite without elastic energy. Collective.
+  template <int dim>
+  double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases, const MPI_Comm communicator);
+
+  /// Oscillation of P: the rms, over the points of all phases, of P minus a linear fit of P over the 3^dim cells around the point's
+  /// cell, over the mean of P. 0 where the soil bears no stress. Collective.
+  template <int dim>
+  double stress_oscillation(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid);
+} // namespace scree
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_output_parameters_h
+#define scree_output_output_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace scree
+{
+  /// What a run prints on the screen.
+  enum class Screen
+  {
+    progress,   ///< start, progress with time left, timings
+    statistics, ///< the last row of the statistics only: numbers that do not depend on the machine
+    nothing
+  };
+
+  /// Subsection Output.
+  struct OutputParameters
+  {
+    double      interval            = 0.1; ///< s, of pictures
+    double      statistics_interval = 0;   ///< s; 0: as pictures
+    double      checkpoint_interval = 0;   ///< s; 0: none
+    std::string graphics            = "points and grid";
+    std::string screen              = "progress";
+
+    void   add_parameters(dealii::ParameterHandler &prm);
+    Screen screen_kind() const;
+    double interval_of_statistics() const;
+  };
+} // namespace scree
+
+#endif

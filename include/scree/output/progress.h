@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_progress_h
+#define scree_output_progress_h
+
+#include <scree/output/run_folder.h>
+
+#include <deal.II/base/timer.h>
+
+namespace scree
+{
+  /// Tells how far a run is, how long it will take, and in the end where its time went.
+  class Progress
+  {
+  public:
+    Progress(RunFolder &folder, const double start_time, const double end_time);
+
+    /// Writes a line if the last one is some seconds old, or at the end.
+    void report(const double time, const unsigned long long step, const double time_step);
+
+    /// Writes the table of seconds by part, and ns per point and step.
+    /// @param parts timed sections of this rank
+    /// @param point_updates points times steps, of all ranks
+    void summarise(const dealii::TimerOutput &parts, const double point_updates, const unsigned int n_ranks);
+
+  private:
+    RunFolder    &folder;
+    const double  start_time, end_time;
+    dealii::Timer clock;
+    double        last_line = 0; // wall time, s
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_run_folder_h
+#define scree_output_run_folder_h
+
+#include <mpi.h>
+
+#include <fstream>
+#include <string>
+
+namespace scree
+{
+  /// The folder a run writes to, and its log. Only rank 0 touches the disk.
+  class RunFolder
+  {
+  public:
+    /// Makes the folder and its folder `solution`. Collective; throws dealii::ExcMessage on all ranks if it is not writable.
+    /// @param keep whether a run is resumed: the log goes on, else pictures of an earlier run are removed
+    RunFolder(const std::string &path, const bool keep, const bool to_screen, const MPI_Comm communicator);
+
+    /// Writes a file of the folder with the given text.
+    void write(const std::string &name, const std::string &text) const;
+
+    /// Adds a line to `log.txt` and, if wanted, to the screen.
+    void log(const std::string &line);
+
+    std::string file(const std::string &name) const
+    {
+      return path + "/" + name;
+    }
+
+    /// True on the rank that writes.
+    bool is_writer() const
+    {
+      return writer;
+    }
+
+  private:
+    const std::string path;
+    const bool        to_screen;
+    const bool        writer;
+    std::ofstream     log_file;
+  };
+} // namespace scree
+
+#endif

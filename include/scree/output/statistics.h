@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_statistics_h
+#define scree_output_statistics_h
+
+#include <scree/output/measures.h>
+#include <scree/scheme/explicit_scheme.h>
+
+#include <deal.II/base/table_handler.h>
+
+#include <string>
+
+namespace scree
+{
+  /// Sums over the steps of a run, of this rank (2D: per m); what balances and the statistics need.
+  template <int dim>
+  struct RunTotals
+  {
+    StepBalance<dim>       balance;
+    dealii::Tensor<1, dim> lost_momentum;           ///< of points that left through an open wall, N s
+    double                 lost_mass           = 0; ///< kg
+    double                 lost_energy         = 0; ///< kinetic and potential, J
+    double                 plastic_dissipation = 0; ///< J
+
+    // Counts; doubles hold them exactly and travel like the rest.
+    double n_lost = 0, n_updates = 0, n_substeps = 0, n_fallbacks = 0, n_vertices = 0, n_unresolved = 0;
+
+    void add(const UpdateReport &report);
+
+    /// The sums over ranks, on all of them. Collective.
+    RunTotals sum_over_ranks(const MPI_Comm communicator) const;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &balance.wall_impulse &balance.body_impulse &balance.wall_dissipation &balance.damping_dissipation;
+      archive &plastic_dissipation &lost_mass &lost_energy &lost_momentum &n_lost;
+      archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
+    }
+  };
+
+  /// The file `statistics`: a row of global numbers at each due time.
+  template <int dim>
+  class Statistics
+  {
+  public:
+    Statistics(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity);
+
+    /// Appends a row. Collective.
+    void collect(const std::list<Phase<dim>> &phases,
+                 const RunTotals<dim>        &totals,
+                 const double                 time,
+                 const unsigned long long     step,
+                 const double                 time_step,
+                 const UpdateReport          &last_step);
+
+    /// Writes all rows so far (rank 0 should call it).
+    void write(const std::string &file) const;
+
+    /// Prints the last row, one quantity a line.
+    void print_last_row(std::ostream &out) const;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &table &has_start &start_momentum &start_energy &last_row;
+    }
+
+  private:
+    void add(const std::string &column, const double value);
+
+    const BackgroundGrid<dim>    &grid;
+    const dealii::Tensor<1, dim> gravity;
+    dealii::TableHandler          table;
+    bool                          has_start = false;
+    dealii::Tensor<1, dim>        start_momentum;
+    double                        start_energy = 0;
+    std::vector<std::pair<std::string, double>> last_row;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_parameters_h
+#define scree_parameters_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/grid/boundary_conditions.h>
+#include <scree/initial/initial_state.h>
+#include <scree/material/table.h>
+#include <scree/output/output_parameters.h>
+#include <scree/points/seeding.h>
+#include <scree/scheme/explicit_scheme.h>
+#include <scree/scheme/time_step.h>
+#include <scree/transfer/transfer_parameters.h>
+
+namespace scree
+{
+  /// One body of soil: where it is, what it is made of, how it starts. One subsection of the `.prm`, named after the body.
+  struct BodyParameters
+  {
+    std::string            name;
+    SeedingParameters      seeding;
+    MaterialParameters     material;
+    InitialStateParameters initial_state;
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws at impossible combinations of entries.
+    void check(const unsigned int dim) const;
+
+    /// Density of the dry body, kg/m^3: grains times (1 - porosity).
+    double bulk_density() const;
+  };
+
+  /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
+  class Parameters
+  {
+  public:
+    /// Reads and checks `file`. Throws InputError, which names file, subsection, entry, value and remedy.
+    explicit Parameters(const std::string &file);
+
+    /// The defaults, as needed to print a template of all entries.
+    Parameters();
+
+    unsigned int        dimension = 2;
+    double              end_time  = 1;
+    std::string         output_directory{"results/scree"};
+    std::vector<double> gravity{0., -9.81};
+
+    GridParameters              grid;
+    TimeStepParameters          time_step;
+    TransferParameters          transfer;
+    StabilisationParameters     stabilisation;
+    BodyForceParameters         body_force;
+    std::vector<BodyParameters> bodies;
+    BoundaryParameters          boundaries;
+    SettlingParameters          settling;
+    OutputParameters            output;
+
+    /// The text of the file as it was read.
+    const std::string &original() const;
+
+    /// Writes every entry with its value, default and explanation.
+    void print(std::ostream &out);
+
+  private:
+    void declare(dealii::ParameterHandler &prm);
+    void check() const;
+
+    std::string              original_text;
+    std::vector<std::string> body_names{"Soil"};
+    dealii::ParameterHandler handler;
+  };
+
+  /// A fault of the user's input; what() is the whole message.
+  class InputError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_points_phase_h
+#define scree_points_phase_h
+
+#include <scree/material/material.h>
+#include <scree/points/point_set.h>
+#include <scree/points/property_layout.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace scree
+{
+  /// A body of soil: its points, where their quantities lie, and the law that moves them.
+  template <int dim>
+  struct Phase
+  {
+    std::string                    name;
+    double                         density; ///< bulk density at J = 1, kg/m^3
+    std::unique_ptr<Material<dim>> material;
+    PropertyLayout<dim>            layout;
+    PointSet<dim>                  points;
+
+    Phase(const std::string                &name,
+          const double                      density,
+          std::unique_ptr<Material<dim>>    material,
+          const PropertyLayout<dim>        &layout,
+          const dealii::Triangulation<dim> &triangulation,
+          const dealii::Mapping<dim>       &mapping)
+      : name(name)
+      , density(density)
+      , material(std::move(material))
+      , layout(layout)
+      , points(triangulation, mapping, layout.n_properties)
+    {}
+
+    /// Speed of pressure waves, m/s, at a bulk modulus, Pa; 0 where there is no stiffness.
+    double wave_speed(const double bulk_modulus) const
+    {
+      return std::sqrt((bulk_modulus + 4. / 3. * material->shear_modulus()) / density);
+    }
+
+    /// The slots of a cell's points that the law reads and writes.
+    MaterialPoints<dim> material_points(const CellPoints<dim> &cell) const
+    {
+      return {cell.n_points,
+              points.stride(),
+              cell.properties + layout.left_cauchy_green,
+              cell.properties + layout.stress,
+              cell.properties + layout.internal_variables};
+    }
+  };
+} // namespace scree
+
+#endif

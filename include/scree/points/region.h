@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_points_region_h
+#define scree_points_region_h
+
+#include <deal.II/base/function_parser.h>
+
+#include <memory>
+#include <string>
+
+namespace scree
+{
+  /// Reads an expression of x, y (and z), and of t if `with_time`, or throws dealii::ExcMessage that begins with `where`
+  /// (subsection and entry) and shows the text. `n_components` expressions are separated by semicolons.
+  template <int dim>
+  std::unique_ptr<dealii::FunctionParser<dim>> parse_expression(const std::string &where,
+                                                                const std::string &text,
+                                                                const unsigned int n_components,
+                                                                const bool         with_time = false);
+
+  /// A part of space: inside where an expression of the coordinates is true (not 0).
+  template <int dim>
+  class Region
+  {
+  public:
+    /// @param where subsection and entry, for the message if the expression does not parse
+    Region(const std::string &where, const std::string &expression);
+
+    bool contains(const dealii::Point<dim> &x) const
+    {
+      return function->value(x) != 0.;
+    }
+
+    /// Volume, m^3, and centroid, m, of the part of the region that lies in a small cube, by sampling.
+    std::pair<double, dealii::Point<dim>> part_of_cube(const dealii::Point<dim> &lower, const double width) const;
+
+  private:
+    std::unique_ptr<dealii::FunctionParser<dim>> function;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_time_step_h
+#define scree_scheme_time_step_h
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace scree
+{
+  /// Subsection Time step.
+  struct TimeStepParameters
+  {
+    double courant_number    = 0.6;
+    double maximum_time_step = 1e-2; ///< s
+
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// The clock of a run: steps that are stable and meet the appointed times exactly.
+  class Clock
+  {
+  public:
+    explicit Clock(const TimeStepParameters &parameters);
+
+    /// The step, s, from now on: at most Courant number times cell size over (wave speed + speed) and the maximum, and
+    /// shortened so that equal steps end at `appointment`.
+    double next_step(const double cell_size, const double wave_speed, const double speed, const double appointment) const;
+
+    /// Moves on by the step, to the appointment itself if the step ends there.
+    void advance(const double time_step, const double appointment);
+
+    double time() const
+    {
+      return current_time;
+    }
+    unsigned long long step() const
+    {
+      return n_steps;
+    }
+    void set(const double time, const unsigned long long step)
+    {
+      current_time = time;
+      n_steps      = step;
+    }
+
+  private:
+    const TimeStepParameters parameters;
+    double                   current_time = 0;
+    unsigned long long       n_steps      = 0;
+  };
+} // namespace scree
+
+#endif

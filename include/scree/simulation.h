@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_simulation_h
+#define scree_simulation_h
+
+#include <scree/output/graphics.h>
+#include <scree/output/progress.h>
+#include <scree/output/statistics.h>
+#include <scree/parameters.h>
+#include <scree/transfer/transfer.h>
+
+#include <list>
+
+namespace scree
+{
+  /// How a run begins.
+  enum class Start
+  {
+    fresh,
+    resume ///< from the newest checkpoint in the run folder
+  };
+
+  /// A run: owns everything, and nobody knows it.
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /// Throws InputError or dealii exceptions if the parameters do not make a run.
+    Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator);
+
+    /// From the start to the end time, with all output.
+    void run();
+
+    /// One step of `time_step` s.
+    void advance(const double time_step);
+
+    const std::list<Phase<dim>> &bodies() const
+    {
+      return phases;
+    }
+    const BackgroundGrid<dim> &background_grid() const
+    {
+      return grid;
+    }
+    double time() const
+    {
+      return clock.time();
+    }
+
+  private:
+    void make_phases();
+    void initialise();
+    void set_initial_stress();
+    void resume();
+    void settle();
+    void set_phases_in_motion();
+
+    double next_appointment() const;
+    void   report();
+    void   account_for_lost_points();
+    void   balance_load();
+    void   write_checkpoint();
+
+    template <class Archive>
+    void serialize_state(Archive &archive);
+
+    Parameters             &parameters;
+    const MPI_Comm          communicator;
+    RunFolder               folder;
+    dealii::TimerOutput     timer;
+    BackgroundGrid<dim>     grid;
+    BoundaryConditions<dim> walls;
+    NodalField<dim>         field;
+    Transfer<dim>           transfer;
+    ExplicitScheme<dim>     scheme;
+    std::list<Phase<dim>>   phases;
+    Clock                   clock;
+    Graphics<dim>           graphics;
+    Statistics<dim>         statistics;
+
+    RunTotals<dim> totals;
+    UpdateReport   last_step;             // of this rank
+    double         wave_speed    = 0;     // largest of all ranks, m/s
+    double         largest_speed = 0;     // of points, of all ranks, m/s
+    double         last_time_step = 0;    // s
+    unsigned int   n_pictures = 0, n_rows = 0, n_checkpoints = 0;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_node_rows_h
+#define scree_transfer_node_rows_h
+
+#include <scree/grid/cell_basis.h>
+
+namespace scree
+{
+  /// The up to three nodes of a cell along the first axis, as one register (the fourth lane stays 0). A compiler vector
+  /// because Debian builds deal.II's VectorizedArray with a single lane.
+  using NodeRow = double __attribute__((vector_size(4 * sizeof(double))));
+
+  inline double sum(const NodeRow &row)
+  {
+    return (row[0] + row[1]) + row[2];
+  }
+
+  template <std::size_t n>
+  NodeRow make_row(const std::array<double, n> &values)
+  {
+    if constexpr (n == 2)
+      return NodeRow{values[0], values[1], 0., 0.};
+    else
+      return NodeRow{values[0], values[1], values[2], 0.};
+  }
+
+  /// The factors that the axes other than the first contribute to a row of nodes: product of their shape functions, and
+  /// the same with one of them differentiated.
+  template <int dim, int n>
+  struct RowFactors
+  {
+    static constexpr unsigned int n_rows = dealii::Utilities::pow(n, dim - 1);
+
+    std::array<double, n_rows>                      value;
+    std::array<std::array<double, n_rows>, dim - 1> derivative; ///< per cell width, along axes 1, 2
+
+    explicit RowFactors(const CellBasis<dim, n> &basis)
+    {
+      for (unsigned int j = 0; j < n; ++j)
+        if constexpr (dim == 2)
+          {
+            value[j]         = basis.value[1][j];
+            derivative[0][j] = basis.derivative[1][j];
+          }
+        else
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              value[k * n + j]         = basis.value[1][j] * basis.value[2][k];
+              derivative[0][k * n + j] = basis.derivative[1][j] * basis.value[2][k];
+              derivative[1][k * n + j] = basis.value[1][j] * basis.derivative[2][k];
+            }
+    }
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_transfer_h
+#define scree_transfer_transfer_h
+
+#include <scree/grid/nodal_field.h>
+#include <scree/points/phase.h>
+#include <scree/transfer/f_bar.h>
+#include <scree/transfer/transfer_parameters.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// What a pass from the grid to the points found out; cells add up.
+  struct MotionReport
+  {
+    double       largest_speed = 0; ///< m/s; not a number if any point's is not
+    UpdateReport material;
+  };
+
+  /// Carries mass, momentum and force from points to nodes, and velocity back.
+  template <int dim>
+  class Transfer
+  {
+  public:
+    Transfer(const BackgroundGrid<dim>     &grid,
+             const TransferParameters      &transfer,
+             const StabilisationParameters &stabilisation);
+
+    /// Adds mass, momentum and internal force of this rank's points to the field: lumped mass sum m phi_i, momentum
+    /// sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP and PIC, force -sum V sigma grad phi_i.
+    void to_grid(const Phase<dim> &phase, NodalField<dim> &field) const;
+
+    /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step of
+    /// `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
+    MotionReport to_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step);
+
+  private:
+    template <int n, TransferMethod method>
+    void add_points(const Phase<dim> &phase, NodalField<dim> &field) const;
+
+    template <int n, TransferMethod method>
+    MotionReport move_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step);
+
+    const BackgroundGrid<dim> &grid;
+    const TransferMethod       method;
+    const double               pic_rate;
+    const FBar                 f_bar;
+    CellMotion<dim>            motion; // of the cell at hand; kept for its memory
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/initial/geostatic.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  Overburden<dim>::Overburden(const BackgroundGrid<dim> &grid,
+                              std::vector<Layer>         layers,
+                              const Tensor<1, dim>      &gravity,
+                              const double               spacing)
+    : grid(grid)
+    , layers(std::move(layers))
+    , gravity(gravity.norm())
+    , spacing(spacing)
+    , axis(0)
+  {
+    for (unsigned int a = 1; a < dim; ++a)
+      if (std::abs(gravity[a]) > std::abs(gravity[axis]))
+        axis = a;
+    up = gravity[axis] < 0 ? 1. : -1.;
+    AssertThrow(this->gravity > 0 && std::abs(gravity[axis]) > (1. - 1e-12) * this->gravity,
+                ExcMessage("A K0 start needs 'Gravity' along one axis. Change 'Gravity', or write 'Type = none' or "
+                           "'isotropic' in subsection Initial state."));
+  }
+
+
+
+  template <int dim>
+  std::vector<typename Overburden<dim>::Piece> Overburden<dim>::pieces_above(const Point<dim> &x) const
+  {
+    const double bottom = up > 0 ? grid.lower_corner()[axis] : -grid.upper_corner()[axis];
+    const double top    = up > 0 ? grid.upper_corner()[axis] : -grid.lower_corner()[axis];
+
+    std::vector<Piece> pieces;
+    for (const Layer &layer : layers)
+      {
+        const auto inside = [&](const double height) {
+          Point<dim> y = x;
+          y[axis]      = up * height;
+          return layer.region.contains(y);
+        };
+        const auto boundary_between = [&](double a, double b) {
+          const bool inside_at_a = inside(a);
+          while (b - a > 1e-9 * (top - bottom))
+            (inside(0.5 * (a + b)) == inside_at_a ? a : b) = 0.5 * (a + b);
+          return 0.5 * (a + b);
+        };
+
+        const unsigned int n_samples = static_cast<unsigned int>(std::ceil((top - bottom) / spacing));
+        const double       step      = (top - bottom) / n_samples;
+        double             begin     = bottom;
+        bool               was_in    = inside(bottom);
+        for (unsigned int i = 1; i <= n_samples; ++i)
+          {
+            const double height = bottom + i * step;
+            const bool   is_in  = inside(height);
+            if (is_in != was_in)
+              {
+                const double boundary = boundary_between(height - step, height);
+                if (was_in)
+                  pieces.push_back({begin, boundary, layer.density * gravity});
+                begin  = boundary;
+                was_in = is_in;
+              }
+          }
+        if (was_in)
+          pieces.push_back({begin, top, layer.density * gravity});
+      }
+    return pieces;
+  }
+
+
+
+  template <int dim>
+  double Overburden<dim>::weight_above(const Point<dim> &x)
+  {
+    // Points of a lattice share their columns; the key is finer than any lattice.
+    std::array<long, dim - 1> key;
+    for (unsigned int a = 0, k = 0; a < dim; ++a)
+      if (a != axis)
+        key[k++] = std::lround(x[a] / (1e-4 * spacing));
+    auto column = columns.find(key);
+    if (column == columns.end())
+      column = columns.emplace(key, pieces_above(x)).first;
+
+    const double height = up * x[axis];
+    double       weight = 0;
+    for (const Piece &piece : column->second)
+      weight += piece.unit_weight * std::max(0., piece.end - std::max(piece.begin, height));
+    return weight;
+  }
+
+
+
+  template <int dim>
+  void set_k0_stress(Phase<dim> &phase, Overburden<dim> &overburden, const double k0)
+  {
+    for (const auto &cell : phase.points.cells())
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        {
+          const double vertical = -overburden.weight_above(cell.location[p]);
+          double       stress[n_symmetric_components<dim>] = {};
+          for (unsigned int a = 0; a < 3; ++a)
+            stress[a] = (a == overburden.vertical_axis() ? 1. : k0) * vertical;
+
+          double *properties = cell.properties + p * phase.points.stride();
+          phase.material->initialise(stress,
+                                     properties + phase.layout.left_cauchy_green,
+                                     properties + phase.layout.stress,
+                                     properties + phase.layout.internal_variables);
+        }
+  }
+
+
+
+  template <int dim>
+  void set_isotropic_stress(Phase<dim> &phase, const double pressure)
+  {
+    double stress[n_symmetric_components<dim>] = {-pressure, -pressure, -pressure};
+    for (const auto &cell : phase.points.cells())
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        {
+          double *properties = cell.properties + p * phase.points.stride();
+          phase.material->initialise(stress,
+                                     properties + phase.layout.left_cauchy_green,
+                                     properties + phase.layout.stress,
+                                     properties + phase.layout.internal_variables);
+        }
+  }
+
+  template class Overburden<2>;
+  template class Overburden<3>;
+  template void set_k0_stress(Phase<2> &, Overburden<2> &, const double);
+  template void set_k0_stress(Phase<3> &, Overburden<3> &, const double);
+  template void set_isotropic_stress(Phase<2> &, const double);
+  template void set_isotropic_stress(Phase<3> &, const double);
+} // namespace scree

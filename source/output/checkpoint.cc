@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/output/checkpoint.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Names in the folder alternate, so that one whole checkpoint is always there.
+    std::string other(const std::string &name)
+    {
+      return name == "a" ? "b" : "a";
+    }
+
+    std::string latest(const std::string &folder)
+    {
+      std::string   name;
+      std::ifstream in(folder + "latest");
+      in >> name;
+      return name;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void save_checkpoint(const std::string                                          &run_folder,
+                       const BackgroundGrid<dim>                                  &grid,
+                       std::list<Phase<dim>>                                      &phases,
+                       const std::function<void(boost::archive::binary_oarchive &)> &state)
+  {
+    const std::string folder       = run_folder + "/checkpoint/";
+    const MPI_Comm    communicator = grid.triangulation().get_communicator();
+    const bool        writer       = Utilities::MPI::this_mpi_process(communicator) == 0;
+    if (writer)
+      std::filesystem::create_directories(folder);
+    const std::string name = Utilities::MPI::broadcast(communicator, other(latest(folder)));
+
+    for (auto &phase : phases)
+      phase.points.handler().prepare_for_serialization();
+    grid.triangulation().save(folder + name + ".mesh");
+    if (writer)
+      {
+        std::ofstream                   file(folder + name + ".state", std::ios::binary);
+        boost::archive::binary_oarchive archive(file);
+        for (auto &phase : phases)
+          archive << phase.points.handler();
+        state(archive);
+      }
+    MPI_Barrier(communicator);
+    if (writer)
+      {
+        std::ofstream(folder + "latest.new") << name << '\n';
+        std::filesystem::rename(folder + "latest.new", folder + "latest");
+      }
+  }
+
+
+
+  template <int dim>
+  void load_checkpoint(const std::string                                          &run_folder,
+                       BackgroundGrid<dim>                                        &grid,
+                       std::list<Phase<dim>>                                      &phases,
+                       const std::function<void(boost::archive::binary_iarchive &)> &state)
+  {
+    const std::string folder = run_folder + "/checkpoint/";
+    const std::string name   = latest(folder);
+    AssertThrow(!name.empty(),
+                ExcMessage("There is no checkpoint to resume from in '" + folder +
+                           "'. Write a 'Checkpoint interval' in subsection Output and run without --resume first."));
+
+    grid.load(folder + name + ".mesh");
+    std::ifstream                   file(folder + name + ".state", std::ios::binary);
+    boost::archive::binary_iarchive archive(file);
+    for (auto &phase : phases)
+      archive >> phase.points.handler();
+    for (auto &phase : phases)
+      {
+        phase.points.handler().deserialize();
+        phase.points.sort();
+      }
+    state(archive);
+  }
+
+  template void save_checkpoint(const std::string &,
+                                const BackgroundGrid<2> &,
+                                std::list<Phase<2>> &,
+                                const std::function<void(boost::archive::binary_oarchive &)> &);
+  template void save_checkpoint(const std::string &,
+                                const BackgroundGrid<3> &,
+                                std::list<Phase<3>> &,
+                                const std::function<void(boost::archive::binary_oarchive &)> &);
+  template void load_checkpoint(const std::string &,
+                                BackgroundGrid<2> &,
+                                std::list<Phase<2>> &,
+                                const std::function<void(boost::archive::binary_iarchive &)> &);
+  template void load_checkpoint(const std::string &,
+                                BackgroundGrid<3> &,
+                                std::list<Phase<3>> &,
+                                const std::function<void(boost::archive::binary_iarchive &)> &);
+} // namespace scree

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/output/output_parameters.h>
+
+#include <map>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void OutputParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Output");
+    prm.add_parameter("Interval", interval, "Simulated time between pictures, s.", Patterns::Double(1e-12));
+    prm.add_parameter("Statistics interval",
+                      statistics_interval,
+                      "Simulated time between rows of the file statistics, s; 0: as 'Interval'.",
+                      Patterns::Double(0));
+    prm.add_parameter("Checkpoint interval",
+                      checkpoint_interval,
+                      "Simulated time between checkpoints, from which --resume goes on, s; 0: none.",
+                      Patterns::Double(0));
+    prm.add_parameter("Graphics",
+                      graphics,
+                      "What is written for ParaView: points and grid, points, or none.",
+                      Patterns::Selection("points and grid|points|none"));
+    prm.add_parameter("Screen",
+                      screen,
+                      "What appears on the screen: progress; statistics (the last row only, for tests); nothing.",
+                      Patterns::Selection("progress|statistics|nothing"));
+    prm.leave_subsection();
+  }
+
+
+
+  Screen OutputParameters::screen_kind() const
+  {
+    static const std::map<std::string, Screen> table{
+      {"progress", Screen::progress}, {"statistics", Screen::statistics}, {"nothing", Screen::nothing}};
+    return table.at(screen);
+  }
+
+
+
+  double OutputParameters::interval_of_statistics() const
+  {
+    return statistics_interval > 0 ? statistics_interval : interval;
+  }
+} // namespace scree

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/output/progress.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// 75 -> "1 min 15 s"
+    std::string duration(const double seconds)
+    {
+      const long s = std::lround(seconds);
+      if (s >= 3600)
+        return std::to_string(s / 3600) + " h " + std::to_string(s % 3600 / 60) + " min";
+      if (s >= 60)
+        return std::to_string(s / 60) + " min " + std::to_string(s % 60) + " s";
+      return std::to_string(s) + " s";
+    }
+
+    template <typename... Values>
+    std::string format(const char *pattern, const Values... values)
+    {
+      char line[256];
+      std::snprintf(line, sizeof line, pattern, values...);
+      return line;
+    }
+  } // namespace
+
+
+
+  Progress::Progress(RunFolder &folder, const double start_time, const double end_time)
+    : folder(folder)
+    , start_time(start_time)
+    , end_time(end_time)
+  {}
+
+
+
+  void Progress::report(const double time, const unsigned long long step, const double time_step)
+  {
+    constexpr double seconds_between_lines = 5.;
+    const double     elapsed               = clock.wall_time();
+    if (time < end_time && elapsed - last_line < seconds_between_lines)
+      return;
+    last_line         = elapsed;
+    const double done = (time - start_time) / (end_time - start_time);
+    folder.log(format("t = %.4g s (%.0f %%), step %llu of %.3g s, ", time, 100 * done, step, time_step) +
+               (done > 0 && done < 1 ? duration(elapsed / done * (1 - done)) + " left" :
+                                       duration(elapsed) + " taken"));
+  }
+
+
+
+  void Progress::summarise(const TimerOutput &parts, const double point_updates, const unsigned int n_ranks)
+  {
+    if (point_updates <= 0)
+      return;
+    const double total    = clock.wall_time();
+    const double to_ns    = 1e9 * n_ranks / point_updates;
+    const auto   seconds  = parts.get_summary_data(TimerOutput::total_wall_time);
+    double       accounted = 0;
+    folder.log(format("%-34s %10s %8s %22s", "part", "seconds", "share", "ns per point and step"));
+    const auto line = [&](const std::string &name, const double s) {
+      folder.log(format("%-34s %10.2f %6.1f %% %22.1f", name.c_str(), s, 100 * s / total, s * to_ns));
+    };
+    for (const auto &[name, s] : seconds)
+      {
+        line(name, s);
+        accounted += s;
+      }
+    line("everything else", total - accounted);
+    line("total", total);
+    folder.log(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates)", n_ranks, point_updates));
+  }
+} // namespace scree

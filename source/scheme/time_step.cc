@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/time_step.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void TimeStepParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Time step");
+    prm.add_parameter("Courant number",
+                      courant_number,
+                      "Step times (wave speed + velocity) over cell size. 1.2 contaminates the stress, 0.6 is safe.",
+                      Patterns::Double(1e-6, 2));
+    prm.add_parameter("Maximum time step", maximum_time_step, "Upper bound of the step, s.", Patterns::Double(1e-12));
+    prm.leave_subsection();
+  }
+
+
+
+  Clock::Clock(const TimeStepParameters &parameters)
+    : parameters(parameters)
+  {}
+
+
+
+  double Clock::next_step(const double cell_size,
+                          const double wave_speed,
+                          const double speed,
+                          const double appointment) const
+  {
+    const double signal    = wave_speed + speed;
+    const double stable    = signal > 0 ? parameters.courant_number * cell_size / signal : parameters.maximum_time_step;
+    const double largest   = std::min(stable, parameters.maximum_time_step);
+    const double remaining = appointment - current_time;
+    return remaining / std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
+  }
+
+
+
+  void Clock::advance(const double time_step, const double appointment)
+  {
+    const bool arrives = current_time + 1.5 * time_step > appointment;
+    current_time       = arrives ? appointment : current_time + time_step;
+    ++n_steps;
+  }
+} // namespace scree

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/tensor/matrix.h>
+#include <scree/transfer/node_rows.h>
+#include <scree/transfer/transfer.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Sums of a cell's points at its nodes.
+    template <int dim, int n>
+    class CellSums
+    {
+    public:
+      static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+
+      /// Adds `momentum[c]` and `mass` (already weighted with the shape functions of the first axis) and the traction
+      /// -V sigma grad phi.
+      void add(const RowFactors<dim, n> &rows,
+               const NodeRow             mass,
+               const NodeRow (&momentum)[dim],
+               const NodeRow (&force_x)[dim],
+               const NodeRow (&force_other)[dim][dim - 1])
+      {
+        for (unsigned int r = 0; r < n_rows; ++r)
+          {
+            sums[r][0] += mass * rows.value[r];
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                sums[r][1 + c] += momentum[c] * rows.value[r];
+                sums[r][1 + dim + c] += force_x[c] * rows.value[r];
+                for (unsigned int a = 0; a < dim - 1; ++a)
+                  sums[r][1 + dim + c] += force_other[c][a] * rows.derivative[a][r];
+              }
+          }
+      }
+
+      /// The part of the momentum that depends on the row: the affine field's slope along the other axes.
+      void add_momentum(const unsigned int row, const unsigned int c, const NodeRow momentum)
+      {
+        sums[row][1 + c] += momentum;
+      }
+
+      void scatter(const unsigned int *nodes, NodalField<dim> &field) const
+      {
+        for (unsigned int r = 0; r < n_rows; ++r)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              double *node = field[nodes[r * n + i]];
+              for (unsigned int c = 0; c < NodalField<dim>::n_components; ++c)
+                node[c] += sums[r][c][i];
+            }
+      }
+
+    private:
+      NodeRow sums[n_rows][NodalField<dim>::n_components] = {};
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  template <int n, TransferMethod method>
+  void Transfer<dim>::add_points(const Phase<dim> &phase, NodalField<dim> &field) const
+  {
+    constexpr bool is_affine = method == TransferMethod::apic || method == TransferMethod::tpic;
+    const double   width = grid.cell_size(), inverse_width = 1. / width;
+    const auto    &layout = phase.layout;
+
+    for (const CellPoints<dim> &cell : phase.points.cells())
+      {
+        const OpenKnots  open = grid.open_knots(cell.cell);
+        CellSums<dim, n> sums;
+
+        const double *properties = cell.properties;
+        for (unsigned int p = 0; p < cell.n_points; ++p, properties += phase.points.stride())
+          {
+            const CellBasis<dim, n>  basis(cell.reference_location[p], open);
+            const RowFactors<dim, n> rows(basis);
+            const NodeRow            value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
+
+            const double mass  = properties[layout.mass];
+            const double scale = -properties[layout.volume] * inverse_width;
+            const auto   sigma = matrix_of_components<dim>(properties + layout.stress);
+
+            NodeRow momentum[dim], force_x[dim], force_other[dim][dim - 1];
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                momentum[c] = value_x * (mass * properties[layout.velocity + c]);
+                force_x[c]  = derivative_x * (scale * sigma[c][0]);
+                for (unsigned int a = 1; a < dim; ++a)
+                  force_other[c][a - 1] = value_x * (scale * sigma[c][a]);
+              }
+
+            if constexpr (is_affine)
+              {
+                std::array<std::array<double, n>, dim> offset; // of the nodes from the point, m
+                std::array<double, dim>                inertia{};
+                for (unsigned int a = 0; a < dim; ++a)
+                  {
+                    offset[a] = CellBasis<dim, n>::node_positions(open, a);
+                    for (unsigned int i = 0; i < n; ++i)
+                      {
+                        offset[a][i] = width * (offset[a][i] - cell.reference_location[p][a]);
+                        inertia[a] += basis.value[a][i] * offset[a][i] * offset[a][i];
+                      }
+                  }
+                const NodeRow offset_x = make_row(offset[0]);
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    double slope[dim]; // of the momentum, kg/s
+                    for (unsigned int a = 0; a < dim; ++a)
+                      {
+                        slope[a] = mass * properties[layout.affine + c * dim + a];
+                        // APIC stores sum phi v (x_i - x)^T; hats make this vanish at a node together with its inertia.
+                        if (method == TransferMethod::apic)
+                          slope[a] = inertia[a] > 1e-12 * width * width ? slope[a] / inertia[a] : 0.;
+                      }
+                    momentum[c] += value_x * offset_x * slope[0];
+                    for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
+                      {
+                        double along = slope[1] * offset[1][r % n];
+                        if constexpr (dim == 3)
+                          along += slope[2] * offset[2][r / n];
+                        sums.add_momentum(r, c, value_x * (along * rows.value[r]));
+                      }
+                  }
+              }
+
+            sums.add(rows, value_x * mass, momentum, force_x, force_other);
+          }
+        sums.scatter(grid.nodes(cell.cell), field);
+      }
+  }
+
+
+
+  template <int dim>
+  void Transfer<dim>::to_grid(const Phase<dim> &phase, NodalField<dim> &field) const
+  {
+    const auto dispatch = [&](auto n) {
+      switch (method)
+        {
+          case TransferMethod::apic:
+            return add_points<n, TransferMethod::apic>(phase, field);
+          case TransferMethod::tpic:
+            return add_points<n, TransferMethod::tpic>(phase, field);
+          default: // FLIP and PIC differ on the way back only.
+            return add_points<n, TransferMethod::flip>(phase, field);
+        }
+    };
+    if (grid.n_nodes_1d() == 2)
+      dispatch(std::integral_constant<int, 2>());
+    else
+      dispatch(std::integral_constant<int, 3>());
+  }
+
+  template void Transfer<2>::to_grid(const Phase<2> &, NodalField<2> &) const;
+  template void Transfer<3>::to_grid(const Phase<3> &, NodalField<3> &) const;
+} // namespace scree
