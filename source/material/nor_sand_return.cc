@@ -126,7 +126,9 @@ namespace scree
       {
         if (std::abs(now.yield) <= tolerance * (1 + now.deviator_ratio) && std::abs(now.image) <= tolerance)
           {
-            returned = { now.log_pressure, log_ratio };
+            // From the yield surface: q_tr - 3 G gamma loses digits where gamma is large.
+            const double deviator = std::exp(now.log_pressure) * stress_ratio(log_ratio) / lode_factor;
+            returned              = { now.log_pressure, log_ratio, std::min(deviator, trial.deviator) };
             return true;
           }
         const double determinant = now.yield_gamma * now.image_ratio - now.yield_ratio * now.image_gamma;
@@ -173,29 +175,30 @@ namespace scree
 
 
   double
-  NorSand::deviator_on_yield(const Trial &trial, const double log_ratio) const
+  NorSand::ratio_on_yield(const Trial &trial, const double log_deviator, const double multiplier) const
   {
-    // F = 0 in u = ln q: g(u) = u + d exp(u) - c = 0, one root below ln q_tr.
-    const double eta = stress_ratio(log_ratio);
-    if (eta <= 0)
-      return 0;
-    const double d = dilatancy(eta) * inverse_swelling_index / (3 * parameters.shear_modulus);
-    const double c = trial.log_pressure + d * trial.deviator + std::log(eta / lode_factor);
-    double low     = c - std::max(d, 0.) * trial.deviator;
-    double high    = std::log(trial.deviator);
-    double u       = high;
-    for (unsigned int i = 0; i < 200 && low < high; ++i)
+    // F = 0 in w = ln eta: g(w) = w + a exp(w) - c = 0, rising and convex: Newton from the right cannot miss.
+    const double flow = inverse_swelling_index * multiplier / ((1 - parameters.potential_constant) * lode_factor);
+    const double a    = flow;
+    const double c =
+        log_deviator + std::log(lode_factor) - trial.log_pressure + flow * parameters.critical_stress_ratio;
+    double w = c > 0 ? std::min(c, std::max(0., std::log(c / a))) : c;
+
+    constexpr unsigned int largest_number_of_iterations = 100;
+    for (unsigned int i = 0; i < largest_number_of_iterations; ++i)
       {
-        const double g       = u + d * std::exp(u) - c;
-        (g > 0 ? high : low) = u;
-        double next          = u - g / (1 + d * std::exp(u));
-        if (!(next > low && next < high))
-          next = 0.5 * (low + high);
-        if (std::abs(next - u) <= 1e-16 * std::abs(u))
+        const double slope = a * std::exp(w);
+        const double step  = (w + slope - c) / (1 + slope);
+        w -= step;
+        if (std::abs(step) <= 1e-15 * (1 + std::abs(w)))
           break;
-        u = next;
       }
-    return std::min(std::exp(u), trial.deviator);
+    const double N = parameters.yield_constant, M = parameters.critical_stress_ratio;
+    const double eta = std::exp(w);
+    if (N == 0)
+      return 1 - eta / M;
+    const double argument = 1 - N / M * eta;
+    return argument > 0 ? std::log(argument / (1 - N)) / exponent : -std::numeric_limits<double>::infinity();
   }
 
 
@@ -203,29 +206,33 @@ namespace scree
   NorSand::search(const Trial &trial, UpdateReport &report) const
   {
     ++report.n_fallbacks;
-    const auto multiplier = [&](const double log_ratio) {
-      return (trial.deviator - deviator_on_yield(trial, log_ratio)) / (3 * parameters.shear_modulus);
-    };
-    const auto image = [&](const double log_ratio) { return image_residual(trial, multiplier(log_ratio), log_ratio); };
-
-    if (image_residual(trial, trial.deviator / (3 * parameters.shear_modulus), largest_log_ratio) > 0)
+    const double largest_multiplier = trial.deviator / (3 * parameters.shear_modulus);
+    if (image_residual(trial, largest_multiplier, largest_log_ratio) > 0)
       return search_vertex(trial, report);
 
-    // Down to where the image pressure is above its old value or its limit: the residual is positive there.
-    const double N = parameters.yield_constant, M = parameters.critical_stress_ratio;
-    const double argument = 1 - lode_factor * N / M * trial.deviator * std::exp(-trial.log_pressure);
-    double low            = largest_log_ratio - 1;
-    if (N > 0 && argument > 0)
-      low = std::log(argument / (1 - N)) / exponent;
-    else
-      for (double step = 1; !(image(low) > 0) && step < 1e9; step *= 2)
-        low -= step;
+    // Along F = 0, which has one r for every q but not one q for every r. The image pressure is above its old value
+    // or its limit at q = q_tr, below at q = 0.
+    const auto multiplier = [&](const double log_deviator) {
+      return std::max(trial.deviator - std::exp(log_deviator), 0.) / (3 * parameters.shear_modulus);
+    };
+    const auto image = [&](const double log_deviator) {
+      const double gamma     = multiplier(log_deviator);
+      const double log_ratio = ratio_on_yield(trial, log_deviator, gamma);
+      return std::isfinite(log_ratio) ? image_residual(trial, gamma, log_ratio) : 1;
+    };
+    const double high = std::log(trial.deviator);
+    double low        = high - 1;
+    for (double step = 1; image(low) > 0 && step < 1e4; step *= 2)
+      low -= step;
 
-    const double log_ratio = bisect(image, low, largest_log_ratio);
-    if (!(std::abs(image(log_ratio)) < 1e-6))
+    const double log_deviator = bisect(image, high, low);
+    const double gamma        = multiplier(log_deviator);
+    const double log_ratio    = ratio_on_yield(trial, log_deviator, gamma);
+    if (!(std::abs(image(log_deviator)) < 1e-6))
       ++report.n_unresolved;
-    return { trial.log_pressure + multiplier(log_ratio) * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index,
-             log_ratio };
+    return { trial.log_pressure + gamma * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index,
+             log_ratio,
+             std::exp(log_deviator) };
   }
 
 
@@ -243,7 +250,7 @@ namespace scree
     const double multiplier = bisect(image, smallest, largest);
     if (!(std::abs(image(multiplier)) < 1e-6))
       ++report.n_unresolved;
-    return { trial.log_pressure + multiplier * dilatancy(0) * inverse_swelling_index, largest_log_ratio };
+    return { trial.log_pressure + multiplier * dilatancy(0) * inverse_swelling_index, largest_log_ratio, 0 };
   }
 
 
@@ -268,7 +275,7 @@ namespace scree
                           PrincipalValues &stress,
                           UpdateReport &report) const
   {
-    Returned returned{ trial.log_pressure, 0 };
+    Returned returned{ trial.log_pressure, 0, 0 };
     if (trial.log_pressure >= log_minimum_pressure && !newton(trial, returned))
       returned = search(trial, report);
 
@@ -280,12 +287,9 @@ namespace scree
         return Response::plastic;
       }
 
-    // q from the yield surface: q_tr - 3 G gamma would lose digits where gamma is large.
     const double pressure = std::exp(returned.log_pressure);
-    const double deviator =
-        returned.log_ratio < largest_log_ratio ? pressure * stress_ratio(returned.log_ratio) / lode_factor : 0;
-    const double factor = trial.deviator > 0 ? deviator / trial.deviator : 0;
-    const double mean   = (strain[0] + strain[1] + strain[2]) / 3;
+    const double factor   = trial.deviator > 0 ? returned.deviator / trial.deviator : 0;
+    const double mean     = (strain[0] + strain[1] + strain[2]) / 3;
     for (unsigned int i = 0; i < 3; ++i)
       {
         const double elastic_deviator = factor * (strain[i] - mean);
@@ -293,7 +297,7 @@ namespace scree
         stress[i]                     = -pressure + 2 * parameters.shear_modulus * elastic_deviator;
       }
     internal_variables[0] = std::exp(returned.log_pressure - returned.log_ratio);
-    internal_variables[1] += (trial.deviator - deviator) / (3 * parameters.shear_modulus);
+    internal_variables[1] += (trial.deviator - returned.deviator) / (3 * parameters.shear_modulus);
     report.largest_pressure     = std::max(report.largest_pressure, pressure);
     report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, pressure * inverse_swelling_index);
     return Response::plastic;

@@ -110,8 +110,9 @@ namespace scree
     /// Invariants after the return.
     struct Returned
     {
-      double log_pressure;
-      double log_ratio; // r
+      double log_pressure; // ln P
+      double log_ratio;    // r
+      double deviator;     // q, Pa
     };
 
     /// Residuals of (gamma, r) and their derivatives.
@@ -138,7 +139,7 @@ namespace scree
     bool newton(const Trial &trial, Returned &returned) const;
     Returned search(const Trial &trial, UpdateReport &report) const;
     Returned search_vertex(const Trial &trial, UpdateReport &report) const;
-    double deviator_on_yield(const Trial &trial, const double log_ratio) const;
+    double ratio_on_yield(const Trial &trial, const double log_deviator, const double multiplier) const;
     double image_residual(const Trial &trial, const double multiplier, const double log_ratio) const;
     void separate(const double volume_strain,
                   const double volume,
