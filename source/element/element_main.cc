@@ -97,14 +97,14 @@ main(int argc, char *argv[])
     }
   catch (const dealii::ExceptionBase &error)
     {
-      std::cerr << "scree-element: " << argument << ": ";
+      std::cerr << "scree-element: " << argument << ":\n";
       error.print_info(std::cerr);
       std::cerr << "scree-element --help lists all entries.\n";
       return 1;
     }
   catch (const std::exception &error)
     {
-      std::cerr << "scree-element: " << argument << ": " << error.what() << '\n';
+      std::cerr << "scree-element: " << argument << ":\n" << error.what() << '\n';
       return 1;
     }
   return 0;

@@ -73,7 +73,6 @@ test(const std::string &name, const double angle, const double strain, const dou
   AssertThrow(found < bound, ExcMessage(name + " is not objective: " + std::to_string(found)));
   std::cout << name << ", angle " << angle << ", strain " << strain << " a step: error below " << bound
             << ": OK, sub-steps " << report.n_substeps << std::endl;
-  std::cerr << found << std::endl;
 }
 
 

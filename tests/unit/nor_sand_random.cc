@@ -66,10 +66,6 @@ test(const std::string &name, const NorSandParameters &parameters, const Range &
           largest_stress_error  = std::max(largest_stress_error, std::abs(mean + expected) / expected);
         }
     }
-  std::cerr << name << " yield " << largest_yield << " dissipation " << smallest_dissipation << " stress "
-            << largest_stress_error << " elastic " << n_elastic << " fallbacks " << report.n_fallbacks << " vertices "
-            << report.n_vertices << " separated " << report.n_separated << " unresolved " << report.n_unresolved
-            << std::endl;
   AssertThrow(largest_yield < 1e-8,
               ExcMessage(name + ": outside the yield surface by " + std::to_string(largest_yield)));
   AssertThrow(smallest_dissipation > -1e-10,

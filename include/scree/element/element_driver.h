@@ -61,7 +61,7 @@ namespace scree
     const ElementParameters parameters;
     const ElementParameters::Path path;
     const double strain_step;
-    const std::unique_ptr<Material<3>> material;
+    std::unique_ptr<const Material<3>> material;
     std::vector<State> states;
     UpdateReport accepted;
   };
