@@ -92,6 +92,8 @@ namespace scree
       , log_minimum_pressure(std::log(parameters.minimum_pressure))
       , log_reference_pressure(std::log(parameters.reference_pressure))
       , exponent(parameters.yield_constant / (1 - parameters.yield_constant))
+      , inverse_exponent(exponent > 0 ? 1 / exponent : 0)
+      , dilatancy_factor(1 / ((1 - parameters.potential_constant) * lode_factor))
       , largest_log_ratio(exponent > 0 ? -std::log(1 - parameters.yield_constant) / exponent : 1)
       , limit_factor(parameters.dilatancy_multiplier * (1 - parameters.potential_constant) /
                      (1 - parameters.yield_constant) * parameters.yield_constant / parameters.critical_stress_ratio)

@@ -8,9 +8,6 @@ namespace scree
 {
   namespace
   {
-    // The data know no dependence on the Lode angle; zeta of Gudehus-Argyris or Willam-Warnke would enter here.
-    constexpr double lode_factor = 1;
-
     /// Where `f` turns from positive at `positive` to not positive at `negative`, to the last digit.
     template <typename Function>
     double
@@ -37,13 +34,6 @@ namespace scree
 
 
   double
-  NorSand::dilatancy(const double stress_ratio) const
-  {
-    return (stress_ratio - parameters.critical_stress_ratio) / ((1 - parameters.potential_constant) * lode_factor);
-  }
-
-
-  double
   NorSand::log_limit(const double log_image, const double volume, double &derivative) const
   {
     constexpr double smallest_argument = 0.15; // Below, the limit pressure runs away for very dense sand.
@@ -61,10 +51,10 @@ namespace scree
     if (argument <= smallest_argument)
       {
         derivative = 0;
-        return -std::log(smallest_argument) / exponent;
+        return -std::log(smallest_argument) * inverse_exponent;
       }
-    derivative = limit_factor * parameters.compression_index / (exponent * argument);
-    return -std::log(argument) / exponent;
+    derivative = limit_factor * parameters.compression_index * inverse_exponent / argument;
+    return -std::log(argument) * inverse_exponent;
   }
 
 
@@ -88,23 +78,45 @@ namespace scree
     const double deviator_slope = 3 * parameters.shear_modulus * compliance;
     const double deviator_ratio = trial.deviator * compliance - deviator_slope * multiplier; // q/P
 
+    // Pi (1 + h gamma) = Pi_n + h gamma Pi*, over P.
     double limit_slope;
-    const double limit     = log_limit(log_pressure - log_ratio, trial.volume, limit_slope);
-    const double image_old = std::exp(trial.log_image - log_pressure + log_ratio); // Pi_n/Pi
-    const double image_new = h * std::exp(log_ratio + limit);                      // h Pi*/Pi
-    const double sum       = image_old + multiplier * image_new;
-    const double sum_gamma = image_new + (multiplier * image_new * limit_slope - image_old) * log_pressure_gamma;
-    const double sum_ratio = multiplier * image_new * (1 + limit_slope * log_image_ratio) - image_old * log_image_ratio;
+    const double limit       = h * std::exp(log_limit(log_pressure - log_ratio, trial.volume, limit_slope)); // h Pi*/P
+    const double old         = trial.image * compliance;
+    const double hardening   = 1 + h * multiplier;
+    const double sum         = old + multiplier * limit;
+    const double inverse_sum = 1 / sum;
 
     Residual r;
-    r.log_pressure   = log_pressure;
     r.deviator_ratio = trial.deviator * compliance;
     r.yield          = lode_factor * deviator_ratio - eta;
     r.yield_gamma    = -lode_factor * (deviator_slope + deviator_ratio * log_pressure_gamma);
     r.yield_ratio    = -lode_factor * deviator_ratio * log_pressure_ratio - eta_ratio;
-    r.image          = std::log((1 + h * multiplier) / sum);
-    r.image_gamma    = h / (1 + h * multiplier) - sum_gamma / sum;
-    r.image_ratio    = -sum_ratio / sum;
+    r.image          = std::log(hardening * inverse_sum) - log_ratio;
+    r.image_gamma =
+        h / hardening - (limit + (multiplier * limit * limit_slope - old) * log_pressure_gamma) * inverse_sum;
+    r.image_ratio = -1 - (multiplier * limit * limit_slope * log_image_ratio - old * log_pressure_ratio) * inverse_sum;
+    return r;
+  }
+
+
+  NorSand::Residual
+  NorSand::first_residual(const Trial &trial, const double log_ratio) const
+  {
+    const double compliance = 1 / trial.pressure;
+    const double D_slope    = dilatancy(trial.stress_ratio) * inverse_swelling_index;
+    double limit_slope;
+    const double limit = log_limit(trial.log_image, trial.volume, limit_slope);
+
+    Residual r;
+    r.deviator_ratio = trial.deviator * compliance;
+    r.yield          = lode_factor * r.deviator_ratio - trial.stress_ratio;
+    r.yield_gamma    = -lode_factor * (3 * parameters.shear_modulus * compliance + r.deviator_ratio * D_slope);
+    r.yield_ratio    = parameters.critical_stress_ratio - parameters.yield_constant * trial.stress_ratio;
+    if (parameters.yield_constant > 0) // M exp(r N/(1-N)), from eta
+      r.yield_ratio /= 1 - parameters.yield_constant;
+    r.image       = 0;
+    r.image_gamma = parameters.hardening_coefficient * (1 - std::exp(log_ratio + limit)) + D_slope;
+    r.image_ratio = -1;
     return r;
   }
 
@@ -114,26 +126,22 @@ namespace scree
   {
     constexpr unsigned int largest_number_of_iterations = 14;
     constexpr unsigned int largest_number_of_halvings   = 6;
-    constexpr double tolerance                          = 1e-11;
+    constexpr double tolerance                          = 1e-7; // before the last step, which squares the residual
     constexpr double largest_change_of_ratio            = 1;
     constexpr double largest_part_of_the_way            = 0.9; // to a bound
 
     const double largest_multiplier = trial.deviator / (3 * parameters.shear_modulus);
     double multiplier               = 0;
-    double log_ratio                = std::min(trial.log_pressure - trial.log_image, largest_log_ratio);
-    Residual now                    = residual(trial, multiplier, log_ratio);
+    double log_ratio                = trial.log_pressure - trial.log_image;
+    if (log_ratio >= largest_log_ratio)
+      return false;
+    Residual now = first_residual(trial, log_ratio);
     for (unsigned int i = 0; i < largest_number_of_iterations; ++i)
       {
-        if (std::abs(now.yield) <= tolerance * (1 + now.deviator_ratio) && std::abs(now.image) <= tolerance)
-          {
-            // From the yield surface: q_tr - 3 G gamma loses digits where gamma is large.
-            const double deviator = std::exp(now.log_pressure) * stress_ratio(log_ratio) / lode_factor;
-            returned              = { now.log_pressure, log_ratio, std::min(deviator, trial.deviator) };
-            return true;
-          }
-        const double determinant = now.yield_gamma * now.image_ratio - now.yield_ratio * now.image_gamma;
-        double step_multiplier   = (now.yield_ratio * now.image - now.image_ratio * now.yield) / determinant;
-        double step_ratio        = (now.image_gamma * now.yield - now.yield_gamma * now.image) / determinant;
+        const double inverse_determinant = 1 / (now.yield_gamma * now.image_ratio - now.yield_ratio * now.image_gamma);
+        const double step_multiplier =
+            (now.yield_ratio * now.image - now.image_ratio * now.yield) * inverse_determinant;
+        const double step_ratio = (now.image_gamma * now.yield - now.yield_gamma * now.image) * inverse_determinant;
 
         double part = std::min(1., largest_change_of_ratio / std::abs(step_ratio));
         if (step_ratio > 0)
@@ -141,6 +149,20 @@ namespace scree
         const double room = step_multiplier > 0 ? largest_multiplier - multiplier : multiplier;
         if (step_multiplier != 0)
           part = std::min(part, largest_part_of_the_way * room / std::abs(step_multiplier));
+
+        if (part == 1 && std::abs(now.yield) <= tolerance * (1 + now.deviator_ratio) &&
+            std::abs(now.image) <= tolerance)
+          {
+            multiplier += step_multiplier;
+            log_ratio += step_ratio;
+            // P from the flow rule, q from the yield surface: q_tr - 3 G gamma loses digits where gamma is large.
+            const double eta      = stress_ratio(log_ratio);
+            returned.log_ratio    = log_ratio;
+            returned.log_pressure = trial.log_pressure + multiplier * dilatancy(eta) * inverse_swelling_index;
+            returned.pressure     = std::exp(returned.log_pressure);
+            returned.deviator     = std::min(returned.pressure * eta / lode_factor, trial.deviator);
+            return true;
+          }
 
         const double merit = now.yield * now.yield + now.image * now.image;
         for (unsigned int halving = 0;; ++halving, part *= 0.5)
@@ -178,11 +200,9 @@ namespace scree
   NorSand::ratio_on_yield(const Trial &trial, const double log_deviator, const double multiplier) const
   {
     // F = 0 in w = ln eta: g(w) = w + a exp(w) - c = 0, rising and convex: Newton from the right cannot miss.
-    const double flow = inverse_swelling_index * multiplier / ((1 - parameters.potential_constant) * lode_factor);
-    const double a    = flow;
-    const double c =
-        log_deviator + std::log(lode_factor) - trial.log_pressure + flow * parameters.critical_stress_ratio;
-    double w = c > 0 ? std::min(c, std::max(0., std::log(c / a))) : c;
+    const double a = inverse_swelling_index * multiplier / ((1 - parameters.potential_constant) * lode_factor);
+    const double c = log_deviator + std::log(lode_factor) - trial.log_pressure + a * parameters.critical_stress_ratio;
+    double w       = c > 0 ? std::min(c, std::max(0., std::log(c / a))) : c;
 
     constexpr unsigned int largest_number_of_iterations = 100;
     for (unsigned int i = 0; i < largest_number_of_iterations; ++i)
@@ -230,9 +250,9 @@ namespace scree
     const double log_ratio    = ratio_on_yield(trial, log_deviator, gamma);
     if (!(std::abs(image(log_deviator)) < 1e-6))
       ++report.n_unresolved;
-    return { trial.log_pressure + gamma * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index,
-             log_ratio,
-             std::exp(log_deviator) };
+    const double log_pressure =
+        trial.log_pressure + gamma * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index;
+    return { log_pressure, std::exp(log_pressure), log_ratio, std::exp(log_deviator) };
   }
 
 
@@ -250,7 +270,8 @@ namespace scree
     const double multiplier = bisect(image, smallest, largest);
     if (!(std::abs(image(multiplier)) < 1e-6))
       ++report.n_unresolved;
-    return { trial.log_pressure + multiplier * dilatancy(0) * inverse_swelling_index, largest_log_ratio, 0 };
+    const double log_pressure = trial.log_pressure + multiplier * dilatancy(0) * inverse_swelling_index;
+    return { log_pressure, std::exp(log_pressure), largest_log_ratio, 0 };
   }
 
 
@@ -275,7 +296,7 @@ namespace scree
                           PrincipalValues &stress,
                           UpdateReport &report) const
   {
-    Returned returned{ trial.log_pressure, 0, 0 };
+    Returned returned{ trial.log_pressure, trial.pressure, 0, 0 };
     if (trial.log_pressure >= log_minimum_pressure && !newton(trial, returned))
       returned = search(trial, report);
 
@@ -287,7 +308,7 @@ namespace scree
         return Response::plastic;
       }
 
-    const double pressure = std::exp(returned.log_pressure);
+    const double pressure = returned.pressure;
     const double factor   = trial.deviator > 0 ? returned.deviator / trial.deviator : 0;
     const double mean     = (strain[0] + strain[1] + strain[2]) / 3;
     for (unsigned int i = 0; i < 3; ++i)

@@ -98,19 +98,24 @@ namespace scree
     double yield(const PrincipalValues &strain, const double image_pressure) const;
 
   private:
+    /// zeta. The data know no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
+    static constexpr double lode_factor = 1;
+
     /// Invariants of the trial state.
     struct Trial
     {
-      double log_pressure; // ln P
-      double deviator;     // q, Pa
-      double log_image;    // ln Pi at the start
-      double volume;       // v
+      double pressure, log_pressure; // P, Pa, and ln P
+      double deviator;               // q, Pa
+      double stress_ratio;           // eta
+      double image, log_image;       // Pi at the start, Pa, and ln Pi
+      double volume;                 // v
     };
 
     /// Invariants after the return.
     struct Returned
     {
       double log_pressure; // ln P
+      double pressure;     // P, Pa
       double log_ratio;    // r
       double deviator;     // q, Pa
     };
@@ -118,7 +123,7 @@ namespace scree
     /// Residuals of (gamma, r) and their derivatives.
     struct Residual
     {
-      double log_pressure, deviator_ratio;
+      double deviator_ratio; // q_tr/P
       double yield, yield_gamma, yield_ratio;
       double image, image_gamma, image_ratio;
     };
@@ -136,6 +141,7 @@ namespace scree
                             PrincipalValues &stress,
                             UpdateReport &report) const;
     Residual residual(const Trial &trial, const double multiplier, const double log_ratio) const;
+    Residual first_residual(const Trial &trial, const double log_ratio) const; // at gamma = 0, cheap
     bool newton(const Trial &trial, Returned &returned) const;
     Returned search(const Trial &trial, UpdateReport &report) const;
     Returned search_vertex(const Trial &trial, UpdateReport &report) const;
@@ -151,9 +157,10 @@ namespace scree
     const double inverse_swelling_index;
     const double log_minimum_pressure;
     const double log_reference_pressure;
-    const double exponent;          // N/(1-N)
-    const double largest_log_ratio; // r at q = 0
-    const double limit_factor;      // Abar N/M
+    const double exponent, inverse_exponent; // N/(1-N) and (1-N)/N
+    const double dilatancy_factor;           // 1/((1-Nbar) zeta)
+    const double largest_log_ratio;          // r at q = 0
+    const double limit_factor;               // Abar N/M
   };
 
 
@@ -180,6 +187,13 @@ namespace scree
   }
 
 
+  inline double
+  NorSand::dilatancy(const double stress_ratio) const
+  {
+    return (stress_ratio - parameters.critical_stress_ratio) * dilatancy_factor;
+  }
+
+
   inline Response
   NorSand::return_map(PrincipalValues &strain,
                       double *internal_variables,
@@ -197,9 +211,16 @@ namespace scree
     const double log_pressure = log_pressure_of(volume_strain);
     const double pressure     = std::exp(log_pressure);
     const double log_image    = std::log(internal_variables[0]);
+    const double eta          = stress_ratio(log_pressure - log_image);
 
-    if (!(log_pressure >= log_minimum_pressure && deviator <= pressure * stress_ratio(log_pressure - log_image)))
-      return plastic_return({ log_pressure, deviator, log_image, parameters.initial_specific_volume * volume_ratio },
+    if (!(log_pressure >= log_minimum_pressure && lode_factor * deviator <= pressure * eta))
+      return plastic_return({ pressure,
+                              log_pressure,
+                              deviator,
+                              eta,
+                              internal_variables[0],
+                              log_image,
+                              parameters.initial_specific_volume * volume_ratio },
                             strain,
                             internal_variables,
                             stress,
