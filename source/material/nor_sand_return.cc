@@ -33,7 +33,7 @@ namespace scree
   } // namespace
 
 
-  double
+  DEAL_II_ALWAYS_INLINE inline double
   NorSand::log_limit(const double log_image, const double volume, double &derivative) const
   {
     constexpr double smallest_argument = 0.15; // Below, the limit pressure runs away for very dense sand.
@@ -58,7 +58,7 @@ namespace scree
   }
 
 
-  NorSand::Residual
+  DEAL_II_ALWAYS_INLINE inline NorSand::Residual
   NorSand::residual(const Trial &trial, const double multiplier, const double log_ratio) const
   {
     const double M = parameters.critical_stress_ratio, h = parameters.hardening_coefficient;
@@ -143,12 +143,16 @@ namespace scree
             (now.yield_ratio * now.image - now.image_ratio * now.yield) * inverse_determinant;
         const double step_ratio = (now.image_gamma * now.yield - now.yield_gamma * now.image) * inverse_determinant;
 
-        double part = std::min(1., largest_change_of_ratio / std::abs(step_ratio));
-        if (step_ratio > 0)
-          part = std::min(part, largest_part_of_the_way * (largest_log_ratio - log_ratio) / step_ratio);
+        // A branch, as it is nearly always taken: minima would hold up the next residual.
         const double room = step_multiplier > 0 ? largest_multiplier - multiplier : multiplier;
-        if (step_multiplier != 0)
-          part = std::min(part, largest_part_of_the_way * room / std::abs(step_multiplier));
+        double part       = 1;
+        if (!(std::abs(step_ratio) <= largest_change_of_ratio &&
+              step_ratio <= largest_part_of_the_way * (largest_log_ratio - log_ratio) &&
+              std::abs(step_multiplier) <= largest_part_of_the_way * room))
+          part = std::min(std::min(1., largest_change_of_ratio / std::abs(step_ratio)),
+                          largest_part_of_the_way *
+                              std::min(room / std::abs(step_multiplier),
+                                       step_ratio > 0 ? (largest_log_ratio - log_ratio) / step_ratio : 2.));
 
         if (part == 1 && std::abs(now.yield) <= tolerance * (1 + now.deviator_ratio) &&
             std::abs(now.image) <= tolerance)
