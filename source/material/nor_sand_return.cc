@@ -132,10 +132,8 @@ namespace scree
 
     const double largest_multiplier = trial.deviator / (3 * parameters.shear_modulus);
     double multiplier               = 0;
-    double log_ratio                = trial.log_pressure - trial.log_image;
-    if (log_ratio >= largest_log_ratio)
-      return false;
-    Residual now = first_residual(trial, log_ratio);
+    double log_ratio                = std::min(trial.log_pressure - trial.log_image, largest_log_ratio);
+    Residual now = log_ratio < largest_log_ratio ? first_residual(trial, log_ratio) : residual(trial, 0, log_ratio);
     for (unsigned int i = 0; i < largest_number_of_iterations; ++i)
       {
         const double inverse_determinant = 1 / (now.yield_gamma * now.image_ratio - now.yield_ratio * now.image_gamma);
