@@ -25,6 +25,55 @@ namespace
   }
 
 
+  /// Path of the subsection that is open in line `n_lines` of `text`; deal.II's messages name the line only.
+  std::string
+  subsection_at(const std::string &text, const unsigned int n_lines)
+  {
+    std::vector<std::string> open;
+    std::istringstream in(text);
+    std::string line;
+    for (unsigned int i = 1; i < n_lines && std::getline(in, line); ++i)
+      {
+        std::istringstream words(line);
+        std::string word, name;
+        words >> word;
+        std::getline(words >> std::ws, name);
+        if (word == "subsection")
+          open.push_back(name);
+        else if (word == "end" && !open.empty())
+          open.pop_back();
+      }
+    std::string path;
+    for (const std::string &name : open)
+      path += (path.empty() ? "" : "/") + name;
+    return path.empty() ? "(top)" : path;
+  }
+
+
+  /// Read `text`, the contents of `file`, into the entries of `prm`. Throws naming line, subsection and entry.
+  void
+  parse(const std::string &text, const std::string &file, dealii::ParameterHandler &prm)
+  {
+    std::istringstream in(text);
+    try
+      {
+        prm.parse_input(in, file);
+      }
+    catch (const dealii::ExceptionBase &error)
+      {
+        std::ostringstream message;
+        error.print_info(message);
+        const std::string mark = "Line <";
+        const std::size_t line = message.str().find(mark);
+        if (line != std::string::npos)
+          message << "    This is in subsection "
+                  << subsection_at(text, std::stoul(message.str().substr(line + mark.size()))) << ".\n";
+        throw std::runtime_error(message.str() +
+                                 "    Remedy: correct the line; scree-element --help lists all entries.");
+      }
+  }
+
+
   /// `text` into `directory`/`name`.
   void
   write(const std::string &directory, const std::string &name, const std::string &text)
@@ -45,8 +94,7 @@ namespace
     dealii::ParameterHandler prm;
     ElementParameters parameters;
     parameters.add_parameters(prm);
-    std::istringstream in(original);
-    prm.parse_input(in, file);
+    parse(original, file, prm);
     parameters.check();
 
     ElementDriver driver(parameters);
@@ -99,7 +147,6 @@ main(int argc, char *argv[])
     {
       std::cerr << "scree-element: " << argument << ":\n";
       error.print_info(std::cerr);
-      std::cerr << "scree-element --help lists all entries.\n";
       return 1;
     }
   catch (const std::exception &error)
