@@ -8,17 +8,38 @@ namespace scree
 {
   namespace
   {
-    /// Where `f` turns from positive at `positive` to not positive at `negative`, to the last digit.
+    /// A root of `f` between `positive` and `negative`, named after the sign of f there, to the last digit: false
+    /// position with Illinois weights (Dowell & Jarratt 1971), every third step a bisection, which cannot stall.
     template <typename Function>
     double
-    bisect(const Function &f, double positive, double negative)
+    find_root(const Function &f, double positive, double negative)
     {
+      double f_positive = f(positive), f_negative = f(negative);
+      int last_side = 0;
       for (unsigned int i = 0; i < 200; ++i)
         {
-          const double middle = 0.5 * (positive + negative);
-          if (middle == positive || middle == negative)
+          double x = (positive * f_negative - negative * f_positive) / (f_negative - f_positive);
+          if (i % 3 == 2 || !(x > std::min(positive, negative) && x < std::max(positive, negative)))
+            x = 0.5 * (positive + negative);
+          if (x == positive || x == negative)
             break;
-          (f(middle) > 0 ? positive : negative) = middle;
+          const double f_x = f(x);
+          if (std::abs(f_x) <= 1e-14)
+            return x;
+          const int side = f_x > 0 ? 1 : -1;
+          if (side > 0)
+            {
+              positive   = x;
+              f_positive = f_x;
+              f_negative *= side == last_side ? 0.5 : 1;
+            }
+          else
+            {
+              negative   = x;
+              f_negative = f_x;
+              f_positive *= side == last_side ? 0.5 : 1;
+            }
+          last_side = side;
         }
       return negative;
     }
@@ -247,7 +268,7 @@ namespace scree
     for (double step = 1; image(low) > 0 && step < 1e4; step *= 2)
       low -= step;
 
-    const double log_deviator = bisect(image, high, low);
+    const double log_deviator = find_root(image, high, low);
     const double gamma        = multiplier(log_deviator);
     const double log_ratio    = ratio_on_yield(trial, log_deviator, gamma);
     if (!(std::abs(image(log_deviator)) < 1e-6))
@@ -269,7 +290,7 @@ namespace scree
     for (double step = parameters.swelling_index; image(largest) > 0 && step < 1e9; step *= 2)
       largest += step;
 
-    const double multiplier = bisect(image, smallest, largest);
+    const double multiplier = find_root(image, smallest, largest);
     if (!(std::abs(image(multiplier)) < 1e-6))
       ++report.n_unresolved;
     const double log_pressure = trial.log_pressure + multiplier * dilatancy(0) * inverse_swelling_index;
