@@ -32,7 +32,6 @@ namespace scree
     sum(total.balance.body_impulse);
     sum(total.lost_momentum);
     for (double *value : {&total.balance.wall_dissipation,
-                          &total.balance.damping_dissipation,
                           &total.plastic_dissipation,
                           &total.lost_mass,
                           &total.lost_energy,
@@ -156,9 +155,7 @@ namespace scree
     add("Elastic energy (J)", now.elastic);
     add("Plastic dissipation (J)", totals.plastic_dissipation);
     add("Wall dissipation (J)", totals.balance.wall_dissipation);
-    add("Damping dissipation (J)", totals.balance.damping_dissipation);
-    add("Numerical dissipation (J)", start_energy - energy - totals.plastic_dissipation - totals.balance.wall_dissipation -
-          totals.balance.damping_dissipation - totals.lost_energy);
+    add("Numerical dissipation (J)", start_energy - energy - totals.plastic_dissipation - totals.balance.wall_dissipation - totals.lost_energy);
     const auto front = mass_percentiles(phases, grid, 0, {0.90, 0.99, 0.995});
     add("Front 90 % (m)", front[0]);
     add("Front 99 % (m)", front[1]);

@@ -35,7 +35,6 @@ namespace scree
     wall_impulse += other.wall_impulse;
     body_impulse += other.body_impulse;
     wall_dissipation += other.wall_dissipation;
-    damping_dissipation += other.damping_dissipation;
     return *this;
   }
 
@@ -103,7 +102,6 @@ namespace scree
 
         if (damping_rate > 0.)
           {
-            balance.damping_dissipation += 0.5 * mass * (1. - decay * decay) * after.norm_square();
             balance.wall_impulse -= mass * (1. - decay) * after;
             after *= decay;
           }
@@ -117,8 +115,10 @@ namespace scree
               after = 0.;
             else
               walls.apply(after, faces);
-            balance.wall_impulse += mass * (after - free);
-            balance.wall_dissipation += 0.5 * mass * (free.norm_square() - after.norm_square());
+            const Tensor<1, dim> impulse = mass * (after - free);
+            balance.wall_impulse += impulse;
+            // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
+            balance.wall_dissipation -= impulse * (0.5 * (before + after));
           }
 
         for (unsigned int c = 0; c < dim; ++c)

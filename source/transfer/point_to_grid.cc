@@ -131,6 +131,7 @@ namespace scree
 
             sums.add(rows, value_x * mass, momentum, force_x, force_other);
           }
+        field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
       }
   }

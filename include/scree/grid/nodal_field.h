@@ -26,7 +26,7 @@ namespace scree
     /// Fits the field to the grid's current nodes.
     void reinit();
 
-    /// Empties the nodes of the last step. To be called before cells are activated.
+    /// Empties the field and deactivates its nodes, before a new step.
     void clear();
 
     /// Marks the nodes of a locally owned cell as active.

@@ -32,7 +32,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &balance.wall_impulse &balance.body_impulse &balance.wall_dissipation &balance.damping_dissipation;
+      archive &balance.wall_impulse &balance.body_impulse &balance.wall_dissipation;
       archive &plastic_dissipation &lost_mass &lost_energy &lost_momentum &n_lost;
       archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
     }

@@ -29,8 +29,7 @@ namespace scree
   {
     dealii::Tensor<1, dim> wall_impulse;            ///< N s
     dealii::Tensor<1, dim> body_impulse;            ///< gravity and body force, N s
-    double                 wall_dissipation    = 0; ///< kinetic energy that walls took, J
-    double                 damping_dissipation = 0; ///< and the damped settling, J
+    double                 wall_dissipation = 0; ///< energy that walls took, J
 
     StepBalance &operator+=(const StepBalance &other);
   };

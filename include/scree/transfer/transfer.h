@@ -27,7 +27,8 @@ namespace scree
              const TransferParameters      &transfer,
              const StabilisationParameters &stabilisation);
 
-    /// Adds mass, momentum and internal force of this rank's points to the field: lumped mass sum m phi_i, momentum
+    /// Activates the nodes of the phase's cells and adds mass, momentum and internal force of this rank's points: lumped
+    /// mass sum m phi_i, momentum
     /// sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP and PIC, force -sum V sigma grad phi_i.
     void to_grid(const Phase<dim> &phase, NodalField<dim> &field) const;
 
