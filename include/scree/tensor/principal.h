@@ -72,7 +72,7 @@ namespace scree
       double a[3][3] = { { tensor[0], tensor[3], tensor[4] },
                          { tensor[3], tensor[1], tensor[5] },
                          { tensor[4], tensor[5], tensor[2] } };
-      // Convergence is cubic: the sweep after one that found off-diagonals below this leaves nothing.
+      // Below this the off-diagonals change no digit of the principal values.
       const double negligible =
           1e-17 * std::max(std::abs(tensor[0]), std::max(std::abs(tensor[1]), std::abs(tensor[2])));
       constexpr unsigned int largest_number_of_sweeps = 12;
