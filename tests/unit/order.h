@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Runs of a case text in unit tests, and orders of convergence from their errors.
+#ifndef tests_order_h
+#define tests_order_h
+
+#include <scree/simulation.h>
+
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+
+/// Runs the case and hands each point's location and properties to `inspect`.
+template <int dim>
+void run_case(const std::string                                                             &text,
+              const std::function<void(const scree::Phase<dim> &, const dealii::Point<dim> &, const double *)> &inspect)
+{
+  const std::string file = "case.prm";
+  std::ofstream(file) << text << "\nset Output directory = results\n"
+                      << "subsection Output\n set Interval = 1e6\n set Screen = nothing\n set Graphics = none\nend\n";
+  scree::Parameters       parameters(file);
+  scree::Simulation<dim> simulation(parameters, scree::Start::fresh, MPI_COMM_WORLD);
+  simulation.run();
+  for (const auto &phase : simulation.bodies())
+    for (const auto &cell : phase.points.cells())
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        inspect(phase, cell.location[p], cell.properties + p * phase.points.stride());
+}
+
+/// Root of mean squared errors over that of mean squared values.
+struct RelativeError
+{
+  double error = 0, value = 0;
+
+  void add(const double computed, const double exact)
+  {
+    error += (computed - exact) * (computed - exact);
+    value += exact * exact;
+  }
+  double norm() const
+  {
+    return std::sqrt(error / value);
+  }
+};
+
+/// Prints the errors of ever halved cells with the order between them; returns the last order.
+inline double print_orders(const std::string &name, const std::vector<double> &errors)
+{
+  double order = 0;
+  for (unsigned int i = 0; i < errors.size(); ++i)
+    {
+      order = i > 0 ? std::log2(errors[i - 1] / errors[i]) : 0;
+      std::printf("%s: error %.3e order %.2f\n", name.c_str(), errors[i], order);
+    }
+  return order;
+}
+
+#endif
