@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""compare_statistics.py FILE FILE TOLERANCE [THICKNESS]: are all rows of two files `statistics` equal?
+
+Numbers differ by at most TOLERANCE times the largest number of their column. Two columns are differences of large numbers
+and have their scale: the energies and momenta that they balance. With THICKNESS the second file is of a run in 3D, one cell
+thick: what is per metre in 2D is divided by it, its axis z is y there, and its points are only to be a multiple.
+"""
+import sys
+
+
+def read(name):
+    """Column names and rows of numbers."""
+    columns, rows = [], []
+    for line in open(name):
+        words = line.split(":", 1)
+        if line.startswith("#"):
+            columns.append(words[1].strip())
+        elif line.strip():
+            rows.append([float(word) for word in line.split()])
+    if not rows or any(len(row) != len(columns) for row in rows):
+        sys.exit(name + ": not a table of statistics")
+    return columns, rows
+
+
+def series(name):
+    columns, rows = read(name)
+    return {column: [row[i] for row in rows] for i, column in enumerate(columns)}
+
+
+def per_metre(table, thickness):
+    """A run in 3D as one in 2D."""
+    across = max(abs(value) for value in table.pop("Momentum y (N s)"))
+    if across > 1e-9 * max(table["Mass (kg)"]):
+        sys.exit("there is motion across the slice: %g N s" % across)
+    result = {}
+    for column, values in table.items():
+        column = column.replace("Momentum z", "Momentum y")
+        if any(unit in column for unit in ("(kg)", "(N s)", "(J)")):
+            values = [value / thickness for value in values]
+        result[column] = values
+    return result
+
+
+def largest_difference(first, second, counts):
+    if set(first) != set(second):
+        sys.exit("different columns: " + ", ".join(sorted(set(first) ^ set(second))))
+    energy = max(abs(v) for column in first for v in first[column] if "energy (J)" in column)
+    momentum = max(first["Mass (kg)"])
+    worst = (0.0, "")
+    for column, values in first.items():
+        if column in counts:
+            continue
+        others = second[column]
+        if len(values) != len(others):
+            sys.exit("different numbers of rows: %d and %d" % (len(values), len(others)))
+        scale = max(abs(v) for v in values + others) or 1.0
+        if column in ("Numerical dissipation (J)", "Wall dissipation (J)", "Damping dissipation (J)"):
+            scale = energy
+        if column == "Momentum residual (N s)":
+            scale = momentum
+        worst = max(worst, max((abs(a - b) / scale, column) for a, b in zip(values, others)))
+    return worst
+
+
+def main():
+    first, second = series(sys.argv[1]), series(sys.argv[2])
+    tolerance = float(sys.argv[3])
+    counts = ()
+    if len(sys.argv) > 4:
+        second = per_metre(second, float(sys.argv[4]))
+        counts = ("Points", "Separated points", "Fallbacks", "Vertices", "Unresolved", "Points lost")
+        for column in counts:
+            ratio = second["Points"][0] / first["Points"][0]
+            if [ratio * value for value in first[column]] != second[column]:
+                sys.exit(column + ": not the same in every layer")
+    difference, column = largest_difference(first, second, counts)
+    print("%d rows, largest difference %.2g%s" % (len(first["Step"]), difference, " in " + column if difference else ""))
+    if not difference <= tolerance:
+        sys.exit("more than %g" % tolerance)
+
+
+main()

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The measures of the statistics on fields made by hand, on one rank and on two.
+
+#include <scree/material/table.h>
+#include <scree/output/measures.h>
+#include <scree/points/seeding.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iostream>
+
+using namespace dealii;
+using namespace scree;
+
+template <int dim>
+struct Scene
+{
+  BackgroundGrid<dim> grid;
+  std::list<Phase<dim>> phases;
+
+  static GridParameters
+  box()
+  {
+    GridParameters parameters;
+    parameters.lower_corner.assign(dim, -0.3);
+    parameters.upper_corner.assign(dim, 0.9);
+    return parameters;
+  }
+
+  explicit Scene(const std::vector<std::string> &regions)
+      : grid(box(), MPI_COMM_WORLD)
+  {
+    MaterialParameters material;
+    material.law = "linear elastic";
+    for (const auto &region : regions)
+      {
+        SeedingParameters seeding;
+        seeding.region          = region;
+        seeding.points_per_cell = 2;
+        phases.emplace_back("Soil",
+                            1000.,
+                            make_material<dim>(material),
+                            PropertyLayout<dim>(0, false),
+                            grid.triangulation(),
+                            grid.mapping());
+        seed(phases.back(), seeding, grid.triangulation(), grid.cell_size());
+      }
+  }
+
+  /// Gives the points the pressure of their place, and shear and stress deviators that must not matter.
+  template <typename Pressure>
+  void
+  set_pressure(const Pressure &pressure)
+  {
+    for (auto &phase : phases)
+      for (const auto &cell : phase.points.cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          {
+            double *stress = cell.properties + p * phase.points.stride() + phase.layout.stress;
+            const double P = pressure(cell.location[p]);
+            for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+              stress[c] = c < 3 ? -P + (c == 0 ? 300. : -150.) : 70.;
+          }
+  }
+};
+
+/// The fraction f of a block's mass lies below its lower face plus f times its length, to within half a point's width.
+template <int dim>
+void
+test_percentiles(std::ostream &out)
+{
+  const Scene<dim> scene({ "x > 0.1 && x < 0.5 && y < 0.3", "x > 0.5 && x < 0.8 && y < 0.3" });
+  constexpr double half_width = 0.025;
+  const auto percentiles      = mass_percentiles(scene.phases, scene.grid, 0, { 0.005, 0.33, 0.5, 0.9, 0.99, 1. });
+  const std::vector<double> expected{ 0.1 + 0.7 * 0.005, 0.1 + 0.7 * 0.33, 0.1 + 0.7 * 0.5,
+                                      0.1 + 0.7 * 0.9,   0.1 + 0.7 * 0.99, 0.8 };
+  for (unsigned int i = 0; i < expected.size(); ++i)
+    {
+      AssertThrow(std::abs(percentiles[i] - expected[i]) < half_width + 1e-9,
+                  ExcMessage("A percentile is at " + Utilities::to_string(percentiles[i]) + " instead of " +
+                             Utilities::to_string(expected[i])));
+      // The percentile is the place of a point: points are in the middle of their lattice, 0.05 m wide.
+      const double lattice = (percentiles[i] - 0.1 - half_width) / 0.05;
+      AssertThrow(std::abs(lattice - std::round(lattice)) < 1e-6, ExcMessage("A percentile is not at a point."));
+    }
+  out << dim << "D percentiles: OK " << percentiles[0] << ' ' << percentiles[1] << ' ' << percentiles[3] << std::endl;
+}
+
+/// Where the mass adds up to the fraction exactly at a point, that point is the percentile, whatever the rounding.
+template <int dim>
+void
+test_tie(std::ostream &out)
+{
+  const Scene<dim> scene({ "x > 0 && x < 0.5 && y < 0.3 && x + y > -2" });
+  out << dim << "D percentiles at a tie:";
+  for (unsigned int tenths = 1; tenths < 10; ++tenths)
+    {
+      const double percentile = mass_percentiles(scene.phases, scene.grid, 0, { 0.1 * tenths })[0];
+      AssertThrow(std::abs(percentile - (0.05 * tenths - 0.025)) < 1e-9,
+                  ExcMessage("The tie at " + Utilities::to_string(0.1 * tenths) + " went to " +
+                             Utilities::to_string(percentile)));
+    }
+  out << " OK" << std::endl;
+}
+
+template <int dim>
+void
+test_oscillation(std::ostream &out)
+{
+  // An oblique surface: linear fits next to it see half-filled cells.
+  Scene<dim> scene({ "y < 0.5 - 0.6 * x", "y > 0.5 - 0.6 * x && y < 0.8 - 0.6 * x" });
+
+  const auto linear = [](const Point<dim> &x) {
+    double P = 5000 - 3000 * x[0] + 2000 * x[1];
+    if (dim == 3)
+      P += 1500 * x[dim - 1];
+    return P;
+  };
+  scene.set_pressure(linear);
+  const double none = stress_oscillation(scene.phases, scene.grid);
+  AssertThrow(none < 1e-10, ExcMessage("A linear pressure oscillates by " + Utilities::to_string(none)));
+
+  // Neighbouring points of a full block take turns between 0 and 2: the fit is 1, the residual 1, and so is the mean.
+  Scene<dim> block({ "x > -0.1 && y < 0.5" });
+  block.set_pressure([](const Point<dim> &x) {
+    long sum = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      sum += std::lround((x[a] + 0.3) / 0.05 - 0.5);
+    return 1. + (sum % 2 ? 1. : -1.);
+  });
+  const double points = stress_oscillation(block.phases, block.grid);
+  AssertThrow(std::abs(points - 1.) < 0.05, ExcMessage("Turns of points oscillate by " + Utilities::to_string(points)));
+
+  // Neighbouring cells take turns: of 3^dim cells one more has the sign of the one in the middle.
+  block.set_pressure([](const Point<dim> &x) {
+    long sum = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      sum += std::lround((x[a] + 0.3) / 0.1 - 0.5);
+    return 1. + (sum % 2 ? 1. : -1.);
+  });
+  const double cells = stress_oscillation(block.phases, block.grid);
+  AssertThrow(std::abs(cells - 1.) < 0.15, ExcMessage("Turns of cells oscillate by " + Utilities::to_string(cells)));
+
+  block.set_pressure([](const Point<dim> &) { return 0.; });
+  AssertThrow(stress_oscillation(block.phases, block.grid) == 0., ExcMessage("Soil without stress oscillates."));
+  out << dim << "D oscillation: linear 0 OK, turns of points " << points << ", of cells " << cells << std::endl;
+}
+
+template <int dim>
+void
+test_invariants(std::ostream &out)
+{
+  // Uniaxial compression by 3 and a pure shear: q^2 = 3^2 + 3 * 4^2 (von Mises).
+  const double stress[6] = { -3, 0, 0, 4, 0, 0 };
+  AssertThrow(std::abs(mean_effective_stress(stress) - 1.) < 1e-15, ExcMessage("P is wrong."));
+  AssertThrow(std::abs(deviatoric_stress<dim>(stress) - std::sqrt(57.)) < 1e-14, ExcMessage("q is wrong."));
+  out << dim << "D invariants: OK" << std::endl;
+}
+
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::ostream silent(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test_invariants<2>(out);
+  test_invariants<3>(out);
+  test_percentiles<2>(out);
+  test_percentiles<3>(out);
+  test_oscillation<2>(out);
+  test_oscillation<3>(out);
+  test_tie<2>(out);
+  test_tie<3>(out);
+}
