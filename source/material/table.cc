@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/material/hencky_material.h>
+#include <scree/material/linear_elastic_3d.h>
 #include <scree/material/table.h>
 
 using namespace dealii;
@@ -55,7 +56,12 @@ namespace scree
   make_material(const MaterialParameters &parameters)
   {
     if (parameters.law == linear_elastic_name)
-      return std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
+      {
+        if constexpr (dim == 3)
+          return std::make_unique<LinearElastic3D>(LinearElastic(parameters.linear_elastic));
+        else
+          return std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
+      }
     if (parameters.law == mohr_coulomb_name)
       return std::make_unique<HenckyMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
     if (parameters.law == nor_sand_name)

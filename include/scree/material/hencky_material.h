@@ -40,6 +40,13 @@ namespace scree
                 const double volume_ratio,
                 double *values) const override;
 
+  protected:
+    /// The update of one of the points.
+    void update_point(const unsigned int p,
+                      const MaterialPoints<dim> &points,
+                      const MaterialMotion<dim> &motion,
+                      UpdateReport &report) const;
+
   private:
     static constexpr unsigned int n_components = n_symmetric_components<dim>;
 
@@ -182,16 +189,26 @@ namespace scree
   {
     UpdateReport own; // The compiler keeps what nobody else points to in registers.
     for (unsigned int p = 0; p < points.n_points; ++p)
-      own.plastic_dissipation +=
-          motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment[p],
-                                                           dim == 2 ? motion.out_of_plane_stretch[p] : 1,
-                                                           motion.volume_ratio[p],
-                                                           points.left_cauchy_green + p * points.stride,
-                                                           points.internal_variables + p * points.stride,
-                                                           points.stress + p * points.stride,
-                                                           own);
+      update_point(p, points, motion, own);
     own.n_updates = points.n_points;
     report.add(own);
+  }
+
+
+  template <int dim, typename Law>
+  inline void HenckyMaterial<dim, Law>::update_point(const unsigned int p,
+                                                     const MaterialPoints<dim> &points,
+                                                     const MaterialMotion<dim> &motion,
+                                                     UpdateReport &report) const
+  {
+    report.plastic_dissipation +=
+        motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment[p],
+                                                         dim == 2 ? motion.out_of_plane_stretch[p] : 1,
+                                                         motion.volume_ratio[p],
+                                                         points.left_cauchy_green + p * points.stride,
+                                                         points.internal_variables + p * points.stride,
+                                                         points.stress + p * points.stride,
+                                                         report);
   }
 
 
