@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Walls: what each does to the velocity of a node, a block that slides on friction, and points that leave.
+
+#include <scree/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+using namespace dealii;
+using namespace scree;
+
+/// The velocity that the lower x face and the upper y face make of `velocity`.
+Tensor<1, 2>
+after_wall(const std::string &wall, const Tensor<1, 2> &velocity, const std::uint8_t faces)
+{
+  const GridParameters box;
+  BoundaryParameters parameters;
+  parameters.left = parameters.top = wall;
+  const BackgroundGrid<2> grid(box, MPI_COMM_WORLD);
+  Tensor<1, 2> result = velocity;
+  BoundaryConditions<2>(grid, parameters).apply(result, faces);
+  return result;
+}
+
+void
+expect(const std::string &wall, const Tensor<1, 2> &velocity, const std::uint8_t faces, const Tensor<1, 2> &expected)
+{
+  const Tensor<1, 2> result = after_wall(wall, velocity, faces);
+  AssertThrow((result - expected).norm() < 1e-14,
+              ExcMessage(wall + ": " + Utilities::to_string(result[0]) + ", " + Utilities::to_string(result[1])));
+}
+
+void
+test_nodes(std::ostream &out)
+{
+  const auto v             = [](const double x, const double y) { return Tensor<1, 2>({ x, y }); };
+  const std::uint8_t inner = 0, left = 1 << 0, top = 1 << 3;
+  for (const std::string wall : { "fixed", "free slip", "friction 45", "open" })
+    expect(wall, v(-2, 3), inner, v(-2, 3));
+  expect("fixed", v(-2, 3), left, v(0, 0));
+  expect("free slip", v(-2, 3), left, v(0, 3));
+  expect("free slip", v(-2, 3), top, v(-2, 0));
+  expect("free slip", v(-2, 3), left | top, v(0, 0));
+  expect("open", v(-2, 3), left | top, v(-2, 3));
+  // Coulomb, tan 45 = 1: the wall takes the normal 2 and so 2 of the tangential 3, or all if less is there, or none if
+  // the soil lifts off.
+  expect("friction 45", v(-2, 3), left, v(0, 1));
+  expect("friction 45", v(-2, -3), left, v(0, -1));
+  expect("friction 45", v(-2, 1), left, v(0, 0));
+  expect("friction 45", v(2, 3), left, v(2, 3));
+  expect("friction 45", v(3, 2), top, v(1, 0));
+  expect("friction 45", v(3, -2), top, v(3, -2));
+  out << "nodes: OK" << std::endl;
+}
+
+/// A block of elastic soil, 0.4 m x 0.2 m, on the bottom of a wide box.
+void
+set_block(Parameters &parameters)
+{
+  parameters.output_directory                = "results";
+  parameters.output.graphics                 = "none";
+  parameters.output.screen                   = "nothing";
+  parameters.end_time                        = 0.2;
+  parameters.transfer.pic_rate               = 0;
+  parameters.grid.upper_corner               = { 2., 0.5 };
+  auto &body                                 = parameters.bodies[0];
+  body.material.law                          = "linear elastic";
+  body.material.linear_elastic.young_modulus = 1e6;
+  body.material.linear_elastic.poisson_ratio = 0.;
+  body.seeding.grain_density                 = 2000;
+  body.seeding.region                        = "x > 0.3 && x < 0.7 && y < 0.2";
+}
+
+/// The last row of the statistics, by column.
+std::map<std::string, double>
+last_row()
+{
+  std::ifstream in("results/statistics");
+  std::vector<std::string> columns;
+  std::map<std::string, double> row;
+  for (std::string line; std::getline(in, line);)
+    if (line[0] == '#')
+      columns.push_back(line.substr(line.find(": ") + 2));
+    else
+      {
+        std::istringstream numbers(line);
+        for (const auto &column : columns)
+          numbers >> row[column];
+      }
+  return row;
+}
+
+/// A block slides on a wall with friction, and is slowed down by the coefficient times gravity.
+void
+test_friction(std::ostream &out)
+{
+  Parameters parameters;
+  set_block(parameters);
+  parameters.boundaries.bottom                  = "friction 20";
+  parameters.bodies[0].seeding.initial_velocity = "3; 0";
+  parameters.bodies[0].initial_state.type       = "K0";
+  parameters.bodies[0].initial_state.k0         = 0;
+  Simulation<2>(parameters, Start::fresh, MPI_COMM_WORLD).run();
+  MPI_Barrier(MPI_COMM_WORLD);
+
+  auto row                  = last_row();
+  const double deceleration = (3. - row["Momentum x (N s)"] / row["Mass (kg)"]) / parameters.end_time;
+  const double expected     = std::tan(20. * numbers::PI / 180.) * 9.81;
+  // 2 %: the block is elastic and bounces a little.
+  AssertThrow(std::abs(deceleration / expected - 1.) < 0.02,
+              ExcMessage("The block slows down by " + Utilities::to_string(deceleration) + " instead of " +
+                         Utilities::to_string(expected) + " m/s^2"));
+  // What the block loses, the wall takes.
+  const double work = row["Wall dissipation (J)"], lost = 0.5 * row["Mass (kg)"] * 9. - row["Kinetic energy (J)"];
+  AssertThrow(std::abs(work / lost - 1.) < 0.02,
+              ExcMessage("The wall takes " + Utilities::to_string(work) + " J of " + Utilities::to_string(lost)));
+  AssertThrow(row["Momentum residual (N s)"] < 1e-12 * row["Mass (kg)"], ExcMessage("Momentum does not balance."));
+  out << "friction: OK, " << deceleration / expected << ", wall takes " << work / lost << std::endl;
+}
+
+/// A block flies through an open wall: what has left is counted, nothing else is missing.
+void
+test_open(std::ostream &out)
+{
+  Parameters parameters;
+  set_block(parameters);
+  parameters.boundaries.left                    = "open";
+  parameters.gravity                            = { 0., 0. };
+  parameters.boundaries.bottom                  = "free slip";
+  parameters.bodies[0].seeding.initial_velocity = "-2.5; 0";
+  Simulation<2> simulation(parameters, Start::fresh, MPI_COMM_WORLD);
+  simulation.run();
+  MPI_Barrier(MPI_COMM_WORLD);
+
+  auto row         = last_row();
+  const double all = 2000 * 0.4 * 0.2, n_all = 16 * 8;
+  AssertThrow(row["Points lost"] > 0 && row["Points"] > 0, ExcMessage("Half the block should have left."));
+  AssertThrow(row["Points"] + row["Points lost"] == n_all, ExcMessage("Points vanish."));
+  AssertThrow(std::abs(row["Mass (kg)"] + row["Mass lost (kg)"] - all) < 1e-11 * all, ExcMessage("Mass vanishes."));
+  AssertThrow(row["Momentum residual (N s)"] < 1e-12 * all * 2.5, ExcMessage("Momentum does not balance."));
+  out << "open: OK, " << row["Points lost"] << " points left" << std::endl;
+}
+
+/// Through a closed wall no point may leave: a run into fixed walls ends at rest against them.
+void
+test_fixed(std::ostream &out)
+{
+  Parameters parameters;
+  set_block(parameters);
+  parameters.boundaries.left                    = "fixed";
+  parameters.gravity                            = { 0., 0. };
+  parameters.boundaries.bottom                  = "free slip";
+  parameters.bodies[0].seeding.initial_velocity = "-2.5; 0";
+  Simulation<2>(parameters, Start::fresh, MPI_COMM_WORLD).run();
+  MPI_Barrier(MPI_COMM_WORLD);
+
+  auto row = last_row();
+  AssertThrow(row["Points lost"] == 0 && row["Points"] == 128, ExcMessage("A point went through a wall."));
+  // The elastic block rebounds, on the wall that gave it at least its momentum.
+  const double restitution = row["Momentum x (N s)"] / row["Mass (kg)"] / 2.5;
+  AssertThrow(restitution > 0 && restitution < 1, ExcMessage("The block does not rebound."));
+  AssertThrow(row["Momentum residual (N s)"] < 1e-12 * row["Mass (kg)"] * 2.5,
+              ExcMessage("Momentum does not balance."));
+  AssertThrow(std::abs(row["Wall dissipation (J)"]) < 0.1 * row["Mass (kg)"] * 0.5 * 6.25,
+              ExcMessage("A wall at rest took " + Utilities::to_string(row["Wall dissipation (J)"]) + " J"));
+  out << "fixed: OK, rebound " << restitution << std::endl;
+}
+
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::ostream silent(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test_nodes(out);
+  test_friction(out);
+  test_open(out);
+  test_fixed(out);
+}
