@@ -11,19 +11,42 @@ namespace
                            "       scree case.prm --resume    go on from the newest checkpoint in its run folder\n"
                            "       scree --print-parameters   all entries with defaults and explanations\n"
                            "       scree --help               this text\n"
-                           "In parallel: mpirun -np 2 scree case.prm\n";
+                           "In parallel: mpirun -np 2 scree case.prm";
 
-  template <int dim>
-  void run(scree::Parameters &parameters, const scree::Start start)
+  void
+  check_command_line(const std::vector<std::string> &arguments, const bool resume)
   {
-    scree::Simulation<dim>(parameters, start, MPI_COMM_WORLD).run();
+    std::string fault;
+    if (arguments.empty())
+      fault = "a case file is missing.";
+    else if (arguments[0].rfind("-", 0) == 0)
+      fault = "the first argument is \"" + arguments[0] + "\", which is neither a case file nor an option for itself.";
+    else if (arguments.size() > 1 && !resume)
+      fault = "after the case file, \"" + arguments[1] + "\" does not read.";
+    if (!fault.empty())
+      throw scree::InputError("command line: " + fault + '\n' + usage);
   }
 
-  int run_case(const std::vector<std::string> &arguments, std::ostream &out)
+  template <int dim>
+  void
+  run(scree::Parameters &parameters, const scree::Start start)
+  {
+    try
+      {
+        scree::Simulation<dim>(parameters, start, MPI_COMM_WORLD).run();
+      }
+    catch (const scree::EntryError &error)
+      {
+        throw parameters.error(error);
+      }
+  }
+
+  int
+  run_case(const std::vector<std::string> &arguments, std::ostream &out)
   {
     if (arguments.size() == 1 && arguments[0] == "--help")
       {
-        out << usage;
+        out << usage << '\n';
         return 0;
       }
     if (arguments.size() == 1 && arguments[0] == "--print-parameters")
@@ -32,10 +55,8 @@ namespace
         return 0;
       }
     const bool resume = arguments.size() == 2 && arguments[1] == "--resume";
-    if (arguments.empty() || arguments[0].rfind("--", 0) == 0 || (arguments.size() > 1 && !resume))
-      throw scree::InputError(std::string("The command line does not read.\n") + usage);
-
-    scree::Parameters  parameters(arguments[0]);
+    check_command_line(arguments, resume);
+    scree::Parameters parameters(arguments[0]);
     const scree::Start start = resume ? scree::Start::resume : scree::Start::fresh;
     if (parameters.dimension == 2)
       run<2>(parameters, start);
@@ -46,32 +67,37 @@ namespace
 } // namespace
 
 
-int main(int argc, char *argv[])
+int
+main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const unsigned int                       rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
 
   // All ranks meet the same input errors, so one speaks; anything else may strike a single rank.
   std::ostream silent(nullptr);
+  const auto tell = [&](const std::string &fault) {
+    std::cerr << "scree: stopped" + (n_ranks > 1 ? " on rank " + std::to_string(rank) : "") + ": " + fault + "\n";
+  };
   try
     {
-      return run_case({argv + 1, argv + argc}, rank == 0 ? std::cout : silent);
+      return run_case({ argv + 1, argv + argc }, rank == 0 ? std::cout : silent);
     }
   catch (const scree::InputError &error)
     {
       if (rank == 0)
-        std::cerr << "scree: " << error.what() << std::endl;
+        std::cerr << "scree: " + std::string(error.what()) + "\n";
       return 1;
     }
   catch (const dealii::ExceptionBase &error)
     {
-      std::cerr << "scree: stopped on rank " << rank << ".";
-      error.print_info(std::cerr);
-      std::cerr << std::endl;
+      tell(scree::plain_text(error));
     }
   catch (const std::exception &error)
     {
-      std::cerr << "scree: stopped on rank " << rank << ". " << error.what() << std::endl;
+      tell(error.what());
     }
-  MPI_Abort(MPI_COMM_WORLD, 1);
+  if (n_ranks > 1) // Others may wait for this rank.
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  return 1;
 }

@@ -3,8 +3,6 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -12,7 +10,8 @@ namespace scree
 {
   using namespace dealii;
 
-  void BodyParameters::add_parameters(ParameterHandler &prm)
+  void
+  BodyParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection(name);
     seeding.add_parameters(prm);
@@ -22,87 +21,90 @@ namespace scree
   }
 
 
-
-  void BodyParameters::check(const unsigned int dim) const
+  void
+  BodyParameters::check(const std::vector<double> &gravity) const
   {
-    seeding.check(name, dim);
+    seeding.check(name, gravity.size());
     material.check(name);
-    initial_state.check(name);
+    initial_state.check(name, gravity);
   }
 
 
-
-  double BodyParameters::bulk_density() const
+  double
+  BodyParameters::bulk_density() const
   {
     const double porosity =
-      seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
+        seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
     return seeding.grain_density * (1. - porosity);
   }
 
 
-
-  namespace
-  {
-    std::string text_of_file(const std::string &file)
-    {
-      std::ifstream     in(file);
-      std::stringstream text;
-      text << in.rdbuf();
-      if (!in)
-        throw InputError("The case file '" + file + "' cannot be read. Check the path; cases are in the folder prm.");
-      return text.str();
-    }
-  } // namespace
-
-
-
   Parameters::Parameters()
   {
-    bodies.resize(1);
-    bodies[0].name = "Soil";
+    name_bodies();
     declare(handler);
   }
 
 
-
-  Parameters::Parameters(const std::string &file)
-    : original_text(text_of_file(file))
+  Parameters::Parameters(const std::string &file_name)
+      : file(file_name)
   {
     try
       {
-        // The names of the bodies are names of subsections: read them first.
-        ParameterHandler names;
-        names.add_parameter("Bodies", body_names, "", Patterns::List(Patterns::Anything(), 1));
-        std::istringstream first(original_text);
-        const bool         skip_undefined = true;
-        names.parse_input(first, file, "", skip_undefined);
-        for (const auto &name : body_names)
-          {
-            bodies.emplace_back();
-            bodies.back().name = name;
-          }
-
+        name_bodies();
         declare(handler);
-        std::istringstream second(original_text);
-        handler.parse_input(second, file);
+        file.check(handler);
+        std::istringstream text(file.text());
+        handler.parse_input(text, file_name);
         check();
+      }
+    catch (const EntryError &error)
+      {
+        throw file.error(error.what());
       }
     catch (const ExceptionBase &error)
       {
-        std::ostringstream message;
-        error.print_info(message);
-        throw InputError("File '" + file + "': " + Utilities::trim(message.str()));
+        throw file.error(plain_text(error));
       }
   }
 
 
+  void
+  Parameters::name_bodies()
+  {
+    // The names of the bodies are names of subsections: the declarations need them.
+    static const std::set<std::string> taken{ "Mesh",       "Time step", "Transfer", "Stabilisation",
+                                              "Boundaries", "Settling",  "Output",   "Water" };
+    const std::string names = file.value("Bodies", "Soil");
+    std::set<std::string> seen;
+    for (const std::string &name : Utilities::split_string_list(names))
+      {
+        const bool is_new = seen.insert(name).second;
+        require_entry(!name.empty() && is_new && taken.count(name) == 0,
+                      "",
+                      "Bodies",
+                      names,
+                      (name.empty() ? "a name is missing"
+                       : is_new     ? '"' + name + "\" is the name of another subsection"
+                                    : '"' + name + "\" stands there twice") +
+                          ". Write names of your own, separated by commas.");
+        bodies.emplace_back();
+        bodies.back().name = name;
+      }
+  }
 
-  void Parameters::declare(ParameterHandler &prm)
+
+  void
+  Parameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Dimension", dimension, "2 (plane strain) or 3.", Patterns::Integer(2, 3));
     prm.add_parameter("End time", end_time, "When the run ends, s.", Patterns::Double(1e-12));
-    prm.add_parameter("Output directory", output_directory, "The run folder; made if it is not there.", Patterns::Anything());
-    prm.add_parameter("Gravity", gravity, "Acceleration of gravity, m/s^2, one number an axis.", Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter(
+        "Output directory", output_directory, "The run folder; made if it is not there.", Patterns::Anything());
+    prm.add_parameter("Gravity",
+                      gravity,
+                      "Acceleration of gravity, m/s^2, one number an axis.",
+                      Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Bodies",
                       body_names,
                       "Names of the bodies of soil, separated by commas; each has a subsection of its name.",
@@ -120,38 +122,41 @@ namespace scree
   }
 
 
-
-  void Parameters::check() const
+  void
+  Parameters::check() const
   {
-    AssertThrow(gravity.size() == dimension,
-                ExcMessage("'Gravity' has " + std::to_string(gravity.size()) + " numbers, but Dimension is " +
-                           std::to_string(dimension) + ". Write " + std::to_string(dimension) +
-                           " numbers, separated by commas."));
-    static const std::set<std::string> taken{
-      "Mesh", "Time step", "Transfer", "Stabilisation", "Boundaries", "Settling", "Output", "Water"};
-    std::set<std::string> seen;
-    for (const auto &body : bodies)
-      AssertThrow(!body.name.empty() && taken.count(body.name) == 0 && seen.insert(body.name).second,
-                  ExcMessage("'Bodies' names '" + body.name +
-                             "', which is empty, named twice, or the name of another subsection. Choose another name."));
+    require_entry(gravity.size() == dimension,
+                  "",
+                  "Gravity",
+                  number_text(gravity),
+                  "entry \"Dimension\" is " + std::to_string(dimension) + ". Write " + std::to_string(dimension) +
+                      " components in m/s^2, separated by commas.");
+    require_entry(!output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
     grid.check(dimension);
-    boundaries.check();
+    boundaries.check(dimension);
     body_force.check(dimension);
-    settling.check(dimension);
+    settling.check(gravity);
     for (const auto &body : bodies)
-      body.check(dimension);
+      body.check(gravity);
   }
 
 
-
-  const std::string &Parameters::original() const
+  const std::string &
+  Parameters::original() const
   {
-    return original_text;
+    return file.text();
   }
 
 
+  InputError
+  Parameters::error(const EntryError &error) const
+  {
+    return file.error(error.what());
+  }
 
-  void Parameters::print(std::ostream &out)
+
+  void
+  Parameters::print(std::ostream &out)
   {
     handler.print_parameters(out, ParameterHandler::Text);
   }

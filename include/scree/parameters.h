@@ -5,6 +5,7 @@
 #include <scree/grid/background_grid.h>
 #include <scree/grid/boundary_conditions.h>
 #include <scree/initial/initial_state.h>
+#include <scree/input_error.h>
 #include <scree/material/table.h>
 #include <scree/output/output_parameters.h>
 #include <scree/points/seeding.h>
@@ -14,18 +15,19 @@
 
 namespace scree
 {
-  /// One body of soil: where it is, what it is made of, how it starts. One subsection of the `.prm`, named after the body.
+  /// One body of soil: where it is, what it is made of, how it starts. One subsection of the `.prm`, named after the
+  /// body.
   struct BodyParameters
   {
-    std::string            name;
-    SeedingParameters      seeding;
-    MaterialParameters     material;
+    std::string name;
+    SeedingParameters seeding;
+    MaterialParameters material;
     InitialStateParameters initial_state;
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws at impossible combinations of entries.
-    void check(const unsigned int dim) const;
+    /// Throws EntryError or dealii::ExcMessage at impossible combinations of entries.
+    void check(const std::vector<double> &gravity) const;
 
     /// Density of the dry body, kg/m^3: grains times (1 - porosity).
     double bulk_density() const;
@@ -41,41 +43,38 @@ namespace scree
     /// The defaults, as needed to print a template of all entries.
     Parameters();
 
-    unsigned int        dimension = 2;
-    double              end_time  = 1;
-    std::string         output_directory{"results/scree"};
-    std::vector<double> gravity{0., -9.81};
+    unsigned int dimension = 2;
+    double end_time        = 1;
+    std::string output_directory{ "results/scree" };
+    std::vector<double> gravity{ 0., -9.81 };
 
-    GridParameters              grid;
-    TimeStepParameters          time_step;
-    TransferParameters          transfer;
-    StabilisationParameters     stabilisation;
-    BodyForceParameters         body_force;
+    GridParameters grid;
+    TimeStepParameters time_step;
+    TransferParameters transfer;
+    StabilisationParameters stabilisation;
+    BodyForceParameters body_force;
     std::vector<BodyParameters> bodies;
-    BoundaryParameters          boundaries;
-    SettlingParameters          settling;
-    OutputParameters            output;
+    BoundaryParameters boundaries;
+    SettlingParameters settling;
+    OutputParameters output;
 
     /// The text of the file as it was read.
     const std::string &original() const;
+
+    /// An error met later, with file and line before its message.
+    InputError error(const EntryError &error) const;
 
     /// Writes every entry with its value, default and explanation.
     void print(std::ostream &out);
 
   private:
+    void name_bodies();
     void declare(dealii::ParameterHandler &prm);
     void check() const;
 
-    std::string              original_text;
-    std::vector<std::string> body_names{"Soil"};
+    InputFile file;
+    std::vector<std::string> body_names{ "Soil" };
     dealii::ParameterHandler handler;
-  };
-
-  /// A fault of the user's input; what() is the whole message.
-  class InputError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
   };
 } // namespace scree
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/grid/background_grid.h>
+#include <scree/input_error.h>
 
 #include <deal.II/fe/fe_bernstein.h>
 #include <deal.II/fe/fe_q.h>
@@ -54,7 +55,8 @@ namespace scree
                       upper_corner,
                       "Upper corner of the box, m, one number an axis.",
                       Patterns::List(Patterns::Double(), 2, 3));
-    prm.add_parameter("Cell size", cell_size, "Width of the cubic cells, m; must divide the box.", Patterns::Double(0));
+    prm.add_parameter(
+        "Cell size", cell_size, "Width of the cubic cells, m; must divide the box.", Patterns::Double(1e-12));
     prm.add_parameter("Basis",
                       basis,
                       "Shape functions: spline (C1 quadratic B-splines), quadratic (C0) or linear (hat functions).",
@@ -66,28 +68,42 @@ namespace scree
 
   void GridParameters::check(const unsigned int dim) const
   {
-    const std::string where = "Subsection Mesh: ";
     for (const auto &[name, corner] : {std::make_pair("Lower corner", lower_corner), {"Upper corner", upper_corner}})
-      AssertThrow(corner.size() == dim,
-                  ExcMessage(where + "'" + name + "' has " + std::to_string(corner.size()) + " numbers, but Dimension is " +
-                             std::to_string(dim) + ". Write " + std::to_string(dim) + " numbers, separated by commas."));
-    AssertThrow(cell_size > 0, ExcMessage(where + "'Cell size' is 0. Write a width above 0, in m."));
+      require_entry(corner.size() == dim,
+                    "Mesh",
+                    name,
+                    number_text(corner),
+                    "entry \"Dimension\" is " + std::to_string(dim) + ". Write " + std::to_string(dim) +
+                        " coordinates in m, separated by commas.");
+    double n_cells = 1;
     for (unsigned int a = 0; a < dim; ++a)
       {
-        const double length = upper_corner[a] - lower_corner[a];
-        AssertThrow(length > 0,
-                    ExcMessage(where + "'Upper corner' is not above 'Lower corner' along axis " + std::to_string(a + 1) +
-                               ": " + Utilities::to_string(lower_corner[a]) + " and " +
-                               Utilities::to_string(upper_corner[a]) + " m. Swap or widen them."));
+        const std::string axis = std::string(1, "xyz"[a]);
+        const double length    = upper_corner[a] - lower_corner[a];
+        require_entry(length > 0,
+                      "Mesh",
+                      "Upper corner",
+                      number_text(upper_corner),
+                      "the box has no width along " + axis + ", since \"Lower corner\" = " + number_text(lower_corner) +
+                          ". Write a larger coordinate.");
         const double cells = length / cell_size;
-        AssertThrow(std::abs(cells - std::round(cells)) < 1e-6 && std::round(cells) >= 1,
-                    ExcMessage(where + "'Cell size' " + Utilities::to_string(cell_size) + " m does not divide the box: its " +
-                               "length along axis " + std::to_string(a + 1) + " is " + Utilities::to_string(length) +
-                               " m, that is " + Utilities::to_string(cells) + " cells. Try " +
-                               Utilities::to_string(length / std::max(1., std::round(cells))) + " m, or change the corners."));
+        require_entry(std::abs(cells - std::round(cells)) < 1e-6 && std::round(cells) >= 1,
+                      "Mesh",
+                      "Cell size",
+                      number_text(cell_size),
+                      "it does not divide the box: " + number_text(length) + " m along " + axis + " are " +
+                          number_text(cells) + " cells. Try " + number_text(length / std::max(1., std::round(cells))) +
+                          ", or move a corner.");
+        n_cells *= cells;
       }
+    constexpr double most_cells = 1e9; // beyond the memory of any machine this runs on
+    require_entry(n_cells <= most_cells,
+                  "Mesh",
+                  "Cell size",
+                  number_text(cell_size),
+                  "the box would have " + number_text(n_cells) +
+                      " cells, and at most 1e9 are allowed. Write a larger size.");
   }
-
 
 
   template <int dim>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/grid/boundary_conditions.h>
+#include <scree/input_error.h>
 
 #include <cmath>
 
@@ -12,38 +13,37 @@ namespace scree
     constexpr char pattern_text[] = "fixed | free slip | friction ANGLE (degrees, 0 to below 90) | open";
 
     /// Reads one wall, or throws with the words that are allowed.
-    Wall wall_from_text(const std::string &name, const std::string &text)
+    Wall
+    wall_from_text(const std::string &name, const std::string &text)
     {
       if (text == "fixed")
-        return {WallType::fixed, 0.};
+        return { WallType::fixed, 0. };
       if (text == "free slip")
-        return {WallType::free_slip, 0.};
+        return { WallType::free_slip, 0. };
       if (text == "open")
-        return {WallType::open, 0.};
+        return { WallType::open, 0. };
       if (text.rfind("friction ", 0) == 0)
         {
-          std::size_t  end   = 0;
-          double       angle = -1.;
-          const auto   rest  = Utilities::trim(text.substr(9));
+          std::size_t end = 0;
+          double angle    = -1.;
+          const auto rest = Utilities::trim(text.substr(9));
           try
             {
               angle = std::stod(rest, &end);
             }
           catch (const std::exception &)
-            {}
+            {
+            }
           if (end == rest.size() && angle >= 0. && angle < 90.)
-            return {WallType::friction, std::tan(angle * numbers::PI / 180.)};
+            return { WallType::friction, std::tan(angle * numbers::PI / 180.) };
         }
-      AssertThrow(false,
-                  ExcMessage("Subsection Boundaries: '" + name + "' is '" + text + "'. Write one of: " + pattern_text +
-                             "."));
-      return {};
+      throw EntryError(entry_name("Boundaries", name) + " = " + text + ": write one of: " + pattern_text + '.');
     }
   } // namespace
 
 
-
-  void BoundaryParameters::add_parameters(ParameterHandler &prm)
+  void
+  BoundaryParameters::add_parameters(ParameterHandler &prm)
   {
     const std::string what = std::string(" of the box: ") + pattern_text + ".";
     prm.enter_subsection("Boundaries");
@@ -57,26 +57,35 @@ namespace scree
   }
 
 
-
-  void BoundaryParameters::check() const
+  void
+  BoundaryParameters::check(const unsigned int dim) const
   {
     walls(3);
+    const BoundaryParameters defaults;
+    if (dim == 2)
+      for (const auto &[name, wall, otherwise] :
+           { std::make_tuple("Front", front, defaults.front), std::make_tuple("Back", back, defaults.back) })
+        require_entry(wall == otherwise,
+                      "Boundaries",
+                      name,
+                      wall,
+                      "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
   }
 
 
-
-  std::vector<std::string> BoundaryParameters::face_names(const unsigned int dim)
+  std::vector<std::string>
+  BoundaryParameters::face_names(const unsigned int dim)
   {
     if (dim == 2)
-      return {"Left", "Right", "Bottom", "Top"};
-    return {"Left", "Right", "Front", "Back", "Bottom", "Top"};
+      return { "Left", "Right", "Bottom", "Top" };
+    return { "Left", "Right", "Front", "Back", "Bottom", "Top" };
   }
 
 
-
-  std::vector<Wall> BoundaryParameters::walls(const unsigned int dim) const
+  std::vector<Wall>
+  BoundaryParameters::walls(const unsigned int dim) const
   {
-    std::vector<Wall> result{wall_from_text("Left", left), wall_from_text("Right", right)};
+    std::vector<Wall> result{ wall_from_text("Left", left), wall_from_text("Right", right) };
     if (dim == 3)
       {
         result.push_back(wall_from_text("Front", front));
@@ -88,17 +97,17 @@ namespace scree
   }
 
 
-
   template <int dim>
   BoundaryConditions<dim>::BoundaryConditions(const BackgroundGrid<dim> &grid, const BoundaryParameters &parameters)
-    : grid(grid)
-    , walls(parameters.walls(dim))
-  {}
-
+      : grid(grid)
+      , walls(parameters.walls(dim))
+  {
+  }
 
 
   template <int dim>
-  void BoundaryConditions<dim>::apply(Tensor<1, dim> &velocity, const std::uint8_t faces) const
+  void
+  BoundaryConditions<dim>::apply(Tensor<1, dim> &velocity, const std::uint8_t faces) const
   {
     for (unsigned int f = 0; f < 2 * dim; ++f)
       if ((faces >> f) & 1)
@@ -106,48 +115,48 @@ namespace scree
           const unsigned int axis = f / 2;
           switch (walls[f].type)
             {
-              case WallType::fixed:
-                velocity = 0.;
-                return;
-              case WallType::free_slip:
-                velocity[axis] = 0.;
-                break;
-              case WallType::friction:
-                {
-                  const double inward = (f % 2 == 0 ? 1. : -1.) * velocity[axis];
-                  if (inward >= 0.)
-                    break;
-                  // The wall stops the normal motion; its impulse bounds the tangential one (Coulomb).
-                  velocity[axis]     = 0.;
-                  const double speed = velocity.norm();
-                  const double loss  = -walls[f].friction_coefficient * inward;
-                  velocity *= speed > loss ? 1. - loss / speed : 0.;
+            case WallType::fixed:
+              velocity = 0.;
+              return;
+            case WallType::free_slip:
+              velocity[axis] = 0.;
+              break;
+            case WallType::friction:
+              {
+                const double inward = (f % 2 == 0 ? 1. : -1.) * velocity[axis];
+                if (inward >= 0.)
                   break;
-                }
-              case WallType::open:
+                // The wall stops the normal motion; its impulse bounds the tangential one (Coulomb).
+                velocity[axis]     = 0.;
+                const double speed = velocity.norm();
+                const double loss  = -walls[f].friction_coefficient * inward;
+                velocity *= speed > loss ? 1. - loss / speed : 0.;
                 break;
+              }
+            case WallType::open:
+              break;
             }
         }
   }
 
 
-
   template <int dim>
-  std::pair<std::string, bool> BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
+  std::pair<std::string, bool>
+  BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
   {
     unsigned int crossed = 0;
-    double       largest = -std::numeric_limits<double>::infinity();
+    double largest       = -std::numeric_limits<double>::infinity();
     for (unsigned int f = 0; f < 2 * dim; ++f)
       {
         const double outside =
-          f % 2 == 0 ? grid.lower_corner()[f / 2] - location[f / 2] : location[f / 2] - grid.upper_corner()[f / 2];
+            f % 2 == 0 ? grid.lower_corner()[f / 2] - location[f / 2] : location[f / 2] - grid.upper_corner()[f / 2];
         if (outside > largest)
           {
             largest = outside;
             crossed = f;
           }
       }
-    return {BoundaryParameters::face_names(dim)[crossed], walls[crossed].type == WallType::open};
+    return { BoundaryParameters::face_names(dim)[crossed], walls[crossed].type == WallType::open };
   }
 
   template class BoundaryConditions<2>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
+#include <scree/input_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,7 @@ namespace scree
         axis = a;
     up = gravity[axis] < 0 ? 1. : -1.;
     AssertThrow(this->gravity > 0 && std::abs(gravity[axis]) > (1. - 1e-12) * this->gravity,
-                ExcMessage("A K0 start needs 'Gravity' along one axis. Change 'Gravity', or write 'Type = none' or "
-                           "'isotropic' in subsection Initial state."));
+                ExcMessage("A K0 start needs gravity along one axis."));
   }
 
 
@@ -100,20 +100,29 @@ namespace scree
   template <int dim>
   void set_k0_stress(Phase<dim> &phase, Overburden<dim> &overburden, const double k0)
   {
-    for (const auto &cell : phase.points.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          const double vertical = -overburden.weight_above(cell.location[p]);
-          double       stress[n_symmetric_components<dim>] = {};
-          for (unsigned int a = 0; a < 3; ++a)
-            stress[a] = (a == overburden.vertical_axis() ? 1. : k0) * vertical;
+    std::string fault; // The law may refuse the stress of points on one rank only.
+    try
+      {
+        for (const auto &cell : phase.points.cells())
+          for (unsigned int p = 0; p < cell.n_points; ++p)
+            {
+              const double vertical                      = -overburden.weight_above(cell.location[p]);
+              double stress[n_symmetric_components<dim>] = {};
+              for (unsigned int a = 0; a < 3; ++a)
+                stress[a] = (a == overburden.vertical_axis() ? 1. : k0) * vertical;
 
-          double *properties = cell.properties + p * phase.points.stride();
-          phase.material->initialise(stress,
-                                     properties + phase.layout.left_cauchy_green,
-                                     properties + phase.layout.stress,
-                                     properties + phase.layout.internal_variables);
-        }
+              double *properties = cell.properties + p * phase.points.stride();
+              phase.material->initialise(stress,
+                                         properties + phase.layout.left_cauchy_green,
+                                         properties + phase.layout.stress,
+                                         properties + phase.layout.internal_variables);
+            }
+      }
+    catch (const ExceptionBase &error)
+      {
+        fault = entry_name(phase.name + "/Initial state", "K0") + " = " + number_text(k0) + ": " + plain_text(error);
+      }
+    throw_on_all_ranks(fault, overburden.communicator());
   }
 
 

@@ -1,35 +1,56 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/initial_state.h>
+#include <scree/input_error.h>
 #include <scree/points/region.h>
+
+#include <algorithm>
 
 namespace scree
 {
   using namespace dealii;
 
-  void InitialStateParameters::add_parameters(ParameterHandler &prm)
+  void
+  InitialStateParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Initial state");
-    prm.add_parameter("Type",
-                      type,
-                      "Stress before the first step: none; K0 (weight above the point, K0 times that sideways); isotropic.",
-                      Patterns::Selection("none|K0|isotropic"));
+    prm.add_parameter(
+        "Type",
+        type,
+        "Stress before the first step: none; K0 (weight above the point, K0 times that sideways); isotropic.",
+        Patterns::Selection("none|K0|isotropic"));
     prm.add_parameter("K0", k0, "Horizontal over vertical stress.", Patterns::Double(0, 10));
     prm.add_parameter("Pressure", pressure, "Isotropic stress, Pa, compression positive.", Patterns::Double(0));
     prm.leave_subsection();
   }
 
 
-
-  void InitialStateParameters::check(const std::string &body) const
+  void
+  InitialStateParameters::check(const std::string &body, const std::vector<double> &gravity) const
   {
-    AssertThrow(type != "isotropic" || pressure > 0,
-                ExcMessage("Subsection " + body + "/Initial state: 'Type' is isotropic, but 'Pressure' is " +
-                           Utilities::to_string(pressure) + ". Write a pressure above 0, in Pa."));
+    const std::string subsection = body + "/Initial state";
+    const InitialStateParameters defaults;
+    require_entry(type == "isotropic" ? pressure > 0 : pressure == 0,
+                  subsection,
+                  "Pressure",
+                  number_text(pressure),
+                  type == "isotropic" ? "an isotropic start needs a pressure above 0, in Pa."
+                                      : "nothing reads it. Remove it, or write \"Type = isotropic\".");
+    require_entry(type == "K0" || k0 == defaults.k0,
+                  subsection,
+                  "K0",
+                  number_text(k0),
+                  "nothing reads it. Remove it, or write \"Type = K0\".");
+    require_entry(type != "K0" || std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(gravity.size()),
+                  subsection,
+                  "Type",
+                  type,
+                  "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
+                      number_text(gravity) + ". Change it, or write \"Type = none\" or \"Type = isotropic\".");
   }
 
 
-
-  void SettlingParameters::add_parameters(ParameterHandler &prm)
+  void
+  SettlingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
     prm.add_parameter("Maximum time",
@@ -50,12 +71,23 @@ namespace scree
   }
 
 
-
-  void SettlingParameters::check(const unsigned int dim) const
+  void
+  SettlingParameters::check(const std::vector<double> &gravity) const
   {
+    const std::size_t dim = gravity.size();
+    require_entry(maximum_time == 0 || std::count(gravity.begin(), gravity.end(), 0.) < long(dim),
+                  "Settling",
+                  "Maximum time",
+                  number_text(maximum_time),
+                  "without gravity nothing settles. Change entry \"Gravity\", or write 0.");
+    require_entry(gate.empty() || maximum_time > 0,
+                  "Settling",
+                  "Gate",
+                  gate,
+                  "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
     if (!gate.empty() && dim == 2)
-      Region<2>("Subsection Settling: 'Gate'", gate);
+      Region<2>(entry_name("Settling", "Gate"), gate);
     if (!gate.empty() && dim == 3)
-      Region<3>("Subsection Settling: 'Gate'", gate);
+      Region<3>(entry_name("Settling", "Gate"), gate);
   }
 } // namespace scree

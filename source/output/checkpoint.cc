@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input_error.h>
 #include <scree/output/checkpoint.h>
 
 #include <deal.II/base/mpi.h>
@@ -75,9 +76,12 @@ namespace scree
   {
     const std::string folder = run_folder + "/checkpoint/";
     const std::string name   = latest(folder);
-    AssertThrow(!name.empty(),
-                ExcMessage("There is no checkpoint to resume from in '" + folder +
-                           "'. Write a 'Checkpoint interval' in subsection Output and run without --resume first."));
+    require_entry(!name.empty(),
+                  "",
+                  "Output directory",
+                  run_folder,
+                  "there is no checkpoint to resume from. Write a \"Checkpoint interval\" in subsection Output and run "
+                  "without --resume first.");
 
     grid.load(folder + name + ".mesh");
     std::ifstream                   file(folder + name + ".state", std::ios::binary);

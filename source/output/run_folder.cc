@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input_error.h>
 #include <scree/output/run_folder.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,7 +13,8 @@ namespace scree
 
   namespace
   {
-    void remove_pictures(const std::filesystem::path &folder)
+    void
+    remove_pictures(const std::filesystem::path &folder)
     {
       for (const auto &entry : std::filesystem::directory_iterator(folder))
         if (const auto kind = entry.path().extension(); kind == ".vtu" || kind == ".pvtu" || kind == ".pvd")
@@ -21,11 +23,10 @@ namespace scree
   } // namespace
 
 
-
   RunFolder::RunFolder(const std::string &path, const bool keep, const bool to_screen, const MPI_Comm communicator)
-    : path(path)
-    , to_screen(to_screen)
-    , writer(Utilities::MPI::this_mpi_process(communicator) == 0)
+      : path(path)
+      , to_screen(to_screen)
+      , writer(Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     std::string fault;
     if (writer)
@@ -44,22 +45,24 @@ namespace scree
           }
       }
     fault = Utilities::MPI::broadcast(communicator, fault);
-    AssertThrow(fault.empty(),
-                ExcMessage("'Output directory' is '" + path + "', which cannot be used: " + fault +
-                           ". Name a folder in which you may write."));
+    require_entry(fault.empty(),
+                  "",
+                  "Output directory",
+                  path,
+                  "the run cannot write there: " + fault + ". Name a folder in which you may write.");
   }
 
 
-
-  void RunFolder::write(const std::string &name, const std::string &text) const
+  void
+  RunFolder::write(const std::string &name, const std::string &text) const
   {
     if (writer)
       std::ofstream(file(name)) << text;
   }
 
 
-
-  void RunFolder::log(const std::string &line)
+  void
+  RunFolder::log(const std::string &line)
   {
     if (!writer)
       return;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input_error.h>
 #include <scree/points/seeding.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,17 +16,15 @@ namespace scree
     struct Seed
     {
       Point<dim> location;
-      double     volume;
+      double volume;
     };
 
     /// The seeds of one cell. Cubes filled by less than a quarter join the nearest fuller one of the cell.
     template <int dim>
-    std::vector<Seed<dim>> seeds_of_cell(const Region<dim>  &region,
-                                         const Point<dim>   &lower,
-                                         const double        cell_size,
-                                         const unsigned int  n)
+    std::vector<Seed<dim>>
+    seeds_of_cell(const Region<dim> &region, const Point<dim> &lower, const double cell_size, const unsigned int n)
     {
-      const double           width = cell_size / n;
+      const double width = cell_size / n;
       std::vector<Seed<dim>> full, slivers;
       for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
         {
@@ -34,7 +33,7 @@ namespace scree
             corner[a] += width * (rest % n);
           const auto [volume, centroid] = region.part_of_cube(corner, width);
           if (volume > 0)
-            (volume < 0.25 * Utilities::fixed_power<dim>(width) ? slivers : full).push_back({centroid, volume});
+            (volume < 0.25 * Utilities::fixed_power<dim>(width) ? slivers : full).push_back({ centroid, volume });
         }
       for (const Seed<dim> &sliver : slivers)
         {
@@ -55,21 +54,23 @@ namespace scree
   } // namespace
 
 
-
-  void SeedingParameters::add_parameters(ParameterHandler &prm)
+  void
+  SeedingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Region",
                       region,
                       "Where the body is: inside where this expression of x, y (and z), in m, is true, e.g. "
                       "if(x < 2, y < 2, y < 4 - x).",
                       Patterns::Anything());
-    prm.add_parameter("Points per cell", points_per_cell, "Points along each axis of a cell.", Patterns::Integer(1, 32));
+    prm.add_parameter(
+        "Points per cell", points_per_cell, "Points along each axis of a cell.", Patterns::Integer(1, 32));
     prm.add_parameter("Grain density", grain_density, "Density of the grains, kg/m^3.", Patterns::Double(1e-12));
-    prm.add_parameter("Initial porosity",
-                      initial_porosity,
-                      "Volume of pores over total volume; -1: as the material law implies (Nor-Sand: 1 - 1/v_0; else 0). "
-                      "The bulk density is grain density times (1 - porosity).",
-                      Patterns::Double(-1, 0.999));
+    prm.add_parameter(
+        "Initial porosity",
+        initial_porosity,
+        "Volume of pores over total volume; -1: as the material law implies (Nor-Sand: 1 - 1/v_0; else 0). "
+        "The bulk density is grain density times (1 - porosity).",
+        Patterns::Double(-1, 0.999));
     prm.add_parameter("Initial velocity",
                       initial_velocity,
                       "Velocity at the start, m/s: an expression an axis, separated by semicolons; empty: at rest.",
@@ -77,14 +78,21 @@ namespace scree
   }
 
 
-
-  void SeedingParameters::check(const std::string &body, const unsigned int dim) const
+  void
+  SeedingParameters::check(const std::string &body, const unsigned int dim) const
   {
-    const std::string where_region = "Subsection " + body + ": 'Region'";
-    const std::string where_speed  = "Subsection " + body + ": 'Initial velocity'";
-    AssertThrow(initial_porosity == -1 || initial_porosity >= 0,
-                ExcMessage("Subsection " + body + ": 'Initial porosity' is " + Utilities::to_string(initial_porosity) +
-                           ". Write a number from 0 to 0.999, or -1 for what the material law implies."));
+    const std::string where_region = entry_name(body, "Region");
+    const std::string where_speed  = entry_name(body, "Initial velocity");
+    require_entry(region != SeedingParameters().region,
+                  body,
+                  "Region",
+                  region,
+                  "the body is nowhere. Write where it is, for instance x < 1 && y < 1");
+    require_entry(initial_porosity == -1 || initial_porosity >= 0,
+                  body,
+                  "Initial porosity",
+                  number_text(initial_porosity),
+                  "write a number from 0 to 0.999, or -1 for what the material law implies.");
     if (dim == 2)
       {
         Region<2>(where_region, region);
@@ -100,23 +108,22 @@ namespace scree
   }
 
 
-
   template <int dim>
-  void seed(Phase<dim>               &phase,
-            const SeedingParameters  &parameters,
-            const Triangulation<dim> &triangulation,
-            const double              cell_size)
+  void
+  seed(Phase<dim> &phase,
+       const SeedingParameters &parameters,
+       const Triangulation<dim> &triangulation,
+       const double cell_size)
   {
-    const std::string where_region = "Subsection " + phase.name + ": 'Region'";
-    const Region<dim> region(where_region, parameters.region);
-    const auto        velocity =
-      parameters.initial_velocity.empty() ?
-               nullptr :
-               parse_expression<dim>("Subsection " + phase.name + ": 'Initial velocity'", parameters.initial_velocity, dim);
+    const Region<dim> region(entry_name(phase.name, "Region"), parameters.region);
+    const auto velocity =
+        parameters.initial_velocity.empty()
+            ? nullptr
+            : parse_expression<dim>(entry_name(phase.name, "Initial velocity"), parameters.initial_velocity, dim);
 
     using Cell = typename Triangulation<dim>::active_cell_iterator;
     std::vector<std::pair<Cell, Seed<dim>>> seeds;
-    double                                  volume = 0;
+    double volume = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto &one : seeds_of_cell(region, cell->vertex(0), cell_size, parameters.points_per_cell))
@@ -126,12 +133,14 @@ namespace scree
           }
 
     const MPI_Comm communicator = triangulation.get_communicator();
-    AssertThrow(Utilities::MPI::sum(volume, communicator) > 0,
-                ExcMessage(where_region + " is '" + parameters.region +
-                           "', which is nowhere true inside the box of subsection Mesh. Move the region or the box."));
+    require_entry(Utilities::MPI::sum(volume, communicator) > 0,
+                  phase.name,
+                  "Region",
+                  parameters.region,
+                  "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
 
     const auto ids = Utilities::MPI::create_ascending_partitioning(
-      communicator, seeds.size())[Utilities::MPI::this_mpi_process(communicator)];
+        communicator, seeds.size())[Utilities::MPI::this_mpi_process(communicator)];
     auto id = ids.begin();
 
     auto &handler = phase.points.handler();

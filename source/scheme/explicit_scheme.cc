@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input_error.h>
 #include <scree/points/region.h>
 #include <scree/scheme/explicit_scheme.h>
 
@@ -22,9 +23,9 @@ namespace scree
   void BodyForceParameters::check(const unsigned int dim) const
   {
     if (!expression.empty() && dim == 2)
-      parse_expression<2>("'Body force'", expression, 2, true);
+      parse_expression<2>(entry_name("", "Body force"), expression, 2, true);
     if (!expression.empty() && dim == 3)
-      parse_expression<3>("'Body force'", expression, 3, true);
+      parse_expression<3>(entry_name("", "Body force"), expression, 3, true);
   }
 
 
@@ -50,7 +51,7 @@ namespace scree
     , acceleration(make_array_view(gravity))
   {
     if (!body_force.expression.empty())
-      this->body_force = parse_expression<dim>("'Body force'", body_force.expression, dim, true);
+      this->body_force = parse_expression<dim>(entry_name("", "Body force"), body_force.expression, dim, true);
   }
 
 

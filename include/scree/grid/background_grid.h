@@ -33,7 +33,7 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws unless the corners have `dim` coordinates and the cell size divides the box.
+    /// Throws EntryError unless the corners have `dim` coordinates and the cell size divides the box.
     void check(const unsigned int dim) const;
   };
 

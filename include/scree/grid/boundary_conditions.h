@@ -35,8 +35,8 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws if an entry does not read as a wall.
-    void check() const;
+    /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
+    void check(const unsigned int dim) const;
 
     /// Names of the faces in deal.II's numbering: lower and upper face of each axis.
     static std::vector<std::string> face_names(const unsigned int dim);

@@ -34,6 +34,12 @@ namespace scree
     /// Vertical total stress from the weight above `x`, Pa, compression positive.
     double weight_above(const dealii::Point<dim> &x);
 
+    MPI_Comm
+    communicator() const
+    {
+      return grid.triangulation().get_communicator();
+    }
+
     /// The axis of gravity.
     unsigned int vertical_axis() const
     {
@@ -60,6 +66,7 @@ namespace scree
   };
 
   /// Gives the points the geostatic stress of their depth: vertical from the weight above, horizontal K0 times that.
+  /// Collective; throws EntryError if the law cannot bear that.
   template <int dim>
   void set_k0_stress(Phase<dim> &phase, Overburden<dim> &overburden, const double k0);
 

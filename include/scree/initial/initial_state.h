@@ -5,30 +5,36 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
+#include <vector>
 
 namespace scree
 {
   /// Subsection Initial state of a body: stress before the first step.
   struct InitialStateParameters
   {
-    std::string type     = "none"; ///< none | K0 | isotropic
-    double      k0       = 0.5;    ///< horizontal over vertical stress
-    double      pressure = 0;      ///< Pa, isotropic
+    std::string type = "none"; ///< none | K0 | isotropic
+    double k0        = 0.5;    ///< horizontal over vertical stress
+    double pressure  = 0;      ///< Pa, isotropic
 
     void add_parameters(dealii::ParameterHandler &prm);
-    void check(const std::string &body) const;
+
+    /// Throws EntryError at impossible combinations; `body` is the enclosing subsection.
+    void check(const std::string &body, const std::vector<double> &gravity) const;
   };
 
   /// Subsection Settling: motion under gravity with damping, before the release at t = 0.
   struct SettlingParameters
   {
-    double      maximum_time   = 0;    ///< s; 0: no settling
-    double      damping_rate   = 20;   ///< 1/s
-    double      kinetic_energy = 1e-8; ///< ends when kinetic energy falls below this part of the elastic energy
-    std::string gate;                  ///< nodes where this is true are held until the release
+    double maximum_time   = 0;    ///< s; 0: no settling
+    double damping_rate   = 20;   ///< 1/s
+    double kinetic_energy = 1e-8; ///< ends when kinetic energy falls below this part of the elastic energy
+    std::string gate;             ///< nodes where this is true are held until the release
 
     void add_parameters(dealii::ParameterHandler &prm);
-    void check(const unsigned int dim) const;
+
+    /// Throws EntryError at impossible combinations.
+    /// @param gravity m/s^2
+    void check(const std::vector<double> &gravity) const;
   };
 } // namespace scree
 

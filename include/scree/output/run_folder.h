@@ -13,7 +13,7 @@ namespace scree
   class RunFolder
   {
   public:
-    /// Makes the folder and its folder `solution`. Collective; throws dealii::ExcMessage on all ranks if it is not writable.
+    /// Makes the folder and its folder `solution`. Collective; throws EntryError on all ranks if it is not writable.
     /// @param keep whether a run is resumed: the log goes on, else pictures of an earlier run are removed
     RunFolder(const std::string &path, const bool keep, const bool to_screen, const MPI_Comm communicator);
 

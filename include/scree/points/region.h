@@ -9,8 +9,8 @@
 
 namespace scree
 {
-  /// Reads an expression of x, y (and z), and of t if `with_time`, or throws dealii::ExcMessage that begins with `where`
-  /// (subsection and entry) and shows the text. `n_components` expressions are separated by semicolons.
+  /// Reads an expression of x, y (and z), and of t if `with_time`, or throws EntryError that begins with `where`
+  /// (see entry_name()) and shows the text. `n_components` expressions are separated by semicolons.
   template <int dim>
   std::unique_ptr<dealii::FunctionParser<dim>> parse_expression(const std::string &where,
                                                                 const std::string &text,
@@ -22,7 +22,7 @@ namespace scree
   class Region
   {
   public:
-    /// @param where subsection and entry, for the message if the expression does not parse
+    /// @param where entry_name(), for the message if the expression does not parse
     Region(const std::string &where, const std::string &expression);
 
     bool contains(const dealii::Point<dim> &x) const

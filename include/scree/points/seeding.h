@@ -23,13 +23,14 @@ namespace scree
     /// Declares the entries in the body's subsection.
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws if an expression does not read; `body` is the name of the subsection.
+    /// Throws EntryError if an expression does not read; `body` is the name of the subsection.
     void check(const std::string &body, const unsigned int dim) const;
   };
 
   /// Fills the phase's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point stands
   /// at the centroid of the part of its cube that is inside and has its volume, and slivers join their neighbour.
-  /// Points get volume, mass and velocity, and are stress-free. Collective; throws if the region holds no volume.
+  /// Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
+  /// holds no volume.
   template <int dim>
   void seed(Phase<dim>                       &phase,
             const SeedingParameters          &parameters,
