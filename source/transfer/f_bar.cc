@@ -36,7 +36,7 @@ namespace scree
     }
 
     template <int dim>
-    void average_volume_change(CellMotion<dim> &motion, const unsigned int n_points)
+    void average_volume_change(const FBar kind, CellMotion<dim> &motion, const unsigned int n_points)
     {
       double weighted = 0, volume = 0;
       for (unsigned int p = 0; p < n_points; ++p)
@@ -50,6 +50,8 @@ namespace scree
           const double scale = std::cbrt(mean / motion.volume_change[p]);
           motion.deformation_increment[p] *= scale;
           motion.out_of_plane_stretch[p] = scale;
+          if (kind == FBar::modified)
+            motion.volume_change[p] = mean;
         }
     }
   } // namespace
@@ -63,7 +65,7 @@ namespace scree
       return;
     if (kind == FBar::modified)
       average_elastic_volume_strain(motion, points);
-    average_volume_change(motion, points.n_points);
+    average_volume_change(kind, motion, points.n_points);
   }
 
   template void apply_f_bar(const FBar, CellMotion<2> &, const MaterialPoints<2> &);

@@ -145,19 +145,21 @@ namespace scree
             if (!(square <= largest_square)) // keeps a NaN
               largest_square = square;
 
-            double      &volume            = properties[layout.volume];
-            const double reference_volume  = properties[layout.mass] / phase.density;
             motion.deformation_increment[p] = increment;
             motion.out_of_plane_stretch[p]  = 1.;
             motion.volume_change[p]         = determinant(increment);
-            motion.volume[p]                = volume;
-            volume *= motion.volume_change[p];
-            motion.volume_ratio[p]     = volume / reference_volume;
-            motion.reference_volume[p] = reference_volume;
+            motion.volume[p]                = properties[layout.volume];
+            motion.reference_volume[p]      = properties[layout.mass] / phase.density;
           }
 
         const auto points = phase.material_points(cell);
         apply_f_bar(f_bar, motion, points);
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          {
+            double &volume = cell.properties[p * phase.points.stride() + layout.volume];
+            volume *= motion.volume_change[p];
+            motion.volume_ratio[p] = volume / motion.reference_volume[p];
+          }
         phase.material->update(points, motion.material_motion(), report.material);
       }
     report.largest_speed = std::sqrt(largest_square);

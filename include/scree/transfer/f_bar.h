@@ -17,7 +17,7 @@ namespace scree
   {
     std::vector<dealii::Tensor<2, dim>> deformation_increment; ///< dF
     std::vector<double>                 out_of_plane_stretch;  ///< dF_zz
-    std::vector<double>                 volume_change;         ///< dJ = det dF, before F-bar
+    std::vector<double>                 volume_change;         ///< dJ of the points' volume
     std::vector<double>                 volume;                ///< V at the start of the step, m^3
     std::vector<double>                 volume_ratio;          ///< J = V/V_0 at its end
     std::vector<double>                 reference_volume;      ///< V_0, m^3
@@ -42,8 +42,10 @@ namespace scree
   /// Cell averages against volumetric locking, on the motion and the stored elastic state of one cell's points.
   ///
   /// Standard (Coombs et al. 2018): dF becomes (mean dJ / dJ)^(1/3) dF with the cell's volume-weighted mean of dJ.
-  /// Modified (Xie, Navas & Lopez-Querol 2024): the same, and before it ln J_e of every point becomes the cell's
-  /// volume-weighted mean; the deviator stays. Separated points count in the mean: their gap has to close.
+  /// Modified (after Xie, Navas & Lopez-Querol 2024): the same, and before it ln J_e of every point becomes the cell's
+  /// volume-weighted mean; the deviator stays. Separated points count in the mean: their gap has to close. The points'
+  /// volume follows the mean dJ, too: with the points' own dJ the volumes of a cell drift apart unfelt, until dense
+  /// points dilate against loose ones (doc/verification.md has the measurement).
   template <int dim>
   void apply_f_bar(const FBar kind, CellMotion<dim> &motion, const MaterialPoints<dim> &points);
 } // namespace scree
