@@ -18,27 +18,23 @@ namespace scree
 
   namespace
   {
-    std::string
-    quoted(const std::string &text)
+    std::string quoted(const std::string &text)
     {
       return '"' + text + '"';
     }
 
-    std::string
-    shown(const std::string &value)
+    std::string shown(const std::string &value)
     {
       return value.empty() ? "(empty)" : value;
     }
 
-    std::string
-    joined(const std::string &path, const std::string &name)
+    std::string joined(const std::string &path, const std::string &name)
     {
       return path.empty() ? name : path + '/' + name;
     }
 
     /// One blank for tabs, ends of lines and several blanks, as deal.II reads a line.
-    std::string
-    single_blanks(const std::string &text)
+    std::string single_blanks(const std::string &text)
     {
       std::istringstream in(text);
       std::string word, result;
@@ -47,16 +43,14 @@ namespace scree
       return result;
     }
 
-    std::string
-    lower_case(std::string text)
+    std::string lower_case(std::string text)
     {
       std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) { return std::tolower(c); });
       return text;
     }
 
 
-    std::string
-    read_text(const std::string &file, const std::string &remedy)
+    std::string read_text(const std::string &file, const std::string &remedy)
     {
       std::ifstream in(file);
       std::ostringstream text;
@@ -95,8 +89,7 @@ namespace scree
       }
 
     private:
-      void
-      collect(const boost::property_tree::ptree &tree, const std::string &path)
+      void collect(const boost::property_tree::ptree &tree, const std::string &path)
       {
         for (const auto &[name, child] : tree)
           if (const auto pattern = child.get_optional<std::string>("pattern_description"))
@@ -110,8 +103,7 @@ namespace scree
     };
 
     template <class Name>
-    const Name *
-    find(const std::vector<Name> &names, const std::string &path, const std::string &name)
+    const Name *find(const std::vector<Name> &names, const std::string &path, const std::string &name)
     {
       const auto found =
           std::find_if(names.begin(), names.end(), [&](const Name &n) { return n.path == path && n.name == name; });
@@ -122,8 +114,7 @@ namespace scree
     // Suggestions -----------------------------------------------------------------------------------------------------
 
     /// Letters to insert, delete, change or swap with the next one (Damerau 1964), whatever their case.
-    unsigned int
-    edit_distance(const std::string &first, const std::string &second)
+    unsigned int edit_distance(const std::string &first, const std::string &second)
     {
       const std::string a = lower_case(first), b = lower_case(second);
       Table<2, unsigned int> distance(a.size() + 1, b.size() + 1);
@@ -142,8 +133,7 @@ namespace scree
     }
 
     /// 0: the same; large: no relation.
-    unsigned int
-    strangeness(const std::string &written, const std::string &meant)
+    unsigned int strangeness(const std::string &written, const std::string &meant)
     {
       constexpr unsigned int unrelated = 1000;
       const unsigned int distance      = edit_distance(written, meant);
@@ -158,8 +148,7 @@ namespace scree
 
     /// The names closest to `written`: those in the subsection `path` if there are any, else those elsewhere.
     template <class Name>
-    std::vector<Name>
-    closest(const std::vector<Name> &names, const std::string &path, const std::string &written)
+    std::vector<Name> closest(const std::vector<Name> &names, const std::string &path, const std::string &written)
     {
       std::vector<Name> result;
       for (const bool here : { true, false })
@@ -183,8 +172,7 @@ namespace scree
 
     /// `"Cell size"`, `"Cell size" in subsection Mesh`, `"K0" in subsection Sand/Initial state or Clay/Initial state`.
     template <class Name>
-    std::string
-    description(const std::vector<Name> &names, const std::string &path)
+    std::string description(const std::vector<Name> &names, const std::string &path)
     {
       std::string result = quoted(names.front().name);
       if (names.front().path == path)
@@ -201,8 +189,7 @@ namespace scree
 
     /// ` Did you mean "Mesh"?`, or ` It stands at ...` if the name is right, or nothing.
     template <class Name>
-    std::string
-    suggestion(const std::vector<Name> &names, const std::string &path, const std::string &written)
+    std::string suggestion(const std::vector<Name> &names, const std::string &path, const std::string &written)
     {
       const auto close = closest(names, path, written);
       if (close.empty())
@@ -216,15 +203,13 @@ namespace scree
     // Values ----------------------------------------------------------------------------------------------------------
 
     /// The text between two marks; to the end if there is no second one.
-    std::string
-    between(const std::string &text, const std::string &first, const std::string &second)
+    std::string between(const std::string &text, const std::string &first, const std::string &second)
     {
       const std::size_t begin = text.find(first) + first.size();
       return text.substr(begin, text.find(second, begin) - begin);
     }
 
-    std::string
-    range_text(const std::string &what, const std::string &lower, const std::string &upper)
+    std::string range_text(const std::string &what, const std::string &lower, const std::string &upper)
     {
       // Declarations exclude 0 by a tiny bound.
       constexpr double tiny = 1e-9;
@@ -241,8 +226,7 @@ namespace scree
     }
 
     /// What a pattern of deal.II asks for, in words.
-    std::string
-    pattern_text(const std::string &pattern)
+    std::string pattern_text(const std::string &pattern)
     {
       const auto starts_with = [&](const std::string &begin) { return pattern.rfind(begin, 0) == 0; };
       if (starts_with("[List of <"))
@@ -270,8 +254,7 @@ namespace scree
       return starts_with("[Anything") ? "" : pattern;
     }
 
-    std::string
-    value_remedy(const Entry &entry, const std::string &value)
+    std::string value_remedy(const Entry &entry, const std::string &value)
     {
       std::string remedy = "write " + pattern_text(entry.pattern) + '.';
       if (entry.pattern.rfind("[Selection ", 0) == 0)
@@ -286,27 +269,24 @@ namespace scree
   } // namespace
 
 
-  std::string
-  entry_name(const std::string &subsection, const std::string &entry)
+  std::string entry_name(const std::string &subsection, const std::string &entry)
   {
     return (subsection.empty() ? "" : "subsection " + subsection + ", ") + "entry " + quoted(entry);
   }
 
 
-  void
-  require_entry(const bool possible,
-                const std::string &subsection,
-                const std::string &entry,
-                const std::string &value,
-                const std::string &remedy)
+  void require_entry(const bool possible,
+                     const std::string &subsection,
+                     const std::string &entry,
+                     const std::string &value,
+                     const std::string &remedy)
   {
     if (!possible)
       throw EntryError(entry_name(subsection, entry) + " = " + shown(value) + ": " + remedy);
   }
 
 
-  std::string
-  number_text(const double value)
+  std::string number_text(const double value)
   {
     std::ostringstream text;
     text << value;
@@ -314,8 +294,7 @@ namespace scree
   }
 
 
-  std::string
-  number_text(const std::vector<double> &values)
+  std::string number_text(const std::vector<double> &values)
   {
     std::string text;
     for (const double value : values)
@@ -324,8 +303,7 @@ namespace scree
   }
 
 
-  std::string
-  plain_text(const ExceptionBase &error)
+  std::string plain_text(const ExceptionBase &error)
   {
     std::ostringstream text;
     error.print_info(text);
@@ -333,8 +311,7 @@ namespace scree
   }
 
 
-  void
-  throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator)
+  void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
@@ -356,8 +333,7 @@ namespace scree
   }
 
 
-  void
-  InputFile::read(const std::string &text, const std::string &file, std::vector<Statement> &open)
+  void InputFile::read(const std::string &text, const std::string &file, std::vector<Statement> &open)
   {
     std::istringstream in(text);
     std::string line, statement;
@@ -379,8 +355,7 @@ namespace scree
   }
 
 
-  void
-  InputFile::read_line(const std::string &line, const Statement &place, std::vector<Statement> &open)
+  void InputFile::read_line(const std::string &line, const Statement &place, std::vector<Statement> &open)
   {
     if (line.empty())
       return;
@@ -431,15 +406,13 @@ namespace scree
   }
 
 
-  InputError
-  InputFile::Statement::error(const std::string &message) const
+  InputError InputFile::Statement::error(const std::string &message) const
   {
     return InputError(file + ", line " + std::to_string(line) + ": " + message);
   }
 
 
-  std::string
-  InputFile::value(const std::string &entry, const std::string &otherwise) const
+  std::string InputFile::value(const std::string &entry, const std::string &otherwise) const
   {
     std::string result = otherwise;
     for (const Statement &statement : statements)
@@ -449,8 +422,7 @@ namespace scree
   }
 
 
-  void
-  InputFile::check(const ParameterHandler &prm) const
+  void InputFile::check(const ParameterHandler &prm) const
   {
     const Declared declared(prm);
     for (const Statement &statement : statements)
@@ -484,8 +456,7 @@ namespace scree
   }
 
 
-  InputError
-  InputFile::error(const std::string &message) const
+  InputError InputFile::error(const std::string &message) const
   {
     for (auto statement = statements.rbegin(); statement != statements.rend(); ++statement)
       if (statement->kind == Kind::set && message.rfind(entry_name(statement->path, statement->name) + " =", 0) == 0)

@@ -13,8 +13,7 @@ namespace
                            "       scree --help               this text\n"
                            "In parallel: mpirun -np 2 scree case.prm";
 
-  void
-  check_command_line(const std::vector<std::string> &arguments, const bool resume)
+  void check_command_line(const std::vector<std::string> &arguments, const bool resume)
   {
     std::string fault;
     if (arguments.empty())
@@ -28,8 +27,7 @@ namespace
   }
 
   template <int dim>
-  void
-  run(scree::Parameters &parameters, const scree::Start start)
+  void run(scree::Parameters &parameters, const scree::Start start)
   {
     try
       {
@@ -41,8 +39,7 @@ namespace
       }
   }
 
-  int
-  run_case(const std::vector<std::string> &arguments, std::ostream &out)
+  int run_case(const std::vector<std::string> &arguments, std::ostream &out)
   {
     if (arguments.size() == 1 && arguments[0] == "--help")
       {
@@ -67,8 +64,7 @@ namespace
 } // namespace
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);

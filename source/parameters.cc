@@ -10,8 +10,7 @@ namespace scree
 {
   using namespace dealii;
 
-  void
-  BodyParameters::add_parameters(ParameterHandler &prm)
+  void BodyParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection(name);
     seeding.add_parameters(prm);
@@ -21,8 +20,7 @@ namespace scree
   }
 
 
-  void
-  BodyParameters::check(const std::vector<double> &gravity) const
+  void BodyParameters::check(const std::vector<double> &gravity) const
   {
     seeding.check(name, gravity.size());
     material.check(name);
@@ -30,8 +28,7 @@ namespace scree
   }
 
 
-  double
-  BodyParameters::bulk_density() const
+  double BodyParameters::bulk_density() const
   {
     const double porosity =
         seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
@@ -69,8 +66,7 @@ namespace scree
   }
 
 
-  void
-  Parameters::name_bodies()
+  void Parameters::name_bodies()
   {
     // The names of the bodies are names of subsections: the declarations need them.
     static const std::set<std::string> taken{ "Mesh",       "Time step", "Transfer", "Stabilisation",
@@ -94,8 +90,7 @@ namespace scree
   }
 
 
-  void
-  Parameters::declare(ParameterHandler &prm)
+  void Parameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Dimension", dimension, "2 (plane strain) or 3.", Patterns::Integer(2, 3));
     prm.add_parameter("End time", end_time, "When the run ends, s.", Patterns::Double(1e-12));
@@ -122,8 +117,7 @@ namespace scree
   }
 
 
-  void
-  Parameters::check() const
+  void Parameters::check() const
   {
     require_entry(gravity.size() == dimension,
                   "",
@@ -141,22 +135,19 @@ namespace scree
   }
 
 
-  const std::string &
-  Parameters::original() const
+  const std::string &Parameters::original() const
   {
     return file.text();
   }
 
 
-  InputError
-  Parameters::error(const EntryError &error) const
+  InputError Parameters::error(const EntryError &error) const
   {
     return file.error(error.what());
   }
 
 
-  void
-  Parameters::print(std::ostream &out)
+  void Parameters::print(std::ostream &out)
   {
     handler.print_parameters(out, ParameterHandler::Text);
   }

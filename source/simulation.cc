@@ -49,24 +49,23 @@ namespace scree
   } // namespace
 
 
-
   template <int dim>
   Simulation<dim>::Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
-    : parameters(parameters)
-    , communicator(communicator)
-    , folder(parameters.output_directory,
-             start == Start::resume,
-             parameters.output.screen_kind() == Screen::progress,
-             communicator)
-    , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
-    , grid(parameters.grid, communicator)
-    , walls(grid, parameters.boundaries)
-    , field(grid)
-    , transfer(grid, parameters.transfer, parameters.stabilisation)
-    , scheme(grid, walls, parameters.gravity, parameters.body_force)
-    , clock(parameters.time_step)
-    , graphics(grid, parameters.output, parameters.output_directory)
-    , statistics(grid, scheme.gravity())
+      : parameters(parameters)
+      , communicator(communicator)
+      , folder(parameters.output_directory,
+               start == Start::resume,
+               parameters.output.screen_kind() == Screen::progress,
+               communicator)
+      , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+      , grid(parameters.grid, communicator)
+      , walls(grid, parameters.boundaries)
+      , field(grid)
+      , transfer(grid, parameters.transfer, parameters.stabilisation)
+      , scheme(grid, walls, parameters.gravity, parameters.body_force)
+      , clock(parameters.time_step)
+      , graphics(grid, parameters.output, parameters.output_directory)
+      , statistics(grid, scheme.gravity())
   {
     folder.write("original.prm", parameters.original());
     std::ostringstream all_entries;
@@ -81,16 +80,16 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Simulation<dim>::make_phases()
   {
     for (const BodyParameters &body : parameters.bodies)
       {
-        auto                      material = make_material<dim>(body.material);
+        auto material = make_material<dim>(body.material);
         const PropertyLayout<dim> layout(material->internal_variable_names().size(),
                                          parameters.transfer.carries_affine_field());
-        phases.emplace_back(body.name, body.bulk_density(), std::move(material), layout, grid.triangulation(), grid.mapping());
+        phases.emplace_back(
+            body.name, body.bulk_density(), std::move(material), layout, grid.triangulation(), grid.mapping());
       }
     // Cost sits where the points are; an empty cell costs a little.
     grid.triangulation().signals.weight.connect([this](const auto &cell, const auto) {
@@ -101,7 +100,6 @@ namespace scree
       return weight;
     });
   }
-
 
 
   template <int dim>
@@ -118,12 +116,11 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Simulation<dim>::set_initial_stress()
   {
     std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
-    auto                             body = parameters.bodies.begin();
+    auto body = parameters.bodies.begin();
     for (auto &phase : phases)
       {
         const InitialStateParameters &state = (body++)->initial_state;
@@ -136,28 +133,27 @@ namespace scree
           {
             std::vector<typename Overburden<dim>::Layer> layers;
             for (const auto &layer : parameters.bodies)
-              layers.push_back({Region<dim>("Subsection " + layer.name + ": 'Region'", layer.seeding.region),
-                                layer.bulk_density()});
+              layers.push_back({ Region<dim>("Subsection " + layer.name + ": 'Region'", layer.seeding.region),
+                                 layer.bulk_density() });
             overburden =
-              std::make_unique<Overburden<dim>>(grid, std::move(layers), scheme.gravity(), grid.cell_size() / 4);
+                std::make_unique<Overburden<dim>>(grid, std::move(layers), scheme.gravity(), grid.cell_size() / 4);
           }
         set_k0_stress(phase, *overburden, state.k0);
       }
   }
 
 
-
   template <int dim>
   void Simulation<dim>::set_phases_in_motion()
   {
-    std::vector<double> largest{0., 0.};
+    std::vector<double> largest{ 0., 0. };
     for (const auto &phase : phases)
       for (const auto &cell : phase.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
             const double *properties = cell.properties + p * phase.points.stride();
-            const double  bulk =
-              phase.material->initial_bulk_modulus(mean_effective_stress(properties + phase.layout.stress));
+            const double bulk =
+                phase.material->initial_bulk_modulus(mean_effective_stress(properties + phase.layout.stress));
             double square = 0;
             for (unsigned int a = 0; a < dim; ++a)
               square += properties[phase.layout.velocity + a] * properties[phase.layout.velocity + a];
@@ -170,12 +166,11 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Simulation<dim>::settle()
   {
     const SettlingParameters &settling = parameters.settling;
-    std::vector<char>         held;
+    std::vector<char> held;
     if (!settling.gate.empty())
       {
         const Region<dim> gate("Subsection Settling: 'Gate'", settling.gate);
@@ -184,13 +179,13 @@ namespace scree
       }
     scheme.start_settling(settling.damping_rate, held);
 
-    Clock                    settling_clock(parameters.time_step);
-    constexpr unsigned int   steps_between_checks = 50;
-    double                   ratio                = 0;
+    Clock settling_clock(parameters.time_step);
+    constexpr unsigned int steps_between_checks = 50;
+    double ratio                                = 0;
     while (settling_clock.time() < settling.maximum_time)
       {
         const double step =
-          settling_clock.next_step(grid.cell_size(), wave_speed, largest_speed, settling.maximum_time);
+            settling_clock.next_step(grid.cell_size(), wave_speed, largest_speed, settling.maximum_time);
         advance(step);
         settling_clock.advance(step, settling.maximum_time);
         if (settling_clock.step() % steps_between_checks == 0)
@@ -212,7 +207,6 @@ namespace scree
     totals = RunTotals<dim>();
     set_phases_in_motion();
   }
-
 
 
   template <int dim>
@@ -237,7 +231,6 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Simulation<dim>::advance(const double time_step)
   {
@@ -255,14 +248,14 @@ namespace scree
     }
 
     // largest wave speed and speed; whether a point left
-    std::vector<double> largest{0., 0., 0.};
+    std::vector<double> largest{ 0., 0., 0. };
     last_step = UpdateReport();
     for (auto &phase : phases)
       {
         {
           TimerOutput::Scope part(timer, "grid to points, stress");
           const MotionReport motion = transfer.to_points(phase, field, time_step);
-          largest[0] = std::max(largest[0], phase.wave_speed(motion.material.largest_bulk_modulus));
+          largest[0]                = std::max(largest[0], phase.wave_speed(motion.material.largest_bulk_modulus));
           largest[1] = motion.largest_speed <= largest[1] ? largest[1] : motion.largest_speed; // keeps a NaN
           last_step.add(motion.material);
         }
@@ -291,7 +284,6 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Simulation<dim>::account_for_lost_points()
   {
@@ -302,21 +294,21 @@ namespace scree
             const auto [face, is_open] = walls.face_crossed(point.location);
             AssertThrow(is_open,
                         ExcMessage("A point of " + phase.name + " left the box through the closed wall '" + face +
-                                   "' at (" + coordinates(point.location) + ") m, t = " +
-                                   Utilities::to_string(clock.time()) +
+                                   "' at (" + coordinates(point.location) +
+                                   ") m, t = " + Utilities::to_string(clock.time()) +
                                    " s. Remedies: a smaller 'Courant number', or 'open' in subsection Boundaries."));
-            const double         mass = point.properties[phase.layout.mass];
+            const double mass = point.properties[phase.layout.mass];
             const Tensor<1, dim> velocity(make_array_view(point.properties.begin() + phase.layout.velocity,
                                                           point.properties.begin() + phase.layout.velocity + dim));
             ++totals.n_lost;
             totals.lost_mass += mass;
             totals.lost_momentum += mass * velocity;
-            totals.lost_energy += mass * (0.5 * velocity.norm_square() - scheme.gravity() * (point.location - Point<dim>()));
+            totals.lost_energy +=
+                mass * (0.5 * velocity.norm_square() - scheme.gravity() * (point.location - Point<dim>()));
           }
         phase.points.lost().clear();
       }
   }
-
 
 
   template <int dim>
@@ -328,7 +320,7 @@ namespace scree
     double n_points = 0;
     for (const auto &phase : phases)
       n_points += phase.points.handler().n_locally_owned_particles();
-    const auto       load                 = Utilities::MPI::min_max_avg(n_points, communicator);
+    const auto load                       = Utilities::MPI::min_max_avg(n_points, communicator);
     constexpr double worthwhile_imbalance = 1.1;
     if (load.max < worthwhile_imbalance * load.avg)
       return;
@@ -347,26 +339,24 @@ namespace scree
   }
 
 
-
   template <int dim>
   double Simulation<dim>::next_appointment() const
   {
     const OutputParameters &output = parameters.output;
-    return std::min({parameters.end_time,
-                     due(n_pictures, output.interval),
-                     due(n_rows, output.interval_of_statistics()),
-                     due(n_checkpoints, output.checkpoint_interval)});
+    return std::min({ parameters.end_time,
+                      due(n_pictures, output.interval),
+                      due(n_rows, output.interval_of_statistics()),
+                      due(n_checkpoints, output.checkpoint_interval) });
   }
-
 
 
   template <int dim>
   void Simulation<dim>::report()
   {
     const OutputParameters &output = parameters.output;
-    const double            time   = clock.time();
-    const bool              at_end = reached(time, parameters.end_time);
-    TimerOutput::Scope      part(timer, "output");
+    const double time              = clock.time();
+    const bool at_end              = reached(time, parameters.end_time);
+    TimerOutput::Scope part(timer, "output");
 
     if (at_end || reached(time, due(n_rows, output.interval_of_statistics())))
       {
@@ -388,18 +378,16 @@ namespace scree
   }
 
 
-
   template <int dim>
   template <class Archive>
   void Simulation<dim>::serialize_state(Archive &archive)
   {
-    double             time = clock.time();
+    double time             = clock.time();
     unsigned long long step = clock.step();
     archive &time &step &wave_speed &largest_speed &last_time_step;
     archive &n_pictures &n_rows &n_checkpoints &totals &statistics &graphics;
     clock.set(time, step);
   }
-
 
 
   template <int dim>
@@ -412,7 +400,6 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Simulation<dim>::resume()
   {
@@ -420,7 +407,8 @@ namespace scree
     if (!folder.is_writer())
       totals = RunTotals<dim>(); // The writer holds the sums.
     field.reinit();
-    folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) + ".");
+    folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) +
+               ".");
   }
 
   template class Simulation<2>;

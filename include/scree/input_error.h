@@ -59,8 +59,7 @@ namespace scree
     explicit InputFile(const std::string &file);
 
     /// The text of the file as it was read.
-    const std::string &
-    text() const
+    const std::string &text() const
     {
       return whole_text;
     }

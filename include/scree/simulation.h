@@ -55,34 +55,34 @@ namespace scree
     void set_phases_in_motion();
 
     double next_appointment() const;
-    void   report();
-    void   account_for_lost_points();
-    void   balance_load();
-    void   write_checkpoint();
+    void report();
+    void account_for_lost_points();
+    void balance_load();
+    void write_checkpoint();
 
     template <class Archive>
     void serialize_state(Archive &archive);
 
-    Parameters             &parameters;
-    const MPI_Comm          communicator;
-    RunFolder               folder;
-    dealii::TimerOutput     timer;
-    BackgroundGrid<dim>     grid;
+    Parameters &parameters;
+    const MPI_Comm communicator;
+    RunFolder folder;
+    dealii::TimerOutput timer;
+    BackgroundGrid<dim> grid;
     BoundaryConditions<dim> walls;
-    NodalField<dim>         field;
-    Transfer<dim>           transfer;
-    ExplicitScheme<dim>     scheme;
-    std::list<Phase<dim>>   phases;
-    Clock                   clock;
-    Graphics<dim>           graphics;
-    Statistics<dim>         statistics;
+    NodalField<dim> field;
+    Transfer<dim> transfer;
+    ExplicitScheme<dim> scheme;
+    std::list<Phase<dim>> phases;
+    Clock clock;
+    Graphics<dim> graphics;
+    Statistics<dim> statistics;
 
     RunTotals<dim> totals;
-    UpdateReport   last_step;             // of this rank
-    double         wave_speed    = 0;     // largest of all ranks, m/s
-    double         largest_speed = 0;     // of points, of all ranks, m/s
-    double         last_time_step = 0;    // s
-    unsigned int   n_pictures = 0, n_rows = 0, n_checkpoints = 0;
+    UpdateReport last_step;      // of this rank
+    double wave_speed       = 0; // largest of all ranks, m/s
+    double largest_speed    = 0; // of points, of all ranks, m/s
+    double last_time_step   = 0; // s
+    unsigned int n_pictures = 0, n_rows = 0, n_checkpoints = 0;
   };
 } // namespace scree
 

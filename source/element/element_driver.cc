@@ -13,15 +13,13 @@ namespace scree
 {
   using Path = ElementParameters::Path;
 
-  double
-  ElementDriver::State::mean_pressure() const
+  double ElementDriver::State::mean_pressure() const
   {
     return -(stress[0] + stress[1] + stress[2]) / 3;
   }
 
 
-  double
-  ElementDriver::State::deviator() const
+  double ElementDriver::State::deviator() const
   {
     double square = 0; // dev sigma : dev sigma
     for (unsigned int i = 0; i < 3; ++i)
@@ -30,15 +28,13 @@ namespace scree
   }
 
 
-  double
-  ElementDriver::State::stress_ratio() const
+  double ElementDriver::State::stress_ratio() const
   {
     return mean_pressure() > 0 ? deviator() / mean_pressure() : 0;
   }
 
 
-  double
-  ElementDriver::State::mobilised_ratio() const
+  double ElementDriver::State::mobilised_ratio() const
   {
     return stress[1] < 0 ? stress[3] / -stress[1] : 0;
   }
@@ -53,8 +49,7 @@ namespace scree
   }
 
 
-  ElementDriver::State
-  ElementDriver::start() const
+  ElementDriver::State ElementDriver::start() const
   {
     State state;
     state.internal_variables.resize(material->internal_variable_names().size());
@@ -66,8 +61,7 @@ namespace scree
   }
 
 
-  ElementDriver::State
-  ElementDriver::advance(const State &state, const double stretch, UpdateReport &report) const
+  ElementDriver::State ElementDriver::advance(const State &state, const double stretch, UpdateReport &report) const
   {
     const double vertical    = std::exp(-strain_step);
     Tensor<2, 3> increment   = unit_symmetric_tensor<3>();
@@ -105,16 +99,14 @@ namespace scree
   }
 
 
-  double
-  ElementDriver::held_stress_error(const State &state) const
+  double ElementDriver::held_stress_error(const State &state) const
   {
     const double held = path == Path::simple_shear ? state.stress[1] : state.stress[0] / parameters.K0;
     return 1 + held / parameters.confining_pressure;
   }
 
 
-  double
-  ElementDriver::find_stretch(const State &state, const double guess) const
+  double ElementDriver::find_stretch(const State &state, const double guess) const
   {
     constexpr double tolerance                          = 1e-10;
     constexpr unsigned int largest_number_of_iterations = 50;
@@ -140,8 +132,7 @@ namespace scree
   }
 
 
-  void
-  ElementDriver::run()
+  void ElementDriver::run()
   {
     accepted                  = UpdateReport();
     states                    = { start() };
@@ -156,22 +147,19 @@ namespace scree
   }
 
 
-  const std::vector<ElementDriver::State> &
-  ElementDriver::history() const
+  const std::vector<ElementDriver::State> &ElementDriver::history() const
   {
     return states;
   }
 
 
-  const UpdateReport &
-  ElementDriver::report() const
+  const UpdateReport &ElementDriver::report() const
   {
     return accepted;
   }
 
 
-  void
-  ElementDriver::write_table(std::ostream &out) const
+  void ElementDriver::write_table(std::ostream &out) const
   {
     const std::vector<std::string> derived_names  = material->output_names();
     const std::vector<std::string> internal_names = material->internal_variable_names();
@@ -207,8 +195,7 @@ namespace scree
   }
 
 
-  void
-  ElementDriver::print_summary(std::ostream &out) const
+  void ElementDriver::print_summary(std::ostream &out) const
   {
     const auto line = [&](const std::string &name, const double value) {
       out << std::left << std::setw(32) << name << std::right << std::fixed << std::setprecision(6) << value << '\n';

@@ -12,8 +12,7 @@ namespace
   using namespace scree;
 
   /// Contents of `file`. Throws if it cannot be read.
-  std::string
-  read(const std::string &file)
+  std::string read(const std::string &file)
   {
     std::ifstream in(file);
     AssertThrow(in && std::filesystem::is_regular_file(file),
@@ -26,8 +25,7 @@ namespace
 
 
   /// Path of the subsection that is open in line `n_lines` of `text`; deal.II's messages name the line only.
-  std::string
-  subsection_at(const std::string &text, const unsigned int n_lines)
+  std::string subsection_at(const std::string &text, const unsigned int n_lines)
   {
     std::vector<std::string> open;
     std::istringstream in(text);
@@ -51,8 +49,7 @@ namespace
 
 
   /// Read `text`, the contents of `file`, into the entries of `prm`. Throws naming line, subsection and entry.
-  void
-  parse(const std::string &text, const std::string &file, dealii::ParameterHandler &prm)
+  void parse(const std::string &text, const std::string &file, dealii::ParameterHandler &prm)
   {
     std::istringstream in(text);
     try
@@ -75,8 +72,7 @@ namespace
 
 
   /// `text` into `directory`/`name`.
-  void
-  write(const std::string &directory, const std::string &name, const std::string &text)
+  void write(const std::string &directory, const std::string &name, const std::string &text)
   {
     const std::filesystem::path file = std::filesystem::path(directory) / name;
     std::ofstream out(file);
@@ -87,8 +83,7 @@ namespace
   }
 
 
-  void
-  run(const std::string &file)
+  void run(const std::string &file)
   {
     const std::string original = read(file);
     dealii::ParameterHandler prm;
@@ -112,8 +107,7 @@ namespace
   }
 
 
-  void
-  print_help()
+  void print_help()
   {
     std::cout << "scree-element FILE.prm\n\n"
                  "One material point along the path of a laboratory test. All entries and their defaults:\n\n";
@@ -125,8 +119,7 @@ namespace
 } // namespace
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   const std::string argument = argc == 2 ? argv[1] : "";
   if (argument == "--help")

@@ -18,8 +18,7 @@ namespace scree
   } // namespace
 
 
-  void
-  ElementParameters::add_parameters(ParameterHandler &prm)
+  void ElementParameters::add_parameters(ParameterHandler &prm)
   {
     std::string names;
     for (const auto &path : paths)
@@ -48,8 +47,7 @@ namespace scree
   }
 
 
-  void
-  ElementParameters::check() const
+  void ElementParameters::check() const
   {
     require(confining_pressure > 0,
             "(top)",
@@ -61,8 +59,7 @@ namespace scree
   }
 
 
-  ElementParameters::Path
-  ElementParameters::path() const
+  ElementParameters::Path ElementParameters::path() const
   {
     for (const auto &path : paths)
       if (path.first == path_name)

@@ -20,8 +20,9 @@ namespace scree
   {
     Basis basis_from_name(const std::string &name)
     {
-      static const std::map<std::string, Basis> table{
-        {"spline", Basis::spline}, {"quadratic", Basis::quadratic}, {"linear", Basis::linear}};
+      static const std::map<std::string, Basis> table{ { "spline", Basis::spline },
+                                                       { "quadratic", Basis::quadratic },
+                                                       { "linear", Basis::linear } };
       return table.at(name);
     }
 
@@ -41,7 +42,6 @@ namespace scree
       return std::make_unique<FE_Bernstein<dim>>(2);
     }
   } // namespace
-
 
 
   void GridParameters::add_parameters(ParameterHandler &prm)
@@ -65,10 +65,10 @@ namespace scree
   }
 
 
-
   void GridParameters::check(const unsigned int dim) const
   {
-    for (const auto &[name, corner] : {std::make_pair("Lower corner", lower_corner), {"Upper corner", upper_corner}})
+    for (const auto &[name, corner] :
+         { std::make_pair("Lower corner", lower_corner), { "Upper corner", upper_corner } })
       require_entry(corner.size() == dim,
                     "Mesh",
                     name,
@@ -108,19 +108,18 @@ namespace scree
 
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator)
-    : basis(basis_from_name(parameters.basis))
-    , width(parameters.cell_size)
-    , lower(point_from_list<dim>(parameters.lower_corner))
-    , upper(point_from_list<dim>(parameters.upper_corner))
-    , mesh(communicator,
-           Triangulation<dim>::none,
-           parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
-    , dof_handler(mesh)
+      : basis(basis_from_name(parameters.basis))
+      , width(parameters.cell_size)
+      , lower(point_from_list<dim>(parameters.lower_corner))
+      , upper(point_from_list<dim>(parameters.upper_corner))
+      , mesh(communicator,
+             Triangulation<dim>::none,
+             parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
+      , dof_handler(mesh)
   {
     mesh.refine_global(make_coarse_mesh());
     distribute_nodes();
   }
-
 
 
   template <int dim>
@@ -132,7 +131,6 @@ namespace scree
     mesh.load(file);
     distribute_nodes();
   }
-
 
 
   template <int dim>
@@ -157,7 +155,6 @@ namespace scree
   }
 
 
-
   template <int dim>
   void BackgroundGrid<dim>::distribute_nodes()
   {
@@ -166,7 +163,7 @@ namespace scree
     dof_handler.distribute_dofs(*fe);
 
     const unsigned int n = n_nodes_1d(), n_nodes = n_nodes_per_cell();
-    const auto         lexicographic = FETools::lexicographic_to_hierarchic_numbering<dim>(n - 1);
+    const auto lexicographic = FETools::lexicographic_to_hierarchic_numbering<dim>(n - 1);
 
     cell_nodes.assign(std::size_t(mesh.n_active_cells()) * n_nodes, numbers::invalid_unsigned_int);
     cell_open_knots.assign(mesh.n_active_cells(), 0);
@@ -185,7 +182,7 @@ namespace scree
 
           for (unsigned int i = 0; i < n_nodes; ++i)
             {
-              auto         owner = cell;
+              auto owner         = cell;
               unsigned int index = 0;
               for (unsigned int a = 0, rest = i, stride = 1; a < dim; ++a, rest /= n, stride *= n)
                 {
@@ -214,14 +211,14 @@ namespace scree
     used.erase(std::unique(used.begin(), used.end()), used.end());
 
     const IndexSet &owned_dofs = dof_handler.locally_owned_dofs();
-    IndexSet        ghost_dofs(dof_handler.n_dofs());
+    IndexSet ghost_dofs(dof_handler.n_dofs());
     ghost_dofs.add_indices(used.begin(), used.end());
     LinearAlgebra::distributed::Vector<double> number(owned_dofs, ghost_dofs, mesh.get_communicator());
 
     const types::global_dof_index n_owned =
-      std::count_if(used.begin(), used.end(), [&](const auto dof) { return owned_dofs.is_element(dof); });
+        std::count_if(used.begin(), used.end(), [&](const auto dof) { return owned_dofs.is_element(dof); });
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
-      mesh.get_communicator(), n_owned)[Utilities::MPI::this_mpi_process(mesh.get_communicator())];
+        mesh.get_communicator(), n_owned)[Utilities::MPI::this_mpi_process(mesh.get_communicator())];
 
     auto next = owned.begin();
     for (const auto dof : used)
@@ -241,21 +238,20 @@ namespace scree
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const unsigned int c    = cell->active_cell_index();
-          const OpenKnots    open = cell_open_knots[c];
+          const unsigned int c = cell->active_cell_index();
+          const OpenKnots open = cell_open_knots[c];
           for (unsigned int i = 0; i < n_nodes; ++i)
             {
               const unsigned int node = partitioner->global_to_local(
-                static_cast<types::global_dof_index>(number(masters[std::size_t(c) * n_nodes + i])));
+                  static_cast<types::global_dof_index>(number(masters[std::size_t(c) * n_nodes + i])));
               cell_nodes[std::size_t(c) * n_nodes + i] = node;
               for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
                 {
                   const unsigned int position = rest % n;
                   const unsigned int face     = 2 * a + (position == n - 1);
                   node_positions[node][a] =
-                    cell->vertex(0)[a] +
-                    width * (n == 3 ? CellBasis<dim, 3>::node_positions(open, a)[position] :
-                                      CellBasis<dim, 2>::node_positions(open, a)[position]);
+                      cell->vertex(0)[a] + width * (n == 3 ? CellBasis<dim, 3>::node_positions(open, a)[position]
+                                                           : CellBasis<dim, 2>::node_positions(open, a)[position]);
                   if ((position == 0 || position == n - 1) && cell->at_boundary(face))
                     node_face_flags[node] |= 1 << face;
                 }

@@ -13,8 +13,7 @@ namespace scree
     constexpr char pattern_text[] = "fixed | free slip | friction ANGLE (degrees, 0 to below 90) | open";
 
     /// Reads one wall, or throws with the words that are allowed.
-    Wall
-    wall_from_text(const std::string &name, const std::string &text)
+    Wall wall_from_text(const std::string &name, const std::string &text)
     {
       if (text == "fixed")
         return { WallType::fixed, 0. };
@@ -42,8 +41,7 @@ namespace scree
   } // namespace
 
 
-  void
-  BoundaryParameters::add_parameters(ParameterHandler &prm)
+  void BoundaryParameters::add_parameters(ParameterHandler &prm)
   {
     const std::string what = std::string(" of the box: ") + pattern_text + ".";
     prm.enter_subsection("Boundaries");
@@ -57,8 +55,7 @@ namespace scree
   }
 
 
-  void
-  BoundaryParameters::check(const unsigned int dim) const
+  void BoundaryParameters::check(const unsigned int dim) const
   {
     walls(3);
     const BoundaryParameters defaults;
@@ -73,8 +70,7 @@ namespace scree
   }
 
 
-  std::vector<std::string>
-  BoundaryParameters::face_names(const unsigned int dim)
+  std::vector<std::string> BoundaryParameters::face_names(const unsigned int dim)
   {
     if (dim == 2)
       return { "Left", "Right", "Bottom", "Top" };
@@ -82,8 +78,7 @@ namespace scree
   }
 
 
-  std::vector<Wall>
-  BoundaryParameters::walls(const unsigned int dim) const
+  std::vector<Wall> BoundaryParameters::walls(const unsigned int dim) const
   {
     std::vector<Wall> result{ wall_from_text("Left", left), wall_from_text("Right", right) };
     if (dim == 3)
@@ -106,8 +101,7 @@ namespace scree
 
 
   template <int dim>
-  void
-  BoundaryConditions<dim>::apply(Tensor<1, dim> &velocity, const std::uint8_t faces) const
+  void BoundaryConditions<dim>::apply(Tensor<1, dim> &velocity, const std::uint8_t faces) const
   {
     for (unsigned int f = 0; f < 2 * dim; ++f)
       if ((faces >> f) & 1)
@@ -141,8 +135,7 @@ namespace scree
 
 
   template <int dim>
-  std::pair<std::string, bool>
-  BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
+  std::pair<std::string, bool> BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
   {
     unsigned int crossed = 0;
     double largest       = -std::numeric_limits<double>::infinity();

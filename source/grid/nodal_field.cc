@@ -9,18 +9,17 @@ namespace scree
 
   template <int dim>
   NodalField<dim>::NodalField(const BackgroundGrid<dim> &grid)
-    : grid(grid)
+      : grid(grid)
   {
     reinit();
   }
 
 
-
   template <int dim>
   void NodalField<dim>::reinit()
   {
-    const auto    &nodes = *grid.node_partitioner();
-    const auto     range = nodes.local_range();
+    const auto &nodes = *grid.node_partitioner();
+    const auto range  = nodes.local_range();
     const IndexSet ghosts(nodes.ghost_indices());
 
     IndexSet owned_values(nodes.size() * n_components), ghost_values(nodes.size() * n_components);
@@ -40,7 +39,6 @@ namespace scree
   }
 
 
-
   template <int dim>
   void NodalField<dim>::clear()
   {
@@ -58,13 +56,11 @@ namespace scree
   }
 
 
-
   template <int dim>
   void NodalField<dim>::add_contributions()
   {
     values.compress(VectorOperation::add);
   }
-
 
 
   template <int dim>

@@ -11,14 +11,14 @@ namespace scree
 
   template <int dim>
   Overburden<dim>::Overburden(const BackgroundGrid<dim> &grid,
-                              std::vector<Layer>         layers,
-                              const Tensor<1, dim>      &gravity,
-                              const double               spacing)
-    : grid(grid)
-    , layers(std::move(layers))
-    , gravity(gravity.norm())
-    , spacing(spacing)
-    , axis(0)
+                              std::vector<Layer> layers,
+                              const Tensor<1, dim> &gravity,
+                              const double spacing)
+      : grid(grid)
+      , layers(std::move(layers))
+      , gravity(gravity.norm())
+      , spacing(spacing)
+      , axis(0)
   {
     for (unsigned int a = 1; a < dim; ++a)
       if (std::abs(gravity[a]) > std::abs(gravity[axis]))
@@ -27,7 +27,6 @@ namespace scree
     AssertThrow(this->gravity > 0 && std::abs(gravity[axis]) > (1. - 1e-12) * this->gravity,
                 ExcMessage("A K0 start needs gravity along one axis."));
   }
-
 
 
   template <int dim>
@@ -52,28 +51,27 @@ namespace scree
         };
 
         const unsigned int n_samples = static_cast<unsigned int>(std::ceil((top - bottom) / spacing));
-        const double       step      = (top - bottom) / n_samples;
-        double             begin     = bottom;
-        bool               was_in    = inside(bottom);
+        const double step            = (top - bottom) / n_samples;
+        double begin                 = bottom;
+        bool was_in                  = inside(bottom);
         for (unsigned int i = 1; i <= n_samples; ++i)
           {
             const double height = bottom + i * step;
-            const bool   is_in  = inside(height);
+            const bool is_in    = inside(height);
             if (is_in != was_in)
               {
                 const double boundary = boundary_between(height - step, height);
                 if (was_in)
-                  pieces.push_back({begin, boundary, layer.density * gravity});
+                  pieces.push_back({ begin, boundary, layer.density * gravity });
                 begin  = boundary;
                 was_in = is_in;
               }
           }
         if (was_in)
-          pieces.push_back({begin, top, layer.density * gravity});
+          pieces.push_back({ begin, top, layer.density * gravity });
       }
     return pieces;
   }
-
 
 
   template <int dim>
@@ -89,12 +87,11 @@ namespace scree
       column = columns.emplace(key, pieces_above(x)).first;
 
     const double height = up * x[axis];
-    double       weight = 0;
+    double weight       = 0;
     for (const Piece &piece : column->second)
       weight += piece.unit_weight * std::max(0., piece.end - std::max(piece.begin, height));
     return weight;
   }
-
 
 
   template <int dim>
@@ -126,11 +123,10 @@ namespace scree
   }
 
 
-
   template <int dim>
   void set_isotropic_stress(Phase<dim> &phase, const double pressure)
   {
-    double stress[n_symmetric_components<dim>] = {-pressure, -pressure, -pressure};
+    double stress[n_symmetric_components<dim>] = { -pressure, -pressure, -pressure };
     for (const auto &cell : phase.points.cells())
       for (unsigned int p = 0; p < cell.n_points; ++p)
         {

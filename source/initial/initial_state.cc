@@ -9,8 +9,7 @@ namespace scree
 {
   using namespace dealii;
 
-  void
-  InitialStateParameters::add_parameters(ParameterHandler &prm)
+  void InitialStateParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Initial state");
     prm.add_parameter(
@@ -24,8 +23,7 @@ namespace scree
   }
 
 
-  void
-  InitialStateParameters::check(const std::string &body, const std::vector<double> &gravity) const
+  void InitialStateParameters::check(const std::string &body, const std::vector<double> &gravity) const
   {
     const std::string subsection = body + "/Initial state";
     const InitialStateParameters defaults;
@@ -49,8 +47,7 @@ namespace scree
   }
 
 
-  void
-  SettlingParameters::add_parameters(ParameterHandler &prm)
+  void SettlingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
     prm.add_parameter("Maximum time",
@@ -71,8 +68,7 @@ namespace scree
   }
 
 
-  void
-  SettlingParameters::check(const std::vector<double> &gravity) const
+  void SettlingParameters::check(const std::vector<double> &gravity) const
   {
     const std::size_t dim = gravity.size();
     require_entry(maximum_time == 0 || std::count(gravity.begin(), gravity.end(), 0.) < long(dim),

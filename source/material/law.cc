@@ -9,8 +9,7 @@
 
 namespace scree
 {
-  void
-  UpdateReport::add(const UpdateReport &other)
+  void UpdateReport::add(const UpdateReport &other)
   {
     largest_bulk_modulus = std::max(largest_bulk_modulus, other.largest_bulk_modulus);
     largest_pressure     = std::max(largest_pressure, other.largest_pressure);
@@ -24,12 +23,11 @@ namespace scree
   }
 
 
-  void
-  require(const bool possible,
-          const std::string &subsection,
-          const std::string &entry,
-          const double value,
-          const std::string &remedy)
+  void require(const bool possible,
+               const std::string &subsection,
+               const std::string &entry,
+               const double value,
+               const std::string &remedy)
   {
     std::ostringstream message;
     message << "subsection " << subsection << ", entry \"" << entry << "\" = " << value << ": " << remedy << '.';

@@ -6,16 +6,14 @@ using namespace dealii;
 
 namespace scree
 {
-  void
-  LinearElasticParameters::add_parameters(ParameterHandler &prm)
+  void LinearElasticParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Young's modulus", young_modulus, "Young's modulus, Pa.", Patterns::Double(0));
     prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio, -.", Patterns::Double(-1, 0.5));
   }
 
 
-  void
-  LinearElasticParameters::check(const std::string &subsection) const
+  void LinearElasticParameters::check(const std::string &subsection) const
   {
     require(young_modulus > 0, subsection, "Young's modulus", young_modulus, "a positive modulus is needed");
     require(poisson_ratio > -1 && poisson_ratio < 0.5,
@@ -33,22 +31,19 @@ namespace scree
   }
 
 
-  double
-  LinearElastic::shear_modulus() const
+  double LinearElastic::shear_modulus() const
   {
     return shear;
   }
 
 
-  double
-  LinearElastic::bulk_modulus(const double) const
+  double LinearElastic::bulk_modulus(const double) const
   {
     return bulk;
   }
 
 
-  double
-  LinearElastic::energy(const PrincipalValues &strain) const
+  double LinearElastic::energy(const PrincipalValues &strain) const
   {
     const double volume_strain = strain[0] + strain[1] + strain[2];
     double energy              = 0.5 * bulk * volume_strain * volume_strain;
@@ -58,18 +53,16 @@ namespace scree
   }
 
 
-  double
-  LinearElastic::initial_porosity() const
+  double LinearElastic::initial_porosity() const
   {
     return 0;
   }
 
 
-  void
-  LinearElastic::initialise(const PrincipalValues &wanted_stress,
-                            PrincipalValues &strain,
-                            PrincipalValues &stress,
-                            double *) const
+  void LinearElastic::initialise(const PrincipalValues &wanted_stress,
+                                 PrincipalValues &strain,
+                                 PrincipalValues &stress,
+                                 double *) const
   {
     stress            = wanted_stress;
     const double mean = (stress[0] + stress[1] + stress[2]) / 3;
@@ -78,22 +71,19 @@ namespace scree
   }
 
 
-  std::vector<std::string>
-  LinearElastic::internal_variable_names()
+  std::vector<std::string> LinearElastic::internal_variable_names()
   {
     return {};
   }
 
 
-  std::vector<std::string>
-  LinearElastic::output_names()
+  std::vector<std::string> LinearElastic::output_names()
   {
     return {};
   }
 
 
-  void
-  LinearElastic::output(const PrincipalValues &, const double *, const double, double *) const
+  void LinearElastic::output(const PrincipalValues &, const double *, const double, double *) const
   {
   }
 } // namespace scree

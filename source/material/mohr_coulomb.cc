@@ -12,16 +12,14 @@ namespace scree
 {
   namespace
   {
-    double
-    radians(const double degrees)
+    double radians(const double degrees)
     {
       return degrees * numbers::PI / 180;
     }
 
 
     /// Isotropic tension that friction and cohesion allow, c cot(phi), Pa.
-    double
-    apex(const MohrCoulombParameters &parameters)
+    double apex(const MohrCoulombParameters &parameters)
     {
       if (parameters.cohesion == 0)
         return 0;
@@ -30,16 +28,14 @@ namespace scree
     }
 
 
-    double
-    product(const PrincipalValues &a, const PrincipalValues &b)
+    double product(const PrincipalValues &a, const PrincipalValues &b)
     {
       return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
     }
   } // namespace
 
 
-  void
-  MohrCoulombParameters::add_parameters(ParameterHandler &prm)
+  void MohrCoulombParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Young's modulus", young_modulus, "Young's modulus, Pa.", Patterns::Double(0));
     prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio, -.", Patterns::Double(-1, 0.5));
@@ -51,8 +47,7 @@ namespace scree
   }
 
 
-  void
-  MohrCoulombParameters::check(const std::string &subsection) const
+  void MohrCoulombParameters::check(const std::string &subsection) const
   {
     LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
     require(dilation_angle <= friction_angle,
@@ -121,8 +116,7 @@ namespace scree
   }
 
 
-  void
-  MohrCoulomb::add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit)
+  void MohrCoulomb::add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit)
   {
     Surface surface{ normal, flow, {}, limit };
     const double volume_part = (bulk - 2. / 3. * elastic.shear_modulus()) * (flow[0] + flow[1] + flow[2]);
@@ -132,8 +126,7 @@ namespace scree
   }
 
 
-  void
-  MohrCoulomb::add_active_set(const std::vector<unsigned int> &members)
+  void MohrCoulomb::add_active_set(const std::vector<unsigned int> &members)
   {
     Tensor<2, 3> matrix;
     for (unsigned int a = members.size(); a < 3; ++a)
@@ -145,22 +138,19 @@ namespace scree
   }
 
 
-  double
-  MohrCoulomb::shear_modulus() const
+  double MohrCoulomb::shear_modulus() const
   {
     return elastic.shear_modulus();
   }
 
 
-  double
-  MohrCoulomb::bulk_modulus(const double) const
+  double MohrCoulomb::bulk_modulus(const double) const
   {
     return bulk;
   }
 
 
-  double
-  MohrCoulomb::energy(const PrincipalValues &strain) const
+  double MohrCoulomb::energy(const PrincipalValues &strain) const
   {
     const double gap = strain[0] + strain[1] + strain[2] - vertex / bulk;
     if (gap <= 0)
@@ -169,15 +159,13 @@ namespace scree
   }
 
 
-  double
-  MohrCoulomb::initial_porosity() const
+  double MohrCoulomb::initial_porosity() const
   {
     return 0;
   }
 
 
-  bool
-  MohrCoulomb::return_to(const ActiveSet &set, const PrincipalValues &trial, PrincipalValues &stress) const
+  bool MohrCoulomb::return_to(const ActiveSet &set, const PrincipalValues &trial, PrincipalValues &stress) const
   {
     const unsigned int n = set.surfaces.size();
     Tensor<1, 3> excess;
@@ -204,12 +192,11 @@ namespace scree
   }
 
 
-  Response
-  MohrCoulomb::plastic_return(const PrincipalValues &trial,
-                              PrincipalValues &strain,
-                              double *internal_variables,
-                              PrincipalValues &stress,
-                              UpdateReport &report) const
+  Response MohrCoulomb::plastic_return(const PrincipalValues &trial,
+                                       PrincipalValues &strain,
+                                       double *internal_variables,
+                                       PrincipalValues &stress,
+                                       UpdateReport &report) const
   {
     std::array<unsigned int, 3> order = { { 0, 1, 2 } }; // of falling stress
     std::sort(
@@ -251,11 +238,10 @@ namespace scree
   }
 
 
-  void
-  MohrCoulomb::initialise(const PrincipalValues &wanted_stress,
-                          PrincipalValues &strain,
-                          PrincipalValues &stress,
-                          double *internal_variables) const
+  void MohrCoulomb::initialise(const PrincipalValues &wanted_stress,
+                               PrincipalValues &strain,
+                               PrincipalValues &stress,
+                               double *internal_variables) const
   {
     double scale = surfaces[0].limit;
     for (const double value : wanted_stress)
@@ -269,22 +255,19 @@ namespace scree
   }
 
 
-  std::vector<std::string>
-  MohrCoulomb::internal_variable_names()
+  std::vector<std::string> MohrCoulomb::internal_variable_names()
   {
     return { "plastic_shear_strain" };
   }
 
 
-  std::vector<std::string>
-  MohrCoulomb::output_names()
+  std::vector<std::string> MohrCoulomb::output_names()
   {
     return {};
   }
 
 
-  void
-  MohrCoulomb::output(const PrincipalValues &, const double *, const double, double *) const
+  void MohrCoulomb::output(const PrincipalValues &, const double *, const double, double *) const
   {
   }
 } // namespace scree

@@ -6,8 +6,7 @@ using namespace dealii;
 
 namespace scree
 {
-  void
-  NorSandParameters::add_parameters(ParameterHandler &prm)
+  void NorSandParameters::add_parameters(ParameterHandler &prm)
   {
     const Patterns::Double not_negative(0);
     prm.add_parameter("Shear modulus", shear_modulus, "Elastic shear modulus G, Pa.", not_negative);
@@ -52,8 +51,7 @@ namespace scree
   }
 
 
-  void
-  NorSandParameters::check(const std::string &subsection) const
+  void NorSandParameters::check(const std::string &subsection) const
   {
     const std::string positive = "it must be positive";
     require(shear_modulus > 0, subsection, "Shear modulus", shear_modulus, positive);
@@ -101,22 +99,19 @@ namespace scree
   }
 
 
-  double
-  NorSand::shear_modulus() const
+  double NorSand::shear_modulus() const
   {
     return parameters.shear_modulus;
   }
 
 
-  double
-  NorSand::bulk_modulus(const double pressure) const
+  double NorSand::bulk_modulus(const double pressure) const
   {
     return std::max(pressure, parameters.minimum_pressure) * inverse_swelling_index;
   }
 
 
-  double
-  NorSand::energy(const PrincipalValues &strain) const
+  double NorSand::energy(const PrincipalValues &strain) const
   {
     const double volume_strain = strain[0] + strain[1] + strain[2];
     double energy              = parameters.swelling_index * std::exp(log_pressure_of(volume_strain));
@@ -126,15 +121,13 @@ namespace scree
   }
 
 
-  double
-  NorSand::initial_porosity() const
+  double NorSand::initial_porosity() const
   {
     return 1 - 1 / parameters.initial_specific_volume;
   }
 
 
-  double
-  NorSand::yield(const PrincipalValues &strain, const double image_pressure) const
+  double NorSand::yield(const PrincipalValues &strain, const double image_pressure) const
   {
     const double volume_strain = strain[0] + strain[1] + strain[2];
     double deviator_square     = 0;
@@ -146,11 +139,10 @@ namespace scree
   }
 
 
-  void
-  NorSand::initialise(const PrincipalValues &wanted_stress,
-                      PrincipalValues &strain,
-                      PrincipalValues &stress,
-                      double *internal_variables) const
+  void NorSand::initialise(const PrincipalValues &wanted_stress,
+                           PrincipalValues &strain,
+                           PrincipalValues &stress,
+                           double *internal_variables) const
   {
     const double pressure = -(wanted_stress[0] + wanted_stress[1] + wanted_stress[2]) / 3;
     AssertThrow(pressure > -parameters.minimum_pressure,
@@ -184,22 +176,19 @@ namespace scree
   }
 
 
-  std::vector<std::string>
-  NorSand::internal_variable_names()
+  std::vector<std::string> NorSand::internal_variable_names()
   {
     return { "image_pressure", "plastic_shear_strain" };
   }
 
 
-  std::vector<std::string>
-  NorSand::output_names()
+  std::vector<std::string> NorSand::output_names()
   {
     return { "specific_volume", "state_parameter" };
   }
 
 
-  void
-  NorSand::output(const PrincipalValues &strain, const double *, const double volume_ratio, double *values) const
+  void NorSand::output(const PrincipalValues &strain, const double *, const double volume_ratio, double *values) const
   {
     const double log_pressure = std::max(log_pressure_of(strain[0] + strain[1] + strain[2]), log_minimum_pressure);
     values[0]                 = parameters.initial_specific_volume * volume_ratio;

@@ -11,8 +11,7 @@ namespace scree
     /// A root of `f` between `positive` and `negative`, named after the sign of f there, to the last digit: false
     /// position with Illinois weights (Dowell & Jarratt 1971), every third step a bisection, which cannot stall.
     template <typename Function>
-    double
-    find_root(const Function &f, double positive, double negative)
+    double find_root(const Function &f, double positive, double negative)
     {
       double f_positive = f(positive), f_negative = f(negative);
       int last_side = 0;
@@ -46,8 +45,7 @@ namespace scree
 
 
     /// ln(exp(a) + exp(b)) without overflow.
-    double
-    log_sum(const double a, const double b)
+    double log_sum(const double a, const double b)
     {
       return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
     }
@@ -120,8 +118,7 @@ namespace scree
   }
 
 
-  NorSand::Residual
-  NorSand::first_residual(const Trial &trial, const double log_ratio) const
+  NorSand::Residual NorSand::first_residual(const Trial &trial, const double log_ratio) const
   {
     const double compliance = 1 / trial.pressure;
     const double D_slope    = dilatancy(trial.stress_ratio) * inverse_swelling_index;
@@ -142,8 +139,7 @@ namespace scree
   }
 
 
-  bool
-  NorSand::newton(const Trial &trial, Returned &returned) const
+  bool NorSand::newton(const Trial &trial, Returned &returned) const
   {
     constexpr unsigned int largest_number_of_iterations = 14;
     constexpr unsigned int largest_number_of_halvings   = 6;
@@ -206,8 +202,7 @@ namespace scree
   }
 
 
-  double
-  NorSand::image_residual(const Trial &trial, const double multiplier, const double log_ratio) const
+  double NorSand::image_residual(const Trial &trial, const double multiplier, const double log_ratio) const
   {
     const double log_pressure =
         trial.log_pressure + multiplier * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index;
@@ -219,8 +214,7 @@ namespace scree
   }
 
 
-  double
-  NorSand::ratio_on_yield(const Trial &trial, const double log_deviator, const double multiplier) const
+  double NorSand::ratio_on_yield(const Trial &trial, const double log_deviator, const double multiplier) const
   {
     // F = 0 in w = ln eta: g(w) = w + a exp(w) - c = 0, rising and convex: Newton from the right cannot miss.
     const double a = inverse_swelling_index * multiplier / ((1 - parameters.potential_constant) * lode_factor);
@@ -245,8 +239,7 @@ namespace scree
   }
 
 
-  NorSand::Returned
-  NorSand::search(const Trial &trial, UpdateReport &report) const
+  NorSand::Returned NorSand::search(const Trial &trial, UpdateReport &report) const
   {
     ++report.n_fallbacks;
     const double largest_multiplier = trial.deviator / (3 * parameters.shear_modulus);
@@ -279,8 +272,7 @@ namespace scree
   }
 
 
-  NorSand::Returned
-  NorSand::search_vertex(const Trial &trial, UpdateReport &report) const
+  NorSand::Returned NorSand::search_vertex(const Trial &trial, UpdateReport &report) const
   {
     ++report.n_vertices;
     const auto image = [&](const double multiplier) { return image_residual(trial, multiplier, largest_log_ratio); };
@@ -298,12 +290,11 @@ namespace scree
   }
 
 
-  void
-  NorSand::separate(const double volume_strain,
-                    const double volume,
-                    PrincipalValues &strain,
-                    double *internal_variables,
-                    PrincipalValues &stress) const
+  void NorSand::separate(const double volume_strain,
+                         const double volume,
+                         PrincipalValues &strain,
+                         double *internal_variables,
+                         PrincipalValues &stress) const
   {
     double derivative;
     strain.fill(volume_strain / 3);
@@ -312,12 +303,11 @@ namespace scree
   }
 
 
-  Response
-  NorSand::plastic_return(const Trial &trial,
-                          PrincipalValues &strain,
-                          double *internal_variables,
-                          PrincipalValues &stress,
-                          UpdateReport &report) const
+  Response NorSand::plastic_return(const Trial &trial,
+                                   PrincipalValues &strain,
+                                   double *internal_variables,
+                                   PrincipalValues &stress,
+                                   UpdateReport &report) const
   {
     Returned returned{ trial.log_pressure, trial.pressure, 0, 0 };
     if (trial.log_pressure >= log_minimum_pressure && !newton(trial, returned))

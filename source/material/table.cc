@@ -18,8 +18,7 @@ namespace scree
   } // namespace
 
 
-  void
-  MaterialParameters::add_parameters(ParameterHandler &prm)
+  void MaterialParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter(
         "Material",
@@ -38,8 +37,7 @@ namespace scree
   }
 
 
-  void
-  MaterialParameters::check(const std::string &subsection) const
+  void MaterialParameters::check(const std::string &subsection) const
   {
     const std::string prefix = subsection.empty() ? "" : subsection + "/";
     if (law == linear_elastic_name)
@@ -52,8 +50,7 @@ namespace scree
 
 
   template <int dim>
-  std::unique_ptr<Material<dim>>
-  make_material(const MaterialParameters &parameters)
+  std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters)
   {
     if (parameters.law == linear_elastic_name)
       {

@@ -25,7 +25,7 @@ namespace scree
 
     std::string latest(const std::string &folder)
     {
-      std::string   name;
+      std::string name;
       std::ifstream in(folder + "latest");
       in >> name;
       return name;
@@ -33,16 +33,15 @@ namespace scree
   } // namespace
 
 
-
   template <int dim>
-  void save_checkpoint(const std::string                                          &run_folder,
-                       const BackgroundGrid<dim>                                  &grid,
-                       std::list<Phase<dim>>                                      &phases,
+  void save_checkpoint(const std::string &run_folder,
+                       const BackgroundGrid<dim> &grid,
+                       std::list<Phase<dim>> &phases,
                        const std::function<void(boost::archive::binary_oarchive &)> &state)
   {
-    const std::string folder       = run_folder + "/checkpoint/";
-    const MPI_Comm    communicator = grid.triangulation().get_communicator();
-    const bool        writer       = Utilities::MPI::this_mpi_process(communicator) == 0;
+    const std::string folder    = run_folder + "/checkpoint/";
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const bool writer           = Utilities::MPI::this_mpi_process(communicator) == 0;
     if (writer)
       std::filesystem::create_directories(folder);
     const std::string name = Utilities::MPI::broadcast(communicator, other(latest(folder)));
@@ -52,7 +51,7 @@ namespace scree
     grid.triangulation().save(folder + name + ".mesh");
     if (writer)
       {
-        std::ofstream                   file(folder + name + ".state", std::ios::binary);
+        std::ofstream file(folder + name + ".state", std::ios::binary);
         boost::archive::binary_oarchive archive(file);
         for (auto &phase : phases)
           archive << phase.points.handler();
@@ -67,11 +66,10 @@ namespace scree
   }
 
 
-
   template <int dim>
-  void load_checkpoint(const std::string                                          &run_folder,
-                       BackgroundGrid<dim>                                        &grid,
-                       std::list<Phase<dim>>                                      &phases,
+  void load_checkpoint(const std::string &run_folder,
+                       BackgroundGrid<dim> &grid,
+                       std::list<Phase<dim>> &phases,
                        const std::function<void(boost::archive::binary_iarchive &)> &state)
   {
     const std::string folder = run_folder + "/checkpoint/";
@@ -84,7 +82,7 @@ namespace scree
                   "without --resume first.");
 
     grid.load(folder + name + ".mesh");
-    std::ifstream                   file(folder + name + ".state", std::ios::binary);
+    std::ifstream file(folder + name + ".state", std::ios::binary);
     boost::archive::binary_iarchive archive(file);
     for (auto &phase : phases)
       archive >> phase.points.handler();

@@ -16,7 +16,8 @@ namespace scree
 
   namespace
   {
-    using Range = std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>;
+    using Range =
+        std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>;
 
     /// Patches with their names, as deal.II's writers want them.
     template <int patch_dim, int dim>
@@ -24,8 +25,8 @@ namespace scree
     {
     public:
       std::vector<DataOutBase::Patch<patch_dim, dim>> patches;
-      std::vector<std::string>                        names;
-      std::vector<Range>                              ranges;
+      std::vector<std::string> names;
+      std::vector<Range> ranges;
 
       void add_name(const std::string &name)
       {
@@ -34,16 +35,15 @@ namespace scree
 
       void add_vector(const std::string &name)
       {
-        ranges.emplace_back(names.size(),
-                            names.size() + dim - 1,
-                            name,
-                            DataComponentInterpretation::component_is_part_of_vector);
+        ranges.emplace_back(
+            names.size(), names.size() + dim - 1, name, DataComponentInterpretation::component_is_part_of_vector);
         names.insert(names.end(), dim, name);
       }
 
       void add_tensor(const std::string &name)
       {
-        ranges.emplace_back(names.size(), names.size() + 8, name, DataComponentInterpretation::component_is_part_of_tensor);
+        ranges.emplace_back(
+            names.size(), names.size() + 8, name, DataComponentInterpretation::component_is_part_of_tensor);
         names.insert(names.end(), 9, name);
       }
 
@@ -78,7 +78,7 @@ namespace scree
     {
       std::vector<std::string> fields;
       for (const auto &phase : phases)
-        for (const auto &names : {phase.material->internal_variable_names(), phase.material->output_names()})
+        for (const auto &names : { phase.material->internal_variable_names(), phase.material->output_names() })
           for (const auto &name : names)
             if (std::find(fields.begin(), fields.end(), name) == fields.end())
               fields.push_back(name);
@@ -87,16 +87,15 @@ namespace scree
   } // namespace
 
 
-
   template <int dim>
   Graphics<dim>::Graphics(const BackgroundGrid<dim> &grid,
-                          const OutputParameters    &parameters,
-                          const std::string         &run_folder)
-    : grid(grid)
-    , graphics(parameters.graphics)
-    , folder(run_folder + "/solution/")
-  {}
-
+                          const OutputParameters &parameters,
+                          const std::string &run_folder)
+      : grid(grid)
+      , graphics(parameters.graphics)
+      , folder(run_folder + "/solution/")
+  {
+  }
 
 
   template <int dim>
@@ -110,17 +109,17 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Graphics<dim>::write_points(const std::list<Phase<dim>> &phases, const double time)
   {
     PatchOutput<0, dim> output;
     output.add_vector("velocity");
     output.add_tensor("stress");
-    for (const std::string name : {"mean_effective_stress", "deviatoric_stress", "stress_ratio", "mass", "volume", "body"})
+    for (const std::string name :
+         { "mean_effective_stress", "deviatoric_stress", "stress_ratio", "mass", "volume", "body" })
       output.add_name(name);
-    const auto         fields       = law_fields(phases);
-    const unsigned int first_field  = output.names.size();
+    const auto fields              = law_fields(phases);
+    const unsigned int first_field = output.names.size();
     output.names.insert(output.names.end(), fields.begin(), fields.end());
 
     unsigned int body = 0;
@@ -128,7 +127,7 @@ namespace scree
       {
         const auto internal = phase.material->internal_variable_names(), derived = phase.material->output_names();
         std::vector<unsigned int> columns;
-        for (const auto &names : {internal, derived})
+        for (const auto &names : { internal, derived })
           for (const auto &name : names)
             columns.push_back(first_field + (std::find(fields.begin(), fields.end(), name) - fields.begin()));
         std::vector<double> values(derived.size());
@@ -145,13 +144,13 @@ namespace scree
               patch.patch_index = output.patches.size();
               patch.data.reinit(output.names.size(), 1);
               unsigned int row = 0;
-              const auto   put = [&](const double value) { patch.data(row++, 0) = value; };
+              const auto put   = [&](const double value) { patch.data(row++, 0) = value; };
 
               for (unsigned int a = 0; a < dim; ++a)
                 put(properties[phase.layout.velocity + a]);
               // plane strain: no out-of-plane shear
               const double xy = stress[3], xz = dim == 3 ? stress[dim + 1] : 0., yz = dim == 3 ? stress[dim + 2] : 0.;
-              for (const double value : {stress[0], xy, xz, xy, stress[1], yz, xz, yz, stress[2]})
+              for (const double value : { stress[0], xy, xz, xy, stress[1], yz, xz, yz, stress[2] })
                 put(value);
               const double P = mean_effective_stress(stress), q = deviatoric_stress<dim>(stress);
               put(P);
@@ -174,25 +173,23 @@ namespace scree
             }
         ++body;
       }
-    const auto file =
-      output.write(folder, "points", point_files.size(), grid.triangulation().get_communicator());
+    const auto file = output.write(folder, "points", point_files.size(), grid.triangulation().get_communicator());
     point_files.emplace_back(time, file);
     write_pvd("points", point_files);
   }
-
 
 
   namespace
   {
     /// Velocity of the field at a place of a cell, m/s.
     template <int dim, int n>
-    Tensor<1, dim> velocity_at(const Point<dim>          &x,
+    Tensor<1, dim> velocity_at(const Point<dim> &x,
                                const BackgroundGrid<dim> &grid,
-                               const unsigned int         cell,
-                               const NodalField<dim>     &field)
+                               const unsigned int cell,
+                               const NodalField<dim> &field)
     {
       const CellBasis<dim, n> basis(x, grid.open_knots(cell));
-      Tensor<1, dim>          velocity;
+      Tensor<1, dim> velocity;
       for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
         {
           double value = 1.;
@@ -205,7 +202,6 @@ namespace scree
       return velocity;
     }
   } // namespace
-
 
 
   template <int dim>
@@ -221,8 +217,8 @@ namespace scree
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
             const double *properties = cell.properties + p * phase.points.stride();
-            const double  volume     = properties[phase.layout.volume];
-            CellMean     &mean       = means[cell.cell];
+            const double volume      = properties[phase.layout.volume];
+            CellMean &mean           = means[cell.cell];
             mean.mass += properties[phase.layout.mass];
             mean.volume += volume;
             mean.pressure += volume * mean_effective_stress(properties + phase.layout.stress);
@@ -243,10 +239,10 @@ namespace scree
           patch.data.reinit(output.names.size(), GeometryInfo<dim>::vertices_per_cell);
           for (const unsigned int v : cell->vertex_indices())
             {
-              patch.vertices[v]     = cell->vertex(v);
-              const auto corner     = GeometryInfo<dim>::unit_cell_vertex(v);
-              const auto velocity   = grid.n_nodes_1d() == 3 ? velocity_at<dim, 3>(corner, grid, mean->first, field) :
-                                                               velocity_at<dim, 2>(corner, grid, mean->first, field);
+              patch.vertices[v]   = cell->vertex(v);
+              const auto corner   = GeometryInfo<dim>::unit_cell_vertex(v);
+              const auto velocity = grid.n_nodes_1d() == 3 ? velocity_at<dim, 3>(corner, grid, mean->first, field)
+                                                           : velocity_at<dim, 2>(corner, grid, mean->first, field);
               for (unsigned int c = 0; c < dim; ++c)
                 patch.data(c, v) = velocity[c];
               patch.data(dim, v)     = mean->second.mass / cell_volume;
@@ -258,7 +254,6 @@ namespace scree
     grid_files.emplace_back(time, file);
     write_pvd("grid", grid_files);
   }
-
 
 
   template <int dim>

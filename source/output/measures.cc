@@ -16,7 +16,7 @@ namespace scree
   double deviatoric_stress(const double *stress)
   {
     const double pressure = mean_effective_stress(stress);
-    double       sum      = 0;
+    double sum            = 0;
     for (unsigned int c = 0; c < 3; ++c)
       sum += (stress[c] + pressure) * (stress[c] + pressure);
     for (unsigned int c = 3; c < n_symmetric_components<dim>; ++c)
@@ -25,19 +25,18 @@ namespace scree
   }
 
 
-
   template <int dim>
   std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
-                                       const BackgroundGrid<dim>   &grid,
-                                       const unsigned int           axis,
-                                       const std::vector<double>   &fractions)
+                                       const BackgroundGrid<dim> &grid,
+                                       const unsigned int axis,
+                                       const std::vector<double> &fractions)
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
 
     // Each pass finds the bin in which the wanted mass is reached and looks into it the next time.
     const auto find = [&](const double fraction) {
       constexpr unsigned int n_bins = 1000;
-      double                 begin = grid.lower_corner()[axis], end = grid.upper_corner()[axis], below = 0, wanted = -1;
+      double begin = grid.lower_corner()[axis], end = grid.upper_corner()[axis], below = 0, wanted = -1;
       for (unsigned int pass = 0; pass < 5; ++pass)
         {
           std::vector<double> bins(n_bins, 0.);
@@ -48,7 +47,7 @@ namespace scree
                   const double position = (cell.location[p][axis] - begin) / (end - begin) * n_bins;
                   if (position >= 0 && position < n_bins)
                     bins[static_cast<unsigned int>(position)] +=
-                      cell.properties[p * phase.points.stride() + phase.layout.mass];
+                        cell.properties[p * phase.points.stride() + phase.layout.mass];
                 }
           Utilities::MPI::sum(bins, communicator, bins);
           if (wanted < 0)
@@ -71,20 +70,19 @@ namespace scree
   }
 
 
-
   namespace
   {
-    /// Moments of a cell's points about a common origin: 1, x, x x^T (rows of the normal matrix of a linear fit) and the same
-    /// of P.
+    /// Moments of a cell's points about a common origin: 1, x, x x^T (rows of the normal matrix of a linear fit) and
+    /// the same of P.
     template <int dim>
     struct Moments
     {
       std::array<double, (dim + 1) * (dim + 1)> matrix{};
-      std::array<double, dim + 1>               rhs{};
+      std::array<double, dim + 1> rhs{};
 
       void add(const Point<dim> &x, const double pressure)
       {
-        std::array<double, dim + 1> monomials{{1.}};
+        std::array<double, dim + 1> monomials{ { 1. } };
         for (unsigned int a = 0; a < dim; ++a)
           monomials[a + 1] = x[a];
         for (unsigned int i = 0; i <= dim; ++i)
@@ -119,9 +117,9 @@ namespace scree
         return coefficients;
 
       // Centred normal matrix: 1/n x^T x - mean mean^T.
-      const double              n = moments.matrix[0];
-      Tensor<1, dim>            mean, slope;
-      SymmetricTensor<2, dim>   spread;
+      const double n = moments.matrix[0];
+      Tensor<1, dim> mean, slope;
+      SymmetricTensor<2, dim> spread;
       for (unsigned int a = 0; a < dim; ++a)
         mean[a] = moments.matrix[a + 1] / n;
       Tensor<1, dim> covariance;
@@ -142,35 +140,35 @@ namespace scree
   } // namespace
 
 
-
   template <int dim>
   double stress_oscillation(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid)
   {
-    const auto                     &mesh = grid.triangulation();
-    std::vector<Moments<dim>>       moments(mesh.n_active_cells());
+    const auto &mesh = grid.triangulation();
+    std::vector<Moments<dim>> moments(mesh.n_active_cells());
     const auto scaled = [&](const Point<dim> &x) { return Point<dim>((x - grid.lower_corner()) / grid.cell_size()); };
 
     for (const auto &phase : phases)
       for (const auto &cell : phase.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
-          moments[cell.cell].add(scaled(cell.location[p]),
-                                 mean_effective_stress(cell.properties + p * phase.points.stride() + phase.layout.stress));
+          moments[cell.cell].add(
+              scaled(cell.location[p]),
+              mean_effective_stress(cell.properties + p * phase.points.stride() + phase.layout.stress));
 
     using Cell = typename Triangulation<dim>::active_cell_iterator;
     GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
-      mesh,
-      [&](const Cell &cell) { return std_cxx17::optional<Moments<dim>>(moments[cell->active_cell_index()]); },
-      [&](const Cell &cell, const Moments<dim> &value) { moments[cell->active_cell_index()] = value; });
+        mesh,
+        [&](const Cell &cell) { return std_cxx17::optional<Moments<dim>>(moments[cell->active_cell_index()]); },
+        [&](const Cell &cell, const Moments<dim> &value) { moments[cell->active_cell_index()] = value; });
 
     // The linear fit around each owned cell that holds points.
     std::vector<Vector<double>> fits(mesh.n_active_cells());
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned() && moments[cell->active_cell_index()].matrix[0] > 0)
         {
-          std::vector<Cell> patch{cell};
+          std::vector<Cell> patch{ cell };
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int i = 0, n = patch.size(); i < n; ++i)
-              for (const unsigned int face : {2 * a, 2 * a + 1})
+              for (const unsigned int face : { 2 * a, 2 * a + 1 })
                 if (const auto near = patch[i]; !near->at_boundary(face))
                   patch.push_back(near->neighbor(face));
           Moments<dim> sum;
@@ -179,16 +177,16 @@ namespace scree
           fits[cell->active_cell_index()] = fit(sum);
         }
 
-    std::vector<double> sums{0, 0, 0}; // points, P, squared residual
+    std::vector<double> sums{ 0, 0, 0 }; // points, P, squared residual
     for (const auto &phase : phases)
       for (const auto &cell : phase.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
             const double pressure =
-              mean_effective_stress(cell.properties + p * phase.points.stride() + phase.layout.stress);
-            const auto  &coefficients = fits[cell.cell];
-            const auto   x            = scaled(cell.location[p]);
-            double       residual     = pressure - coefficients[0];
+                mean_effective_stress(cell.properties + p * phase.points.stride() + phase.layout.stress);
+            const auto &coefficients = fits[cell.cell];
+            const auto x             = scaled(cell.location[p]);
+            double residual          = pressure - coefficients[0];
             for (unsigned int a = 0; a < dim; ++a)
               residual -= coefficients[a + 1] * x[a];
             sums[0] += 1;
@@ -200,21 +198,20 @@ namespace scree
   }
 
 
-
   template <int dim>
   double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases, const MPI_Comm communicator)
   {
-    std::vector<double> energies{0, 0};
+    std::vector<double> energies{ 0, 0 };
     for (const auto &phase : phases)
       for (const auto &cell : phase.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
             const double *properties = cell.properties + p * phase.points.stride();
-            const double  mass       = properties[phase.layout.mass];
+            const double mass        = properties[phase.layout.mass];
             for (unsigned int a = 0; a < dim; ++a)
               energies[0] += 0.5 * mass * Utilities::fixed_power<2>(properties[phase.layout.velocity + a]);
             energies[1] +=
-              mass / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
+                mass / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
           }
     Utilities::MPI::sum(energies, communicator, energies);
     return energies[1] > 0 ? energies[0] / energies[1] : std::numeric_limits<double>::infinity();
@@ -224,10 +221,14 @@ namespace scree
   template double kinetic_to_elastic_energy(const std::list<Phase<3>> &, const MPI_Comm);
   template double deviatoric_stress<2>(const double *);
   template double deviatoric_stress<3>(const double *);
-  template std::vector<double>
-  mass_percentiles(const std::list<Phase<2>> &, const BackgroundGrid<2> &, const unsigned int, const std::vector<double> &);
-  template std::vector<double>
-  mass_percentiles(const std::list<Phase<3>> &, const BackgroundGrid<3> &, const unsigned int, const std::vector<double> &);
+  template std::vector<double> mass_percentiles(const std::list<Phase<2>> &,
+                                                const BackgroundGrid<2> &,
+                                                const unsigned int,
+                                                const std::vector<double> &);
+  template std::vector<double> mass_percentiles(const std::list<Phase<3>> &,
+                                                const BackgroundGrid<3> &,
+                                                const unsigned int,
+                                                const std::vector<double> &);
   template double stress_oscillation(const std::list<Phase<2>> &, const BackgroundGrid<2> &);
   template double stress_oscillation(const std::list<Phase<3>> &, const BackgroundGrid<3> &);
 } // namespace scree

@@ -7,8 +7,7 @@ namespace scree
 {
   using namespace dealii;
 
-  void
-  OutputParameters::add_parameters(ParameterHandler &prm)
+  void OutputParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
     prm.add_parameter("Interval", interval, "Simulated time between pictures, s.", Patterns::Double(1e-12));
@@ -32,8 +31,7 @@ namespace scree
   }
 
 
-  Screen
-  OutputParameters::screen_kind() const
+  Screen OutputParameters::screen_kind() const
   {
     static const std::map<std::string, Screen> table{ { "progress", Screen::progress },
                                                       { "statistics", Screen::statistics },
@@ -42,8 +40,7 @@ namespace scree
   }
 
 
-  double
-  OutputParameters::interval_of_statistics() const
+  double OutputParameters::interval_of_statistics() const
   {
     return statistics_interval > 0 ? statistics_interval : interval;
   }

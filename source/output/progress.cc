@@ -31,38 +31,35 @@ namespace scree
   } // namespace
 
 
-
   Progress::Progress(RunFolder &folder, const double start_time, const double end_time)
-    : folder(folder)
-    , start_time(start_time)
-    , end_time(end_time)
-  {}
-
+      : folder(folder)
+      , start_time(start_time)
+      , end_time(end_time)
+  {
+  }
 
 
   void Progress::report(const double time, const unsigned long long step, const double time_step)
   {
     constexpr double seconds_between_lines = 5.;
-    const double     elapsed               = clock.wall_time();
+    const double elapsed                   = clock.wall_time();
     if (time < end_time && elapsed - last_line < seconds_between_lines)
       return;
     last_line         = elapsed;
     const double done = (time - start_time) / (end_time - start_time);
     folder.log(format("t = %.4g s (%.0f %%), step %llu of %.3g s, ", time, 100 * done, step, time_step) +
-               (done > 0 && done < 1 ? duration(elapsed / done * (1 - done)) + " left" :
-                                       duration(elapsed) + " taken"));
+               (done > 0 && done < 1 ? duration(elapsed / done * (1 - done)) + " left" : duration(elapsed) + " taken"));
   }
-
 
 
   void Progress::summarise(const TimerOutput &parts, const double point_updates, const unsigned int n_ranks)
   {
     if (point_updates <= 0)
       return;
-    const double total    = clock.wall_time();
-    const double to_ns    = 1e9 * n_ranks / point_updates;
-    const auto   seconds  = parts.get_summary_data(TimerOutput::total_wall_time);
-    double       accounted = 0;
+    const double total = clock.wall_time();
+    const double to_ns = 1e9 * n_ranks / point_updates;
+    const auto seconds = parts.get_summary_data(TimerOutput::total_wall_time);
+    double accounted   = 0;
     folder.log(format("%-34s %10s %8s %22s", "part", "seconds", "share", "ns per point and step"));
     const auto line = [&](const std::string &name, const double s) {
       folder.log(format("%-34s %10.2f %6.1f %% %22.1f", name.c_str(), s, 100 * s / total, s * to_ns));

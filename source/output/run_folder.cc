@@ -13,8 +13,7 @@ namespace scree
 
   namespace
   {
-    void
-    remove_pictures(const std::filesystem::path &folder)
+    void remove_pictures(const std::filesystem::path &folder)
     {
       for (const auto &entry : std::filesystem::directory_iterator(folder))
         if (const auto kind = entry.path().extension(); kind == ".vtu" || kind == ".pvtu" || kind == ".pvd")
@@ -53,16 +52,14 @@ namespace scree
   }
 
 
-  void
-  RunFolder::write(const std::string &name, const std::string &text) const
+  void RunFolder::write(const std::string &name, const std::string &text) const
   {
     if (writer)
       std::ofstream(file(name)) << text;
   }
 
 
-  void
-  RunFolder::log(const std::string &line)
+  void RunFolder::log(const std::string &line)
   {
     if (!writer)
       return;

@@ -22,7 +22,6 @@ namespace scree
   }
 
 
-
   template <int dim>
   RunTotals<dim> RunTotals<dim>::sum_over_ranks(const MPI_Comm communicator) const
   {
@@ -31,20 +30,19 @@ namespace scree
     sum(total.balance.wall_impulse);
     sum(total.balance.body_impulse);
     sum(total.lost_momentum);
-    for (double *value : {&total.balance.wall_dissipation,
-                          &total.plastic_dissipation,
-                          &total.lost_mass,
-                          &total.lost_energy,
-                          &total.n_lost,
-                          &total.n_updates,
-                          &total.n_substeps,
-                          &total.n_fallbacks,
-                          &total.n_vertices,
-                          &total.n_unresolved})
+    for (double *value : { &total.balance.wall_dissipation,
+                           &total.plastic_dissipation,
+                           &total.lost_mass,
+                           &total.lost_energy,
+                           &total.n_lost,
+                           &total.n_updates,
+                           &total.n_substeps,
+                           &total.n_fallbacks,
+                           &total.n_vertices,
+                           &total.n_unresolved })
       sum(*value);
     return total;
   }
-
 
 
   namespace
@@ -53,19 +51,19 @@ namespace scree
     template <int dim>
     struct PointSums
     {
-      double         points = 0, mass = 0, kinetic = 0, potential = 0, elastic = 0, pressure = 0;
+      double points = 0, mass = 0, kinetic = 0, potential = 0, elastic = 0, pressure = 0;
       Tensor<1, dim> momentum;
-      double         largest_pressure = 0, height;
+      double largest_pressure = 0, height;
 
       PointSums(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid, const Tensor<1, dim> &gravity)
-        : height(grid.lower_corner()[dim - 1])
+          : height(grid.lower_corner()[dim - 1])
       {
         for (const auto &phase : phases)
           for (const auto &cell : phase.points.cells())
             for (unsigned int p = 0; p < cell.n_points; ++p)
               add(phase, cell.location[p], cell.properties + p * phase.points.stride(), gravity);
 
-        std::vector<double> sums{points, mass, kinetic, potential, elastic, pressure};
+        std::vector<double> sums{ points, mass, kinetic, potential, elastic, pressure };
         for (unsigned int a = 0; a < dim; ++a)
           sums.push_back(momentum[a]);
         const MPI_Comm communicator = grid.triangulation().get_communicator();
@@ -81,16 +79,16 @@ namespace scree
     private:
       void add(const Phase<dim> &phase, const Point<dim> &x, const double *properties, const Tensor<1, dim> &gravity)
       {
-        const double          m = properties[phase.layout.mass];
-        const Tensor<1, dim>  v(make_array_view(properties + phase.layout.velocity, properties + phase.layout.velocity + dim));
-        const double          P = mean_effective_stress(properties + phase.layout.stress);
+        const double m = properties[phase.layout.mass];
+        const Tensor<1, dim> v(
+            make_array_view(properties + phase.layout.velocity, properties + phase.layout.velocity + dim));
+        const double P = mean_effective_stress(properties + phase.layout.stress);
         points += 1;
         mass += m;
         momentum += m * v;
         kinetic += 0.5 * m * v.norm_square();
         potential -= m * (gravity * (x - Point<dim>()));
-        elastic +=
-          m / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
+        elastic += m / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
         pressure += P;
         largest_pressure = std::max(largest_pressure, P);
         height           = std::max(height, x[dim - 1]);
@@ -99,13 +97,12 @@ namespace scree
   } // namespace
 
 
-
   template <int dim>
   Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid, const Tensor<1, dim> &gravity)
-    : grid(grid)
-    , gravity(gravity)
-  {}
-
+      : grid(grid)
+      , gravity(gravity)
+  {
+  }
 
 
   template <int dim>
@@ -118,20 +115,19 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Statistics<dim>::collect(const std::list<Phase<dim>> &phases,
-                                const RunTotals<dim>        &local,
-                                const double                 time,
-                                const unsigned long long     step,
-                                const double                 time_step,
-                                const UpdateReport          &last_step)
+                                const RunTotals<dim> &local,
+                                const double time,
+                                const unsigned long long step,
+                                const double time_step,
+                                const UpdateReport &last_step)
   {
-    const MPI_Comm       communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
     const PointSums<dim> now(phases, grid, gravity);
 
-    const RunTotals<dim>  totals = local.sum_over_ranks(communicator);
-    const Tensor<1, dim>  impulse = totals.balance.wall_impulse + totals.balance.body_impulse - totals.lost_momentum;
+    const RunTotals<dim> totals  = local.sum_over_ranks(communicator);
+    const Tensor<1, dim> impulse = totals.balance.wall_impulse + totals.balance.body_impulse - totals.lost_momentum;
 
     const double energy = now.kinetic + now.potential + now.elastic;
     if (!has_start)
@@ -155,8 +151,9 @@ namespace scree
     add("Elastic energy (J)", now.elastic);
     add("Plastic dissipation (J)", totals.plastic_dissipation);
     add("Wall dissipation (J)", totals.balance.wall_dissipation);
-    add("Numerical dissipation (J)", start_energy - energy - totals.plastic_dissipation - totals.balance.wall_dissipation - totals.lost_energy);
-    const auto front = mass_percentiles(phases, grid, 0, {0.90, 0.99, 0.995});
+    add("Numerical dissipation (J)",
+        start_energy - energy - totals.plastic_dissipation - totals.balance.wall_dissipation - totals.lost_energy);
+    const auto front = mass_percentiles(phases, grid, 0, { 0.90, 0.99, 0.995 });
     add("Front 90 % (m)", front[0]);
     add("Front 99 % (m)", front[1]);
     add("Front 99.5 % (m)", front[2]);
@@ -174,14 +171,12 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Statistics<dim>::write(const std::string &file) const
   {
     std::ofstream out(file);
     table.write_text(out, TableHandler::table_with_separate_column_description);
   }
-
 
 
   template <int dim>

@@ -7,17 +7,16 @@ namespace scree
 
   template <int dim>
   PointSet<dim>::PointSet(const Triangulation<dim> &triangulation,
-                          const Mapping<dim>       &mapping,
-                          const unsigned int        n_properties)
-    : n_properties(n_properties)
-    , particle_handler(triangulation, mapping, n_properties)
+                          const Mapping<dim> &mapping,
+                          const unsigned int n_properties)
+      : n_properties(n_properties)
+      , particle_handler(triangulation, mapping, n_properties)
   {
     particle_handler.signals.particle_lost.connect([this](const auto &point, const auto &) {
       const auto properties = point->get_properties();
-      lost_points.push_back({point->get_location(), {properties.begin(), properties.end()}});
+      lost_points.push_back({ point->get_location(), { properties.begin(), properties.end() } });
     });
   }
-
 
 
   template <int dim>
@@ -28,23 +27,22 @@ namespace scree
   }
 
 
-
   template <int dim>
   void PointSet<dim>::update_cells()
   {
     cell_list.clear();
     for (auto point = particle_handler.begin(); point != particle_handler.end();)
       {
-        const auto        &cell     = point->get_surrounding_cell();
+        const auto &cell            = point->get_surrounding_cell();
         const unsigned int n_points = particle_handler.n_particles_in_cell(cell);
 
         // The pool stores locations by value and hands out references to them: writing through them saves a
         // set_location() call per point.
-        cell_list.push_back({cell->active_cell_index(),
-                             n_points,
-                             point->get_properties().data(),
-                             const_cast<Point<dim> *>(&point->get_location()),
-                             &point->get_reference_location()});
+        cell_list.push_back({ cell->active_cell_index(),
+                              n_points,
+                              point->get_properties().data(),
+                              const_cast<Point<dim> *>(&point->get_location()),
+                              &point->get_reference_location() });
         point = particle_handler.particles_in_cell(cell).end();
       }
   }

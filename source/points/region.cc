@@ -32,11 +32,10 @@ namespace scree
 
 
   template <int dim>
-  std::unique_ptr<FunctionParser<dim>>
-  parse_expression(const std::string &where,
-                   const std::string &text,
-                   const unsigned int n_components,
-                   const bool with_time)
+  std::unique_ptr<FunctionParser<dim>> parse_expression(const std::string &where,
+                                                        const std::string &text,
+                                                        const unsigned int n_components,
+                                                        const bool with_time)
   {
     const std::string variables = FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
     auto function               = std::make_unique<FunctionParser<dim>>(n_components);
@@ -79,8 +78,7 @@ namespace scree
 
 
   template <int dim>
-  std::pair<double, Point<dim>>
-  Region<dim>::part_of_cube(const Point<dim> &lower, const double width) const
+  std::pair<double, Point<dim>> Region<dim>::part_of_cube(const Point<dim> &lower, const double width) const
   {
     const auto at = [&](const unsigned int index, const unsigned int n, const double inset) {
       Point<dim> x;

@@ -54,8 +54,7 @@ namespace scree
   } // namespace
 
 
-  void
-  SeedingParameters::add_parameters(ParameterHandler &prm)
+  void SeedingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Region",
                       region,
@@ -78,8 +77,7 @@ namespace scree
   }
 
 
-  void
-  SeedingParameters::check(const std::string &body, const unsigned int dim) const
+  void SeedingParameters::check(const std::string &body, const unsigned int dim) const
   {
     const std::string where_region = entry_name(body, "Region");
     const std::string where_speed  = entry_name(body, "Initial velocity");
@@ -109,11 +107,10 @@ namespace scree
 
 
   template <int dim>
-  void
-  seed(Phase<dim> &phase,
-       const SeedingParameters &parameters,
-       const Triangulation<dim> &triangulation,
-       const double cell_size)
+  void seed(Phase<dim> &phase,
+            const SeedingParameters &parameters,
+            const Triangulation<dim> &triangulation,
+            const double cell_size)
   {
     const Region<dim> region(entry_name(phase.name, "Region"), parameters.region);
     const auto velocity =

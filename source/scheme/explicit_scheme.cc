@@ -19,7 +19,6 @@ namespace scree
   }
 
 
-
   void BodyForceParameters::check(const unsigned int dim) const
   {
     if (!expression.empty() && dim == 2)
@@ -27,7 +26,6 @@ namespace scree
     if (!expression.empty() && dim == 3)
       parse_expression<3>(entry_name("", "Body force"), expression, 3, true);
   }
-
 
 
   template <int dim>
@@ -40,20 +38,18 @@ namespace scree
   }
 
 
-
   template <int dim>
-  ExplicitScheme<dim>::ExplicitScheme(const BackgroundGrid<dim>     &grid,
+  ExplicitScheme<dim>::ExplicitScheme(const BackgroundGrid<dim> &grid,
                                       const BoundaryConditions<dim> &walls,
-                                      const std::vector<double>     &gravity,
-                                      const BodyForceParameters     &body_force)
-    : grid(grid)
-    , walls(walls)
-    , acceleration(make_array_view(gravity))
+                                      const std::vector<double> &gravity,
+                                      const BodyForceParameters &body_force)
+      : grid(grid)
+      , walls(walls)
+      , acceleration(make_array_view(gravity))
   {
     if (!body_force.expression.empty())
       this->body_force = parse_expression<dim>(entry_name("", "Body force"), body_force.expression, dim, true);
   }
-
 
 
   template <int dim>
@@ -64,7 +60,6 @@ namespace scree
   }
 
 
-
   template <int dim>
   void ExplicitScheme<dim>::release()
   {
@@ -73,19 +68,18 @@ namespace scree
   }
 
 
-
   template <int dim>
   StepBalance<dim> ExplicitScheme<dim>::solve(NodalField<dim> &field, const double time, const double time_step) const
   {
     StepBalance<dim> balance;
-    const double     decay = std::exp(-damping_rate * time_step);
+    const double decay = std::exp(-damping_rate * time_step);
     if (body_force)
       body_force->set_time(time);
 
     for (const unsigned int node : field.active_nodes())
       {
-        double      *values = field[node];
-        const double mass   = values[NodalField<dim>::mass];
+        double *values    = field[node];
+        const double mass = values[NodalField<dim>::mass];
         if (mass <= 0.)
           continue; // Another rank sees this node, but no point acts on it.
 

@@ -20,17 +20,14 @@ namespace scree
   }
 
 
-
   Clock::Clock(const TimeStepParameters &parameters)
-    : parameters(parameters)
-  {}
+      : parameters(parameters)
+  {
+  }
 
 
-
-  double Clock::next_step(const double cell_size,
-                          const double wave_speed,
-                          const double speed,
-                          const double appointment) const
+  double
+  Clock::next_step(const double cell_size, const double wave_speed, const double speed, const double appointment) const
   {
     const double signal    = wave_speed + speed;
     const double stable    = signal > 0 ? parameters.courant_number * cell_size / signal : parameters.maximum_time_step;
@@ -38,7 +35,6 @@ namespace scree
     const double remaining = appointment - current_time;
     return remaining / std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
   }
-
 
 
   void Clock::advance(const double time_step, const double appointment)

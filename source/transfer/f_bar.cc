@@ -28,7 +28,7 @@ namespace scree
       const double mean = std::exp(weighted / volume);
       for (unsigned int p = 0; p < points.n_points; ++p)
         {
-          double      *b     = points.left_cauchy_green + p * points.stride;
+          double *b          = points.left_cauchy_green + p * points.stride;
           const double scale = std::cbrt(mean / determinant_of_components<dim>(b));
           for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
             b[c] *= scale;
@@ -55,7 +55,6 @@ namespace scree
         }
     }
   } // namespace
-
 
 
   template <int dim>

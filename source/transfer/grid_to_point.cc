@@ -53,11 +53,11 @@ namespace scree
 
     /// APIC's sum phi_i v_i (x_i - x)^T, m^2/s, row `c`.
     template <int dim, int n>
-    void affine_moment(const CellBasis<dim, n>  &basis,
+    void affine_moment(const CellBasis<dim, n> &basis,
                        const RowFactors<dim, n> &rows,
-                       const OpenKnots           open,
-                       const Point<dim>         &x,
-                       const double              width,
+                       const OpenKnots open,
+                       const Point<dim> &x,
+                       const double width,
                        const NodeRow (&velocity)[RowFactors<dim, n>::n_rows],
                        double *moment)
     {
@@ -79,17 +79,16 @@ namespace scree
   } // namespace
 
 
-
   template <int dim>
-  Transfer<dim>::Transfer(const BackgroundGrid<dim>     &grid,
-                          const TransferParameters      &transfer,
+  Transfer<dim>::Transfer(const BackgroundGrid<dim> &grid,
+                          const TransferParameters &transfer,
                           const StabilisationParameters &stabilisation)
-    : grid(grid)
-    , method(transfer.transfer_method())
-    , pic_rate(transfer.pic_rate)
-    , f_bar(stabilisation.f_bar_kind())
-  {}
-
+      : grid(grid)
+      , method(transfer.transfer_method())
+      , pic_rate(transfer.pic_rate)
+      , f_bar(stabilisation.f_bar_kind())
+  {
+  }
 
 
   template <int dim>
@@ -99,29 +98,29 @@ namespace scree
     const double width = grid.cell_size();
     const double slope = time_step / width;
     const double keep  = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
-    const auto  &layout = phase.layout;
+    const auto &layout = phase.layout;
 
     MotionReport report;
-    double       largest_square = 0;
+    double largest_square = 0;
     for (const CellPoints<dim> &cell : phase.points.cells())
       {
-        const OpenKnots            open = grid.open_knots(cell.cell);
+        const OpenKnots open = grid.open_knots(cell.cell);
         const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field);
         motion.resize(cell.n_points);
 
         double *properties = cell.properties;
         for (unsigned int p = 0; p < cell.n_points; ++p, properties += phase.points.stride())
           {
-            const CellBasis<dim, n>  basis(cell.reference_location[p], open);
+            const CellBasis<dim, n> basis(cell.reference_location[p], open);
             const RowFactors<dim, n> rows(basis);
-            const NodeRow            value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
+            const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
 
             Tensor<2, dim> increment = unit_symmetric_tensor<dim>();
-            double         square    = 0;
+            double square            = 0;
             for (unsigned int c = 0; c < dim; ++c)
               {
-                const NodeRow along    = contract(rows.value, nodes.velocity[c]);
-                const double  velocity = sum(along * value_x);
+                const NodeRow along   = contract(rows.value, nodes.velocity[c]);
+                const double velocity = sum(along * value_x);
                 increment[c][0] += slope * sum(along * derivative_x);
                 for (unsigned int a = 1; a < dim; ++a)
                   increment[c][a] += slope * sum(contract(rows.derivative[a - 1], nodes.velocity[c]) * value_x);
@@ -137,7 +136,7 @@ namespace scree
                 double *affine = properties + layout.affine + c * dim;
                 if constexpr (method == TransferMethod::apic)
                   affine_moment<dim, n>(
-                    basis, rows, open, cell.reference_location[p], width, nodes.velocity[c], affine);
+                      basis, rows, open, cell.reference_location[p], width, nodes.velocity[c], affine);
                 if constexpr (method == TransferMethod::tpic)
                   for (unsigned int a = 0; a < dim; ++a)
                     affine[a] = (increment[c][a] - (a == c ? 1. : 0.)) / time_step;
@@ -167,21 +166,20 @@ namespace scree
   }
 
 
-
   template <int dim>
   MotionReport Transfer<dim>::to_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step)
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
-          case TransferMethod::flip:
-            return move_points<n, TransferMethod::flip>(phase, field, time_step);
-          case TransferMethod::pic:
-            return move_points<n, TransferMethod::pic>(phase, field, time_step);
-          case TransferMethod::apic:
-            return move_points<n, TransferMethod::apic>(phase, field, time_step);
-          default:
-            return move_points<n, TransferMethod::tpic>(phase, field, time_step);
+        case TransferMethod::flip:
+          return move_points<n, TransferMethod::flip>(phase, field, time_step);
+        case TransferMethod::pic:
+          return move_points<n, TransferMethod::pic>(phase, field, time_step);
+        case TransferMethod::apic:
+          return move_points<n, TransferMethod::apic>(phase, field, time_step);
+        default:
+          return move_points<n, TransferMethod::tpic>(phase, field, time_step);
         }
     };
     if (grid.n_nodes_1d() == 2)

@@ -19,7 +19,7 @@ namespace scree
       /// Adds `momentum[c]` and `mass` (already weighted with the shape functions of the first axis) and the traction
       /// -V sigma grad phi.
       void add(const RowFactors<dim, n> &rows,
-               const NodeRow             mass,
+               const NodeRow mass,
                const NodeRow (&momentum)[dim],
                const NodeRow (&force_x)[dim],
                const NodeRow (&force_other)[dim][dim - 1])
@@ -60,30 +60,29 @@ namespace scree
   } // namespace
 
 
-
   template <int dim>
   template <int n, TransferMethod method>
   void Transfer<dim>::add_points(const Phase<dim> &phase, NodalField<dim> &field) const
   {
     constexpr bool is_affine = method == TransferMethod::apic || method == TransferMethod::tpic;
-    const double   width = grid.cell_size(), inverse_width = 1. / width;
-    const auto    &layout = phase.layout;
+    const double width = grid.cell_size(), inverse_width = 1. / width;
+    const auto &layout = phase.layout;
 
     for (const CellPoints<dim> &cell : phase.points.cells())
       {
-        const OpenKnots  open = grid.open_knots(cell.cell);
+        const OpenKnots open = grid.open_knots(cell.cell);
         CellSums<dim, n> sums;
 
         const double *properties = cell.properties;
         for (unsigned int p = 0; p < cell.n_points; ++p, properties += phase.points.stride())
           {
-            const CellBasis<dim, n>  basis(cell.reference_location[p], open);
+            const CellBasis<dim, n> basis(cell.reference_location[p], open);
             const RowFactors<dim, n> rows(basis);
-            const NodeRow            value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
+            const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
 
             const double mass  = properties[layout.mass];
             const double scale = -properties[layout.volume] * inverse_width;
-            const auto   sigma = matrix_of_components<dim>(properties + layout.stress);
+            const auto sigma   = matrix_of_components<dim>(properties + layout.stress);
 
             NodeRow momentum[dim], force_x[dim], force_other[dim][dim - 1];
             for (unsigned int c = 0; c < dim; ++c)
@@ -97,7 +96,7 @@ namespace scree
             if constexpr (is_affine)
               {
                 std::array<std::array<double, n>, dim> offset; // of the nodes from the point, m
-                std::array<double, dim>                inertia{};
+                std::array<double, dim> inertia{};
                 for (unsigned int a = 0; a < dim; ++a)
                   {
                     offset[a] = CellBasis<dim, n>::node_positions(open, a);
@@ -137,19 +136,18 @@ namespace scree
   }
 
 
-
   template <int dim>
   void Transfer<dim>::to_grid(const Phase<dim> &phase, NodalField<dim> &field) const
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
-          case TransferMethod::apic:
-            return add_points<n, TransferMethod::apic>(phase, field);
-          case TransferMethod::tpic:
-            return add_points<n, TransferMethod::tpic>(phase, field);
-          default: // FLIP and PIC differ on the way back only.
-            return add_points<n, TransferMethod::flip>(phase, field);
+        case TransferMethod::apic:
+          return add_points<n, TransferMethod::apic>(phase, field);
+        case TransferMethod::tpic:
+          return add_points<n, TransferMethod::tpic>(phase, field);
+        default: // FLIP and PIC differ on the way back only.
+          return add_points<n, TransferMethod::flip>(phase, field);
         }
     };
     if (grid.n_nodes_1d() == 2)

@@ -22,16 +22,14 @@ namespace scree
   }
 
 
-
   TransferMethod TransferParameters::transfer_method() const
   {
-    static const std::map<std::string, TransferMethod> table{{"FLIP", TransferMethod::flip},
-                                                             {"PIC", TransferMethod::pic},
-                                                             {"APIC", TransferMethod::apic},
-                                                             {"TPIC", TransferMethod::tpic}};
+    static const std::map<std::string, TransferMethod> table{ { "FLIP", TransferMethod::flip },
+                                                              { "PIC", TransferMethod::pic },
+                                                              { "APIC", TransferMethod::apic },
+                                                              { "TPIC", TransferMethod::tpic } };
     return table.at(method);
   }
-
 
 
   bool TransferParameters::carries_affine_field() const
@@ -40,24 +38,24 @@ namespace scree
   }
 
 
-
   void StabilisationParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Stabilisation");
-    prm.add_parameter("F-bar",
-                      f_bar,
-                      "none; standard: the cell's mean volume change drives the material; modified: and the stored elastic "
-                      "volume strain of its points is averaged.",
-                      Patterns::Selection("none|standard|modified"));
+    prm.add_parameter(
+        "F-bar",
+        f_bar,
+        "none; standard: the cell's mean volume change drives the material; modified: and the stored elastic "
+        "volume strain of its points is averaged.",
+        Patterns::Selection("none|standard|modified"));
     prm.leave_subsection();
   }
 
 
-
   FBar StabilisationParameters::f_bar_kind() const
   {
-    static const std::map<std::string, FBar> table{
-      {"none", FBar::none}, {"standard", FBar::standard}, {"modified", FBar::modified}};
+    static const std::map<std::string, FBar> table{ { "none", FBar::none },
+                                                    { "standard", FBar::standard },
+                                                    { "modified", FBar::modified } };
     return table.at(f_bar);
   }
 } // namespace scree

@@ -27,9 +27,9 @@ namespace scree
   /// Subsection Mesh: a box of equal cubes.
   struct GridParameters
   {
-    std::vector<double> lower_corner{0., 0.}, upper_corner{1., 1.}; ///< m
-    double              cell_size = 0.1;                            ///< m
-    std::string         basis     = "spline";
+    std::vector<double> lower_corner{ 0., 0. }, upper_corner{ 1., 1. }; ///< m
+    double cell_size  = 0.1;                                            ///< m
+    std::string basis = "spline";
 
     void add_parameters(dealii::ParameterHandler &prm);
 
@@ -41,8 +41,8 @@ namespace scree
   ///
   /// deal.II has no B-splines, but the free coefficients of the C1 quadratic splines are those Bernstein coefficients
   /// that sit inside a cell or on the boundary of the box: a coefficient on an interior face is the mean of its two
-  /// neighbours. A *node* is such a free coefficient; each cell stores the 3^dim nodes (2^dim with hats) that act on it.
-  /// Nodes are numbered compactly: [0, n_owned_nodes()) are this rank's, then come the ghosts.
+  /// neighbours. A *node* is such a free coefficient; each cell stores the 3^dim nodes (2^dim with hats) that act on
+  /// it. Nodes are numbered compactly: [0, n_owned_nodes()) are this rank's, then come the ghosts.
   template <int dim>
   class BackgroundGrid
   {
@@ -129,19 +129,19 @@ namespace scree
     /// Makes the coarse mesh; returns how often it is to be refined.
     unsigned int make_coarse_mesh();
 
-    const Basis        basis;
-    const double       width;
+    const Basis basis;
+    const double width;
     dealii::Point<dim> lower, upper;
 
     dealii::parallel::distributed::Triangulation<dim> mesh;
-    dealii::MappingCartesian<dim>                     cartesian;
-    dealii::DoFHandler<dim>                           dof_handler;
+    dealii::MappingCartesian<dim> cartesian;
+    dealii::DoFHandler<dim> dof_handler;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    std::vector<unsigned int>                                  cell_nodes;      // of owned cells, by active cell index
-    std::vector<OpenKnots>                                     cell_open_knots; // by active cell index
-    std::vector<dealii::Point<dim>>                            node_positions;
-    std::vector<std::uint8_t>                                  node_face_flags;
+    std::vector<unsigned int> cell_nodes;   // of owned cells, by active cell index
+    std::vector<OpenKnots> cell_open_knots; // by active cell index
+    std::vector<dealii::Point<dim>> node_positions;
+    std::vector<std::uint8_t> node_face_flags;
   };
 } // namespace scree
 

@@ -23,8 +23,8 @@ namespace scree
 
   struct Wall
   {
-    WallType type                 = WallType::open;
-    double   friction_coefficient = 0; ///< tan of the friction angle
+    WallType type               = WallType::open;
+    double friction_coefficient = 0; ///< tan of the friction angle
   };
 
   /// Subsection Boundaries: one entry a face of the box.
@@ -65,7 +65,7 @@ namespace scree
 
   private:
     const BackgroundGrid<dim> &grid;
-    std::vector<Wall>          walls;
+    std::vector<Wall> walls;
   };
 } // namespace scree
 

@@ -16,10 +16,10 @@ namespace scree
 
   /// The one-dimensional shape functions along each axis at a point of a cell, and the nodes they belong to.
   ///
-  /// With n = 3 these are quadratic B-splines: B are the Bernstein polynomials of the cell, l and r are 1 at an open knot
-  /// and 1/2 inside, N_0 = l B_0, N_1 = (1 - l) B_0 + B_1 + (1 - r) B_2, N_2 = r B_2. With all knots open this is the C0
-  /// quadratic Bernstein basis. With n = 2 they are the hat functions. All are non-negative and sum to one.
-  /// The lexicographic tensor products (first axis fastest) are the n^dim shape functions of the cell.
+  /// With n = 3 these are quadratic B-splines: B are the Bernstein polynomials of the cell, l and r are 1 at an open
+  /// knot and 1/2 inside, N_0 = l B_0, N_1 = (1 - l) B_0 + B_1 + (1 - r) B_2, N_2 = r B_2. With all knots open this is
+  /// the C0 quadratic Bernstein basis. With n = 2 they are the hat functions. All are non-negative and sum to one. The
+  /// lexicographic tensor products (first axis fastest) are the n^dim shape functions of the cell.
   template <int dim, int n>
   struct CellBasis
   {
@@ -35,8 +35,8 @@ namespace scree
           const double s = x[a], t = 1. - s;
           if constexpr (n == 2)
             {
-              value[a]      = {{t, s}};
-              derivative[a] = {{-1., 1.}};
+              value[a]      = { { t, s } };
+              derivative[a] = { { -1., 1. } };
             }
           else
             {
@@ -59,10 +59,10 @@ namespace scree
         {
           (void)open;
           (void)a;
-          return {{0., 1.}};
+          return { { 0., 1. } };
         }
       else
-        return {{lower(open, a) - 1., 0.5, 2. - upper(open, a)}};
+        return { { lower(open, a) - 1., 0.5, 2. - upper(open, a) } };
     }
 
   private:

@@ -67,11 +67,11 @@ namespace scree
         active_owned.push_back(node);
     }
 
-    const BackgroundGrid<dim>                 &grid;
+    const BackgroundGrid<dim> &grid;
     dealii::LinearAlgebra::distributed::Vector<double> values;
-    std::vector<unsigned int>                  active_owned;
-    std::vector<unsigned int>                  shared_owned; // owned nodes that are ghosts of other ranks
-    std::vector<char>                          is_active;
+    std::vector<unsigned int> active_owned;
+    std::vector<unsigned int> shared_owned; // owned nodes that are ghosts of other ranks
+    std::vector<char> is_active;
   };
 } // namespace scree
 

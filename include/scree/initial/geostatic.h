@@ -21,21 +21,20 @@ namespace scree
     struct Layer
     {
       Region<dim> region;
-      double      density; ///< kg/m^3
+      double density; ///< kg/m^3
     };
 
     /// @param gravity m/s^2; must lie along an axis (throws otherwise)
     /// @param spacing distance at which the layers are sampled along gravity, m
-    Overburden(const BackgroundGrid<dim>    &grid,
-               std::vector<Layer>            layers,
+    Overburden(const BackgroundGrid<dim> &grid,
+               std::vector<Layer> layers,
                const dealii::Tensor<1, dim> &gravity,
-               const double                  spacing);
+               const double spacing);
 
     /// Vertical total stress from the weight above `x`, Pa, compression positive.
     double weight_above(const dealii::Point<dim> &x);
 
-    MPI_Comm
-    communicator() const
+    MPI_Comm communicator() const
     {
       return grid.triangulation().get_communicator();
     }
@@ -56,11 +55,11 @@ namespace scree
     std::vector<Piece> pieces_above(const dealii::Point<dim> &x) const;
 
     const BackgroundGrid<dim> &grid;
-    std::vector<Layer>         layers;
-    double                     gravity;
-    double                     spacing;
-    unsigned int               axis;
-    double                     up; ///< +1 if gravity points to lower coordinates
+    std::vector<Layer> layers;
+    double gravity;
+    double spacing;
+    unsigned int axis;
+    double up; ///< +1 if gravity points to lower coordinates
 
     std::map<std::array<long, dim - 1>, std::vector<Piece>> columns; // cached: neighbours share a column
   };

@@ -80,14 +80,13 @@ namespace scree
 
 
   template <int dim, typename Law>
-  inline double
-  HenckyMaterial<dim, Law>::advance(const dealii::Tensor<2, dim> &f,
-                                    const double out_of_plane_stretch,
-                                    const double volume_ratio,
-                                    double *left_cauchy_green,
-                                    double *internal_variables,
-                                    double *stress,
-                                    UpdateReport &report) const
+  inline double HenckyMaterial<dim, Law>::advance(const dealii::Tensor<2, dim> &f,
+                                                  const double out_of_plane_stretch,
+                                                  const double volume_ratio,
+                                                  double *left_cauchy_green,
+                                                  double *internal_variables,
+                                                  double *stress,
+                                                  UpdateReport &report) const
   {
     double trial[n_components];
     trial_left_cauchy_green(f, out_of_plane_stretch, left_cauchy_green, trial);
@@ -120,14 +119,13 @@ namespace scree
 
 
   template <int dim, typename Law>
-  inline double
-  HenckyMaterial<dim, Law>::advance_in_substeps(const dealii::Tensor<2, dim> &deformation_increment,
-                                                const double out_of_plane_stretch,
-                                                const double volume_ratio,
-                                                double *left_cauchy_green,
-                                                double *internal_variables,
-                                                double *stress,
-                                                UpdateReport &report) const
+  inline double HenckyMaterial<dim, Law>::advance_in_substeps(const dealii::Tensor<2, dim> &deformation_increment,
+                                                              const double out_of_plane_stretch,
+                                                              const double volume_ratio,
+                                                              double *left_cauchy_green,
+                                                              double *internal_variables,
+                                                              double *stress,
+                                                              UpdateReport &report) const
   {
     constexpr double largest_number_of_substeps = 1000;
 
@@ -182,10 +180,9 @@ namespace scree
 
 
   template <int dim, typename Law>
-  void
-  HenckyMaterial<dim, Law>::update(const MaterialPoints<dim> &points,
-                                   const MaterialMotion<dim> &motion,
-                                   UpdateReport &report) const
+  void HenckyMaterial<dim, Law>::update(const MaterialPoints<dim> &points,
+                                        const MaterialMotion<dim> &motion,
+                                        UpdateReport &report) const
   {
     UpdateReport own; // The compiler keeps what nobody else points to in registers.
     for (unsigned int p = 0; p < points.n_points; ++p)
@@ -213,35 +210,31 @@ namespace scree
 
 
   template <int dim, typename Law>
-  double
-  HenckyMaterial<dim, Law>::shear_modulus() const
+  double HenckyMaterial<dim, Law>::shear_modulus() const
   {
     return law.shear_modulus();
   }
 
 
   template <int dim, typename Law>
-  double
-  HenckyMaterial<dim, Law>::initial_bulk_modulus(const double pressure) const
+  double HenckyMaterial<dim, Law>::initial_bulk_modulus(const double pressure) const
   {
     return law.bulk_modulus(pressure);
   }
 
 
   template <int dim, typename Law>
-  double
-  HenckyMaterial<dim, Law>::elastic_energy(const double *left_cauchy_green) const
+  double HenckyMaterial<dim, Law>::elastic_energy(const double *left_cauchy_green) const
   {
     return law.energy(log_strain(PrincipalFrame<dim>(left_cauchy_green).values()));
   }
 
 
   template <int dim, typename Law>
-  void
-  HenckyMaterial<dim, Law>::initialise(const double *wanted_stress,
-                                       double *left_cauchy_green,
-                                       double *stress,
-                                       double *internal_variables) const
+  void HenckyMaterial<dim, Law>::initialise(const double *wanted_stress,
+                                            double *left_cauchy_green,
+                                            double *stress,
+                                            double *internal_variables) const
   {
     const PrincipalFrame<dim> frame(wanted_stress);
     PrincipalValues strain, principal_stress;
@@ -252,36 +245,32 @@ namespace scree
 
 
   template <int dim, typename Law>
-  double
-  HenckyMaterial<dim, Law>::initial_porosity() const
+  double HenckyMaterial<dim, Law>::initial_porosity() const
   {
     return law.initial_porosity();
   }
 
 
   template <int dim, typename Law>
-  std::vector<std::string>
-  HenckyMaterial<dim, Law>::internal_variable_names() const
+  std::vector<std::string> HenckyMaterial<dim, Law>::internal_variable_names() const
   {
     return Law::internal_variable_names();
   }
 
 
   template <int dim, typename Law>
-  std::vector<std::string>
-  HenckyMaterial<dim, Law>::output_names() const
+  std::vector<std::string> HenckyMaterial<dim, Law>::output_names() const
   {
     return Law::output_names();
   }
 
 
   template <int dim, typename Law>
-  void
-  HenckyMaterial<dim, Law>::output(const double *left_cauchy_green,
-                                   const double *,
-                                   const double *internal_variables,
-                                   const double volume_ratio,
-                                   double *values) const
+  void HenckyMaterial<dim, Law>::output(const double *left_cauchy_green,
+                                        const double *,
+                                        const double *internal_variables,
+                                        const double volume_ratio,
+                                        double *values) const
   {
     law.output(log_strain(PrincipalFrame<dim>(left_cauchy_green).values()), internal_variables, volume_ratio, values);
   }

@@ -73,19 +73,17 @@ namespace scree
   };
 
 
-  inline double
-  LinearElastic::substep_strain() const
+  inline double LinearElastic::substep_strain() const
   {
     return std::numeric_limits<double>::infinity();
   }
 
 
-  inline Response
-  LinearElastic::return_map(PrincipalValues &strain,
-                            double *,
-                            const double,
-                            PrincipalValues &stress,
-                            UpdateReport &report) const
+  inline Response LinearElastic::return_map(PrincipalValues &strain,
+                                            double *,
+                                            const double,
+                                            PrincipalValues &stress,
+                                            UpdateReport &report) const
   {
     const double volume_strain = strain[0] + strain[1] + strain[2];
     const double volume_part   = (bulk - 2. / 3. * shear) * volume_strain;

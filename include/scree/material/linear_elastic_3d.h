@@ -14,21 +14,20 @@ namespace scree
   {
   public:
     explicit LinearElastic3D(const LinearElastic &law)
-      : HenckyMaterial<3, LinearElastic>(law)
-      , shear(law.shear_modulus())
-      , bulk(law.bulk_modulus(0.))
-    {}
+        : HenckyMaterial<3, LinearElastic>(law)
+        , shear(law.shear_modulus())
+        , bulk(law.bulk_modulus(0.))
+    {
+    }
 
-    void update(const MaterialPoints<3> &points,
-                const MaterialMotion<3> &motion,
-                UpdateReport              &report) const override
+    void update(const MaterialPoints<3> &points, const MaterialMotion<3> &motion, UpdateReport &report) const override
     {
       UpdateReport own;
       own.largest_bulk_modulus = bulk;
       for (unsigned int p = 0; p < points.n_points; ++p)
         {
           double *b = points.left_cauchy_green + p * points.stride, *stress = points.stress + p * points.stride;
-          double       trial[6], log_b[6];
+          double trial[6], log_b[6];
           trial_left_cauchy_green(motion.deformation_increment[p], 1., b, trial);
 
           // A point turned inside out would pass as its mirror image: the general update refuses it.

@@ -110,15 +110,13 @@ namespace scree
   };
 
 
-  inline double
-  MohrCoulomb::substep_strain() const
+  inline double MohrCoulomb::substep_strain() const
   {
     return std::numeric_limits<double>::infinity();
   }
 
 
-  inline double
-  MohrCoulomb::yield(const PrincipalValues &stress) const
+  inline double MohrCoulomb::yield(const PrincipalValues &stress) const
   {
     const double largest  = std::max(stress[0], std::max(stress[1], stress[2]));
     const double smallest = std::min(stress[0], std::min(stress[1], stress[2]));
@@ -128,12 +126,11 @@ namespace scree
   }
 
 
-  inline Response
-  MohrCoulomb::return_map(PrincipalValues &strain,
-                          double *internal_variables,
-                          const double volume_ratio,
-                          PrincipalValues &stress,
-                          UpdateReport &report) const
+  inline Response MohrCoulomb::return_map(PrincipalValues &strain,
+                                          double *internal_variables,
+                                          const double volume_ratio,
+                                          PrincipalValues &stress,
+                                          UpdateReport &report) const
   {
     PrincipalValues trial;
     elastic.return_map(strain, nullptr, volume_ratio, trial, report);

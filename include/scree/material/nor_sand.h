@@ -164,42 +164,37 @@ namespace scree
   };
 
 
-  inline double
-  NorSand::substep_strain() const
+  inline double NorSand::substep_strain() const
   {
     return parameters.substep_strain;
   }
 
 
-  inline double
-  NorSand::log_pressure_of(const double volume_strain) const
+  inline double NorSand::log_pressure_of(const double volume_strain) const
   {
     constexpr double log_zero_strain_pressure = 6.907755278982137; // ln(1 kPa/1 Pa)
     return log_zero_strain_pressure - volume_strain * inverse_swelling_index;
   }
 
 
-  inline double
-  NorSand::stress_ratio(const double log_ratio) const
+  inline double NorSand::stress_ratio(const double log_ratio) const
   {
     const double N = parameters.yield_constant, M = parameters.critical_stress_ratio;
     return N > 0 ? M / N * (1 - (1 - N) * std::exp(exponent * log_ratio)) : M * (1 - log_ratio);
   }
 
 
-  inline double
-  NorSand::dilatancy(const double stress_ratio) const
+  inline double NorSand::dilatancy(const double stress_ratio) const
   {
     return (stress_ratio - parameters.critical_stress_ratio) * dilatancy_factor;
   }
 
 
-  inline Response
-  NorSand::return_map(PrincipalValues &strain,
-                      double *internal_variables,
-                      const double volume_ratio,
-                      PrincipalValues &stress,
-                      UpdateReport &report) const
+  inline Response NorSand::return_map(PrincipalValues &strain,
+                                      double *internal_variables,
+                                      const double volume_ratio,
+                                      PrincipalValues &stress,
+                                      UpdateReport &report) const
   {
     const double volume_strain = strain[0] + strain[1] + strain[2];
     const double mean          = volume_strain / 3;

@@ -14,20 +14,20 @@
 
 namespace scree
 {
-  /// Writes mesh, points and `state` to the folder `checkpoint` of the run. The older checkpoint stays valid until this one
-  /// is whole: the file `latest` names the newest. Collective.
+  /// Writes mesh, points and `state` to the folder `checkpoint` of the run. The older checkpoint stays valid until this
+  /// one is whole: the file `latest` names the newest. Collective.
   template <int dim>
-  void save_checkpoint(const std::string                                          &run_folder,
-                       const BackgroundGrid<dim>                                  &grid,
-                       std::list<Phase<dim>>                                      &phases,
+  void save_checkpoint(const std::string &run_folder,
+                       const BackgroundGrid<dim> &grid,
+                       std::list<Phase<dim>> &phases,
                        const std::function<void(boost::archive::binary_oarchive &)> &state);
 
-  /// Reads the newest checkpoint, on any number of ranks. The grid must be fresh and the phases empty. Collective; throws
-  /// dealii::ExcMessage if there is no checkpoint.
+  /// Reads the newest checkpoint, on any number of ranks. The grid must be fresh and the phases empty. Collective;
+  /// throws dealii::ExcMessage if there is no checkpoint.
   template <int dim>
-  void load_checkpoint(const std::string                                          &run_folder,
-                       BackgroundGrid<dim>                                        &grid,
-                       std::list<Phase<dim>>                                      &phases,
+  void load_checkpoint(const std::string &run_folder,
+                       BackgroundGrid<dim> &grid,
+                       std::list<Phase<dim>> &phases,
                        const std::function<void(boost::archive::binary_iarchive &)> &state);
 } // namespace scree
 

@@ -40,9 +40,9 @@ namespace scree
     void write_pvd(const std::string &name, const std::vector<TimeAndFile> &files) const;
 
     const BackgroundGrid<dim> &grid;
-    const std::string          graphics;
-    const std::string          folder;
-    std::vector<TimeAndFile>   point_files, grid_files;
+    const std::string graphics;
+    const std::string folder;
+    std::vector<TimeAndFile> point_files, grid_files;
   };
 } // namespace scree
 

@@ -23,16 +23,16 @@ namespace scree
   /// The coordinates along `axis` below which the given fractions of the mass of all phases lie, m. Collective.
   template <int dim>
   std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
-                                       const BackgroundGrid<dim>   &grid,
-                                       const unsigned int           axis,
-                                       const std::vector<double>   &fractions);
+                                       const BackgroundGrid<dim> &grid,
+                                       const unsigned int axis,
+                                       const std::vector<double> &fractions);
 
   /// Kinetic over elastic energy of all phases; infinite without elastic energy. Collective.
   template <int dim>
   double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases, const MPI_Comm communicator);
 
-  /// Oscillation of P: the rms, over the points of all phases, of P minus a linear fit of P over the 3^dim cells around the point's
-  /// cell, over the mean of P. 0 where the soil bears no stress. Collective.
+  /// Oscillation of P: the rms, over the points of all phases, of P minus a linear fit of P over the 3^dim cells around
+  /// the point's cell, over the mean of P. 0 where the soil bears no stress. Collective.
   template <int dim>
   double stress_oscillation(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid);
 } // namespace scree

@@ -23,10 +23,10 @@ namespace scree
     void summarise(const dealii::TimerOutput &parts, const double point_updates, const unsigned int n_ranks);
 
   private:
-    RunFolder    &folder;
-    const double  start_time, end_time;
+    RunFolder &folder;
+    const double start_time, end_time;
     dealii::Timer clock;
-    double        last_line = 0; // wall time, s
+    double last_line = 0; // wall time, s
   };
 } // namespace scree
 

@@ -36,9 +36,9 @@ namespace scree
 
   private:
     const std::string path;
-    const bool        to_screen;
-    const bool        writer;
-    std::ofstream     log_file;
+    const bool to_screen;
+    const bool writer;
+    std::ofstream log_file;
   };
 } // namespace scree
 

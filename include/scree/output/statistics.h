@@ -15,11 +15,11 @@ namespace scree
   template <int dim>
   struct RunTotals
   {
-    StepBalance<dim>       balance;
-    dealii::Tensor<1, dim> lost_momentum;           ///< of points that left through an open wall, N s
-    double                 lost_mass           = 0; ///< kg
-    double                 lost_energy         = 0; ///< kinetic and potential, J
-    double                 plastic_dissipation = 0; ///< J
+    StepBalance<dim> balance;
+    dealii::Tensor<1, dim> lost_momentum; ///< of points that left through an open wall, N s
+    double lost_mass           = 0;       ///< kg
+    double lost_energy         = 0;       ///< kinetic and potential, J
+    double plastic_dissipation = 0;       ///< J
 
     // Counts; doubles hold them exactly and travel like the rest.
     double n_lost = 0, n_updates = 0, n_substeps = 0, n_fallbacks = 0, n_vertices = 0, n_unresolved = 0;
@@ -47,11 +47,11 @@ namespace scree
 
     /// Appends a row. Collective.
     void collect(const std::list<Phase<dim>> &phases,
-                 const RunTotals<dim>        &totals,
-                 const double                 time,
-                 const unsigned long long     step,
-                 const double                 time_step,
-                 const UpdateReport          &last_step);
+                 const RunTotals<dim> &totals,
+                 const double time,
+                 const unsigned long long step,
+                 const double time_step,
+                 const UpdateReport &last_step);
 
     /// Writes all rows so far (rank 0 should call it).
     void write(const std::string &file) const;
@@ -68,12 +68,12 @@ namespace scree
   private:
     void add(const std::string &column, const double value);
 
-    const BackgroundGrid<dim>    &grid;
+    const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
-    dealii::TableHandler          table;
-    bool                          has_start = false;
-    dealii::Tensor<1, dim>        start_momentum;
-    double                        start_energy = 0;
+    dealii::TableHandler table;
+    bool has_start = false;
+    dealii::Tensor<1, dim> start_momentum;
+    double start_energy = 0;
     std::vector<std::pair<std::string, double>> last_row;
   };
 } // namespace scree

@@ -16,24 +16,25 @@ namespace scree
   template <int dim>
   struct Phase
   {
-    std::string                    name;
-    double                         density; ///< bulk density at J = 1, kg/m^3
+    std::string name;
+    double density; ///< bulk density at J = 1, kg/m^3
     std::unique_ptr<Material<dim>> material;
-    PropertyLayout<dim>            layout;
-    PointSet<dim>                  points;
+    PropertyLayout<dim> layout;
+    PointSet<dim> points;
 
-    Phase(const std::string                &name,
-          const double                      density,
-          std::unique_ptr<Material<dim>>    material,
-          const PropertyLayout<dim>        &layout,
+    Phase(const std::string &name,
+          const double density,
+          std::unique_ptr<Material<dim>> material,
+          const PropertyLayout<dim> &layout,
           const dealii::Triangulation<dim> &triangulation,
-          const dealii::Mapping<dim>       &mapping)
-      : name(name)
-      , density(density)
-      , material(std::move(material))
-      , layout(layout)
-      , points(triangulation, mapping, layout.n_properties)
-    {}
+          const dealii::Mapping<dim> &mapping)
+        : name(name)
+        , density(density)
+        , material(std::move(material))
+        , layout(layout)
+        , points(triangulation, mapping, layout.n_properties)
+    {
+    }
 
     /// Speed of pressure waves, m/s, at a bulk modulus, Pa; 0 where there is no stiffness.
     double wave_speed(const double bulk_modulus) const
@@ -44,11 +45,11 @@ namespace scree
     /// The slots of a cell's points that the law reads and writes.
     MaterialPoints<dim> material_points(const CellPoints<dim> &cell) const
     {
-      return {cell.n_points,
-              points.stride(),
-              cell.properties + layout.left_cauchy_green,
-              cell.properties + layout.stress,
-              cell.properties + layout.internal_variables};
+      return { cell.n_points,
+               points.stride(),
+               cell.properties + layout.left_cauchy_green,
+               cell.properties + layout.stress,
+               cell.properties + layout.internal_variables };
     }
   };
 } // namespace scree

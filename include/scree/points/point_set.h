@@ -14,10 +14,10 @@ namespace scree
   template <int dim>
   struct CellPoints
   {
-    unsigned int              cell; ///< active cell index
-    unsigned int              n_points;
-    double                   *properties; ///< the set's stride() doubles a point
-    dealii::Point<dim>       *location;   ///< m
+    unsigned int cell; ///< active cell index
+    unsigned int n_points;
+    double *properties;           ///< the set's stride() doubles a point
+    dealii::Point<dim> *location; ///< m
     const dealii::Point<dim> *reference_location;
   };
 
@@ -25,7 +25,7 @@ namespace scree
   template <int dim>
   struct LostPoint
   {
-    dealii::Point<dim>  location; ///< m
+    dealii::Point<dim> location; ///< m
     std::vector<double> properties;
   };
 
@@ -35,8 +35,8 @@ namespace scree
   {
   public:
     PointSet(const dealii::Triangulation<dim> &triangulation,
-             const dealii::Mapping<dim>       &mapping,
-             const unsigned int                n_properties);
+             const dealii::Mapping<dim> &mapping,
+             const unsigned int n_properties);
 
     /// Hands every point to the cell and rank it lies in now. Collective.
     /// Points outside the mesh leave the set and are appended to lost().
@@ -73,10 +73,10 @@ namespace scree
     }
 
   private:
-    const unsigned int                      n_properties;
+    const unsigned int n_properties;
     dealii::Particles::ParticleHandler<dim> particle_handler;
-    std::vector<CellPoints<dim>>            cell_list;
-    std::vector<LostPoint<dim>>             lost_points;
+    std::vector<CellPoints<dim>> cell_list;
+    std::vector<LostPoint<dim>> lost_points;
   };
 } // namespace scree
 

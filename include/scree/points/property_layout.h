@@ -11,21 +11,22 @@ namespace scree
   template <int dim>
   struct PropertyLayout
   {
-    static constexpr unsigned int velocity            = 0;                                                    ///< m/s, dim
-    static constexpr unsigned int mass                = dim;                                                  ///< kg (2D: per m)
-    static constexpr unsigned int volume              = dim + 1;                                              ///< m^3 (2D: per m)
-    static constexpr unsigned int left_cauchy_green   = dim + 2;                                              ///< b_e, -
-    static constexpr unsigned int stress              = left_cauchy_green + n_symmetric_components<dim>;      ///< Cauchy, Pa
-    static constexpr unsigned int internal_variables  = stress + n_symmetric_components<dim>;                 ///< as the law says
-    unsigned int                  affine;                                                                     ///< dim x dim, row-major
-    unsigned int                  n_properties;
+    static constexpr unsigned int velocity           = 0;       ///< m/s, dim
+    static constexpr unsigned int mass               = dim;     ///< kg (2D: per m)
+    static constexpr unsigned int volume             = dim + 1; ///< m^3 (2D: per m)
+    static constexpr unsigned int left_cauchy_green  = dim + 2; ///< b_e, -
+    static constexpr unsigned int stress             = left_cauchy_green + n_symmetric_components<dim>; ///< Cauchy, Pa
+    static constexpr unsigned int internal_variables = stress + n_symmetric_components<dim>; ///< as the law says
+    unsigned int affine;                                                                     ///< dim x dim, row-major
+    unsigned int n_properties;
 
     /// @param n_internal_variables of the material law
     /// @param with_affine whether the transfer carries an affine velocity field
     PropertyLayout(const unsigned int n_internal_variables, const bool with_affine)
-      : affine(internal_variables + n_internal_variables)
-      , n_properties(affine + (with_affine ? dim * dim : 0))
-    {}
+        : affine(internal_variables + n_internal_variables)
+        , n_properties(affine + (with_affine ? dim * dim : 0))
+    {
+    }
   };
 } // namespace scree
 

@@ -15,7 +15,7 @@ namespace scree
   std::unique_ptr<dealii::FunctionParser<dim>> parse_expression(const std::string &where,
                                                                 const std::string &text,
                                                                 const unsigned int n_components,
-                                                                const bool         with_time = false);
+                                                                const bool with_time = false);
 
   /// A part of space: inside where an expression of the coordinates is true (not 0).
   template <int dim>

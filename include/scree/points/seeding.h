@@ -14,11 +14,11 @@ namespace scree
   /// Where a body is and how densely it is filled with points.
   struct SeedingParameters
   {
-    std::string  region           = "0";
-    unsigned int points_per_cell  = 4;    ///< along each axis
-    double       grain_density    = 2500; ///< kg/m^3
-    double       initial_porosity = -1;   ///< below 0: as the law says
-    std::string  initial_velocity = "";   ///< m/s, one expression an axis; empty: at rest
+    std::string region           = "0";
+    unsigned int points_per_cell = 4;    ///< along each axis
+    double grain_density         = 2500; ///< kg/m^3
+    double initial_porosity      = -1;   ///< below 0: as the law says
+    std::string initial_velocity = "";   ///< m/s, one expression an axis; empty: at rest
 
     /// Declares the entries in the body's subsection.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -27,15 +27,15 @@ namespace scree
     void check(const std::string &body, const unsigned int dim) const;
   };
 
-  /// Fills the phase's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point stands
-  /// at the centroid of the part of its cube that is inside and has its volume, and slivers join their neighbour.
-  /// Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
+  /// Fills the phase's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point
+  /// stands at the centroid of the part of its cube that is inside and has its volume, and slivers join their
+  /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
   /// holds no volume.
   template <int dim>
-  void seed(Phase<dim>                       &phase,
-            const SeedingParameters          &parameters,
+  void seed(Phase<dim> &phase,
+            const SeedingParameters &parameters,
             const dealii::Triangulation<dim> &triangulation,
-            const double                      cell_size);
+            const double cell_size);
 } // namespace scree
 
 #endif

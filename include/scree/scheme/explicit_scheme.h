@@ -27,9 +27,9 @@ namespace scree
   template <int dim>
   struct StepBalance
   {
-    dealii::Tensor<1, dim> wall_impulse;            ///< N s
-    dealii::Tensor<1, dim> body_impulse;            ///< gravity and body force, N s
-    double                 wall_dissipation = 0; ///< energy that walls took, J
+    dealii::Tensor<1, dim> wall_impulse; ///< N s
+    dealii::Tensor<1, dim> body_impulse; ///< gravity and body force, N s
+    double wall_dissipation = 0;         ///< energy that walls took, J
 
     StepBalance &operator+=(const StepBalance &other);
   };
@@ -39,10 +39,10 @@ namespace scree
   class ExplicitScheme
   {
   public:
-    ExplicitScheme(const BackgroundGrid<dim>     &grid,
+    ExplicitScheme(const BackgroundGrid<dim> &grid,
                    const BoundaryConditions<dim> &walls,
-                   const std::vector<double>     &gravity,
-                   const BodyForceParameters     &body_force);
+                   const std::vector<double> &gravity,
+                   const BodyForceParameters &body_force);
 
     /// Damped settling: velocity decays at `rate`, 1/s, and nodes with `held[node]` do not move.
     void start_settling(const double rate, std::vector<char> held);
@@ -59,12 +59,12 @@ namespace scree
     }
 
   private:
-    const BackgroundGrid<dim>             &grid;
-    const BoundaryConditions<dim>         &walls;
-    dealii::Tensor<1, dim>                 acceleration;
+    const BackgroundGrid<dim> &grid;
+    const BoundaryConditions<dim> &walls;
+    dealii::Tensor<1, dim> acceleration;
     std::unique_ptr<dealii::Function<dim>> body_force;
-    double                                 damping_rate = 0;
-    std::vector<char>                      held;
+    double damping_rate = 0;
+    std::vector<char> held;
   };
 } // namespace scree
 

@@ -23,7 +23,8 @@ namespace scree
 
     /// The step, s, from now on: at most Courant number times cell size over (wave speed + speed) and the maximum, and
     /// shortened so that equal steps end at `appointment`.
-    double next_step(const double cell_size, const double wave_speed, const double speed, const double appointment) const;
+    double
+    next_step(const double cell_size, const double wave_speed, const double speed, const double appointment) const;
 
     /// Moves on by the step, to the appointment itself if the step ends there.
     void advance(const double time_step, const double appointment);
@@ -44,8 +45,8 @@ namespace scree
 
   private:
     const TimeStepParameters parameters;
-    double                   current_time = 0;
-    unsigned long long       n_steps      = 0;
+    double current_time        = 0;
+    unsigned long long n_steps = 0;
   };
 } // namespace scree
 

@@ -10,8 +10,7 @@
 namespace scree
 {
   /// Principal logarithmic strains, 1/2 ln of the principal values of a left Cauchy-Green tensor.
-  inline PrincipalValues
-  log_strain(const PrincipalValues &left_cauchy_green)
+  inline PrincipalValues log_strain(const PrincipalValues &left_cauchy_green)
   {
     return { { 0.5 * std::log(left_cauchy_green[0]),
                0.5 * std::log(left_cauchy_green[1]),
@@ -20,18 +19,16 @@ namespace scree
 
   /// Exponential map (Simo 1992): b = sum exp(2 strain_i) n_i n_i along the axes of `frame`.
   template <int dim>
-  inline void
-  left_cauchy_green_of(const PrincipalFrame<dim> &frame, const PrincipalValues &strain, double *result)
+  inline void left_cauchy_green_of(const PrincipalFrame<dim> &frame, const PrincipalValues &strain, double *result)
   {
     frame.compose({ { std::exp(2 * strain[0]), std::exp(2 * strain[1]), std::exp(2 * strain[2]) } }, result);
   }
 
   /// Trial b = f b f^T by components. In plane strain `out_of_plane_stretch` is f_zz.
-  inline void
-  trial_left_cauchy_green(const dealii::Tensor<2, 2> &f,
-                          const double out_of_plane_stretch,
-                          const double *b,
-                          double *result)
+  inline void trial_left_cauchy_green(const dealii::Tensor<2, 2> &f,
+                                      const double out_of_plane_stretch,
+                                      const double *b,
+                                      double *result)
   {
     const double x_x = f[0][0] * b[0] + f[0][1] * b[3]; // (f b)_xx and so on
     const double x_y = f[0][0] * b[3] + f[0][1] * b[1];
@@ -45,8 +42,7 @@ namespace scree
   }
 
   /// The same in three dimensions; the stretch is not read.
-  inline void
-  trial_left_cauchy_green(const dealii::Tensor<2, 3> &f, const double, const double *b, double *result)
+  inline void trial_left_cauchy_green(const dealii::Tensor<2, 3> &f, const double, const double *b, double *result)
   {
     const double full[3][3] = { { b[0], b[3], b[4] }, { b[3], b[1], b[5] }, { b[4], b[5], b[2] } };
     double product[3][3];

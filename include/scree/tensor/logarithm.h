@@ -8,8 +8,8 @@
 
 namespace scree
 {
-  /// Logarithm of a symmetric positive definite tensor (components, three dimensions) without its eigenvectors, if its principal values
-  /// differ by less than a fifth or so; returns false, and no result, if they differ by more.
+  /// Logarithm of a symmetric positive definite tensor (components, three dimensions) without its eigenvectors, if its
+  /// principal values differ by less than a fifth or so; returns false, and no result, if they differ by more.
   ///
   /// b = m (I + D) with the trace-free D: ln b = ln m I + D - D^2/2 + D^3/3 - ... . By Cayley and Hamilton
   /// D^3 = J_2 D + J_3 I, so that every power is a combination of I, D and D^2, and the series is one of scalars.
@@ -22,12 +22,12 @@ namespace scree
       D[c] = (c < 3 ? b[c] - mean : b[c]) * inverse;
 
     double square[6]; // D^2
-    square[0] = D[0] * D[0] + D[3] * D[3] + D[4] * D[4];
-    square[1] = D[1] * D[1] + D[3] * D[3] + D[5] * D[5];
-    square[2] = D[2] * D[2] + D[4] * D[4] + D[5] * D[5];
-    square[3] = D[3] * (D[0] + D[1]) + D[4] * D[5];
-    square[4] = D[4] * (D[0] + D[2]) + D[3] * D[5];
-    square[5] = D[5] * (D[1] + D[2]) + D[3] * D[4];
+    square[0]       = D[0] * D[0] + D[3] * D[3] + D[4] * D[4];
+    square[1]       = D[1] * D[1] + D[3] * D[3] + D[5] * D[5];
+    square[2]       = D[2] * D[2] + D[4] * D[4] + D[5] * D[5];
+    square[3]       = D[3] * (D[0] + D[1]) + D[4] * D[5];
+    square[4]       = D[4] * (D[0] + D[2]) + D[3] * D[5];
+    square[5]       = D[5] * (D[1] + D[2]) + D[3] * D[4];
     const double J2 = 0.5 * (square[0] + square[1] + square[2]);
     // Written so that not-a-number and negative means fall through, too.
     if (!(J2 < 1e-2 && mean > 0.))

@@ -10,8 +10,7 @@ namespace scree
 {
   /// The dim x dim matrix of a symmetric tensor given by components (plane strain: the in-plane part).
   template <int dim>
-  std::array<std::array<double, dim>, dim>
-  matrix_of_components(const double *t)
+  std::array<std::array<double, dim>, dim> matrix_of_components(const double *t)
   {
     if constexpr (dim == 2)
       return { { { { t[0], t[3] } }, { { t[3], t[1] } } } };
@@ -21,8 +20,7 @@ namespace scree
 
   /// Determinant of a symmetric tensor given by components, in three dimensions.
   template <int dim>
-  double
-  determinant_of_components(const double *t)
+  double determinant_of_components(const double *t)
   {
     if constexpr (dim == 2)
       return t[2] * (t[0] * t[1] - t[3] * t[3]);

@@ -37,15 +37,13 @@ namespace scree
       sine             = radius > 0 ? tensor[3] / radius : 0;
     }
 
-    const PrincipalValues &
-    values() const
+    const PrincipalValues &values() const
     {
       return principal_values;
     }
 
     /// Components of the tensor with the principal values `values` along these axes.
-    void
-    compose(const PrincipalValues &values, double *tensor) const
+    void compose(const PrincipalValues &values, double *tensor) const
     {
       const double mean   = 0.5 * (values[0] + values[1]);
       const double radius = 0.5 * (values[0] - values[1]);
@@ -87,15 +85,13 @@ namespace scree
       principal_values = { { a[0][0], a[1][1], a[2][2] } };
     }
 
-    const PrincipalValues &
-    values() const
+    const PrincipalValues &values() const
     {
       return principal_values;
     }
 
     /// Components of the tensor with the principal values `values` along these axes.
-    void
-    compose(const PrincipalValues &values, double *tensor) const
+    void compose(const PrincipalValues &values, double *tensor) const
     {
       constexpr unsigned int rows[6]    = { 0, 1, 2, 0, 0, 1 };
       constexpr unsigned int columns[6] = { 0, 1, 2, 1, 2, 2 };
@@ -110,8 +106,7 @@ namespace scree
   private:
     /// Make a[p][q] zero; `o` is the third index.
     template <unsigned int p, unsigned int q, unsigned int o>
-    void
-    rotate(double (&a)[3][3])
+    void rotate(double (&a)[3][3])
     {
       if (a[p][q] == 0)
         return;

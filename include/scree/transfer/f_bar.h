@@ -16,11 +16,11 @@ namespace scree
   struct CellMotion
   {
     std::vector<dealii::Tensor<2, dim>> deformation_increment; ///< dF
-    std::vector<double>                 out_of_plane_stretch;  ///< dF_zz
-    std::vector<double>                 volume_change;         ///< dJ of the points' volume
-    std::vector<double>                 volume;                ///< V at the start of the step, m^3
-    std::vector<double>                 volume_ratio;          ///< J = V/V_0 at its end
-    std::vector<double>                 reference_volume;      ///< V_0, m^3
+    std::vector<double> out_of_plane_stretch;                  ///< dF_zz
+    std::vector<double> volume_change;                         ///< dJ of the points' volume
+    std::vector<double> volume;                                ///< V at the start of the step, m^3
+    std::vector<double> volume_ratio;                          ///< J = V/V_0 at its end
+    std::vector<double> reference_volume;                      ///< V_0, m^3
 
     /// Makes room for the points of a cell; memory only grows.
     void resize(const unsigned int n_points)
@@ -28,14 +28,15 @@ namespace scree
       if (n_points <= deformation_increment.size())
         return;
       deformation_increment.resize(n_points);
-      for (auto *list : {&out_of_plane_stretch, &volume_change, &volume, &volume_ratio, &reference_volume})
+      for (auto *list : { &out_of_plane_stretch, &volume_change, &volume, &volume_ratio, &reference_volume })
         list->resize(n_points);
     }
 
     MaterialMotion<dim> material_motion() const
     {
       return {
-        deformation_increment.data(), out_of_plane_stretch.data(), volume_ratio.data(), reference_volume.data()};
+        deformation_increment.data(), out_of_plane_stretch.data(), volume_ratio.data(), reference_volume.data()
+      };
     }
   };
 

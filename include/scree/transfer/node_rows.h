@@ -19,9 +19,9 @@ namespace scree
   NodeRow make_row(const std::array<double, n> &values)
   {
     if constexpr (n == 2)
-      return NodeRow{values[0], values[1], 0., 0.};
+      return NodeRow{ values[0], values[1], 0., 0. };
     else
-      return NodeRow{values[0], values[1], values[2], 0.};
+      return NodeRow{ values[0], values[1], values[2], 0. };
   }
 
   /// The factors that the axes other than the first contribute to a row of nodes: product of their shape functions, and
@@ -31,7 +31,7 @@ namespace scree
   {
     static constexpr unsigned int n_rows = dealii::Utilities::pow(n, dim - 1);
 
-    std::array<double, n_rows>                      value;
+    std::array<double, n_rows> value;
     std::array<std::array<double, n_rows>, dim - 1> derivative; ///< per cell width, along axes 1, 2
 
     explicit RowFactors(const CellBasis<dim, n> &basis)

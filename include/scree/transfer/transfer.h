@@ -14,7 +14,7 @@ namespace scree
   /// What a pass from the grid to the points found out; cells add up.
   struct MotionReport
   {
-    double       largest_speed = 0; ///< m/s; not a number if any point's is not
+    double largest_speed = 0; ///< m/s; not a number if any point's is not
     UpdateReport material;
   };
 
@@ -23,17 +23,17 @@ namespace scree
   class Transfer
   {
   public:
-    Transfer(const BackgroundGrid<dim>     &grid,
-             const TransferParameters      &transfer,
+    Transfer(const BackgroundGrid<dim> &grid,
+             const TransferParameters &transfer,
              const StabilisationParameters &stabilisation);
 
-    /// Activates the nodes of the phase's cells and adds mass, momentum and internal force of this rank's points: lumped
-    /// mass sum m phi_i, momentum
-    /// sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP and PIC, force -sum V sigma grad phi_i.
+    /// Activates the nodes of the phase's cells and adds mass, momentum and internal force of this rank's points:
+    /// lumped mass sum m phi_i, momentum sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP and PIC, force -sum V sigma
+    /// grad phi_i.
     void to_grid(const Phase<dim> &phase, NodalField<dim> &field) const;
 
-    /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step of
-    /// `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
+    /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
+    /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
     MotionReport to_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step);
 
   private:
@@ -44,10 +44,10 @@ namespace scree
     MotionReport move_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step);
 
     const BackgroundGrid<dim> &grid;
-    const TransferMethod       method;
-    const double               pic_rate;
-    const FBar                 f_bar;
-    CellMotion<dim>            motion; // of the cell at hand; kept for its memory
+    const TransferMethod method;
+    const double pic_rate;
+    const FBar f_bar;
+    CellMotion<dim> motion; // of the cell at hand; kept for its memory
   };
 } // namespace scree
 

@@ -28,12 +28,12 @@ namespace scree
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method   = "FLIP";
-    double      pic_rate = 5; ///< 1/s
+    std::string method = "FLIP";
+    double pic_rate    = 5; ///< 1/s
 
-    void           add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm);
     TransferMethod transfer_method() const;
-    bool           carries_affine_field() const;
+    bool carries_affine_field() const;
   };
 
   /// Subsection Stabilisation.
