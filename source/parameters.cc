@@ -130,6 +130,13 @@ namespace scree
     boundaries.check(dimension);
     body_force.check(dimension);
     settling.check(gravity);
+    require_entry(transfer.method != "APIC" || grid.basis == "spline",
+                  "Transfer",
+                  "Method",
+                  transfer.method,
+                  "with \"Basis = " + grid.basis +
+                      "\" its affine field grows without bound, as the inertia of the nodes around a point vanishes at "
+                      "cell faces. Write \"Basis = spline\", or another method.");
     for (const auto &body : bodies)
       body.check(gravity);
   }

@@ -54,10 +54,15 @@ namespace scree
     void settle();
     void set_phases_in_motion();
 
+    void make_appointments();
     double next_appointment() const;
     void report();
     void account_for_lost_points();
     void balance_load();
+
+    /// Largest over ranks; what is not a number counts as infinite.
+    std::vector<double> largest_of_ranks(std::vector<double> values) const;
+
     void write_checkpoint();
 
     template <class Archive>
@@ -82,7 +87,7 @@ namespace scree
     double wave_speed       = 0; // largest of all ranks, m/s
     double largest_speed    = 0; // of points, of all ranks, m/s
     double last_time_step   = 0; // s
-    unsigned int n_pictures = 0, n_rows = 0, n_checkpoints = 0;
+    double next_picture = 0, next_row = 0, next_checkpoint = 0; // s
   };
 } // namespace scree
 

@@ -53,8 +53,9 @@ namespace scree
           if (wanted < 0)
             for (const double mass : bins)
               wanted = std::max(wanted, 0.) + fraction * mass;
+          // Equal masses often add up to just the wanted part: rounding must not choose the point.
           unsigned int bin = 0;
-          while (bin + 1 < n_bins && below + bins[bin] < wanted)
+          while (bin + 1 < n_bins && below + bins[bin] < wanted * (1. - 1e-12))
             below += bins[bin++];
           const double width = (end - begin) / n_bins;
           begin += bin * width;

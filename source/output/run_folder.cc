@@ -22,10 +22,11 @@ namespace scree
   } // namespace
 
 
-  RunFolder::RunFolder(const std::string &path, const bool keep, const bool to_screen, const MPI_Comm communicator)
+  RunFolder::RunFolder(const std::string &path, const bool to_screen, const MPI_Comm communicator)
       : path(path)
       , to_screen(to_screen)
       , writer(Utilities::MPI::this_mpi_process(communicator) == 0)
+      , communicator(communicator)
   {
     std::string fault;
     if (writer)
@@ -36,9 +37,7 @@ namespace scree
           fault = error.message();
         else
           {
-            if (!keep)
-              remove_pictures(path + "/solution");
-            log_file.open(file("log.txt"), keep ? std::ios::app : std::ios::trunc);
+            log_file.open(file("log.txt"), std::ios::app);
             if (!log_file)
               fault = "no file can be written there";
           }
@@ -49,6 +48,19 @@ namespace scree
                   "Output directory",
                   path,
                   "the run cannot write there: " + fault + ". Name a folder in which you may write.");
+  }
+
+
+  void RunFolder::remove_old_results()
+  {
+    if (writer)
+      {
+        remove_pictures(file("solution"));
+        std::filesystem::remove_all(file("checkpoint"));
+        log_file.close();
+        log_file.open(file("log.txt"), std::ios::trunc);
+      }
+    MPI_Barrier(communicator); // Nobody may write before the old is gone.
   }
 
 

@@ -45,7 +45,7 @@ namespace scree
         "F-bar",
         f_bar,
         "none; standard: the cell's mean volume change drives the material; modified: and the stored elastic "
-        "volume strain of its points is averaged.",
+        "volume strain of its points is averaged, and their volume follows the mean.",
         Patterns::Selection("none|standard|modified"));
     prm.leave_subsection();
   }

@@ -55,7 +55,7 @@ def largest_difference(first, second, counts):
         if len(values) != len(others):
             sys.exit("different numbers of rows: %d and %d" % (len(values), len(others)))
         scale = max(abs(v) for v in values + others) or 1.0
-        if column in ("Numerical dissipation (J)", "Wall dissipation (J)", "Damping dissipation (J)"):
+        if column in ("Numerical dissipation (J)", "Wall dissipation (J)"):
             scale = energy
         if column == "Momentum residual (N s)":
             scale = momentum

@@ -36,7 +36,7 @@ test(const std::string &name,
   for (const double x : upper_corner)
     corner += (corner.empty() ? "" : ", ") + Utilities::to_string(x);
   const std::string zeros = dim == 3 ? "0, 0, " : "0, ";
-  RunFolder("results", false, false, MPI_COMM_WORLD)
+  RunFolder("results", false, MPI_COMM_WORLD)
       .write("start.prm",
              "set Dimension = " + std::to_string(dim) + "\nset Output directory = results\nset Bodies = " + names +
                  "\nset Gravity = " + zeros + "-9.81\nsubsection Mesh\nset Lower corner = " + zeros +

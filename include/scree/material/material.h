@@ -31,7 +31,7 @@ namespace scree
   {
     const dealii::Tensor<2, dim> *deformation_increment = nullptr; ///< dF of the step, after F-bar, in-plane part
     const double *out_of_plane_stretch = nullptr; ///< dF_zz after F-bar, which scales all three axes; read if dim = 2
-    const double *volume_ratio         = nullptr; ///< J = V/V_0 at the end of the step, un-smoothed
+    const double *volume_ratio         = nullptr; ///< J = V/V_0 at the end of the step
     const double *reference_volume     = nullptr; ///< V_0, m^3 (dim = 2: per metre of depth)
   };
 

@@ -23,7 +23,7 @@ namespace scree
                        const std::function<void(boost::archive::binary_oarchive &)> &state);
 
   /// Reads the newest checkpoint, on any number of ranks. The grid must be fresh and the phases empty. Collective;
-  /// throws dealii::ExcMessage if there is no checkpoint.
+  /// throws EntryError if there is no checkpoint.
   template <int dim>
   void load_checkpoint(const std::string &run_folder,
                        BackgroundGrid<dim> &grid,

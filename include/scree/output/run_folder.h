@@ -14,8 +14,10 @@ namespace scree
   {
   public:
     /// Makes the folder and its folder `solution`. Collective; throws EntryError on all ranks if it is not writable.
-    /// @param keep whether a run is resumed: the log goes on, else pictures of an earlier run are removed
-    RunFolder(const std::string &path, const bool keep, const bool to_screen, const MPI_Comm communicator);
+    RunFolder(const std::string &path, const bool to_screen, const MPI_Comm communicator);
+
+    /// Removes log, pictures and checkpoints of an earlier run. Collective.
+    void remove_old_results();
 
     /// Writes a file of the folder with the given text.
     void write(const std::string &name, const std::string &text) const;
@@ -38,6 +40,7 @@ namespace scree
     const std::string path;
     const bool to_screen;
     const bool writer;
+    const MPI_Comm communicator;
     std::ofstream log_file;
   };
 } // namespace scree

@@ -22,7 +22,7 @@ namespace scree
   {
     none,
     standard, ///< the cell's mean volume change drives the material (Coombs et al. 2018)
-    modified  ///< and the stored elastic volume strain is the cell's mean (Xie, Navas & Lopez-Querol 2024)
+    modified  ///< and stored elastic volume strain and volume follow the cell's mean (after Xie et al. 2024)
   };
 
   /// Subsection Transfer.
