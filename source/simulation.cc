@@ -17,8 +17,8 @@ namespace scree
     /// The first multiple of `interval` after `time`; never, if there is no interval.
     double first_after(const double time, const double interval)
     {
-      return interval > 0 ? (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval :
-                            std::numeric_limits<double>::infinity();
+      return interval > 0 ? (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval
+                          : std::numeric_limits<double>::infinity();
     }
 
     std::string coordinates(const Point<2> &x)

@@ -17,9 +17,7 @@ namespace scree
   Simulation<dim>::Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
       : parameters(parameters)
       , communicator(communicator)
-      , folder(parameters.output_directory,
-               parameters.output.screen_kind() == Screen::progress,
-               communicator)
+      , folder(parameters.output_directory, parameters.output.screen_kind() == Screen::progress, communicator)
       , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
       , grid(parameters.grid, communicator)
       , walls(grid, parameters.boundaries)
@@ -155,12 +153,12 @@ namespace scree
         if (settling_clock.step() % steps_between_checks == 0 || settling_clock.time() >= settling.maximum_time)
           ratio = kinetic_to_elastic_energy(phases, communicator);
       }
-    folder.log("Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
-               std::to_string(settling_clock.step()) + " steps; kinetic over elastic energy " +
-               Utilities::to_string(ratio) +
-               (ratio < settling.kinetic_energy ? ". Released." :
-                                                  ", above the wanted " + Utilities::to_string(settling.kinetic_energy) +
-                                                      ": not yet at rest. Released all the same."));
+    folder.log(
+        "Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
+        std::to_string(settling_clock.step()) + " steps; kinetic over elastic energy " + Utilities::to_string(ratio) +
+        (ratio < settling.kinetic_energy ? ". Released."
+                                         : ", above the wanted " + Utilities::to_string(settling.kinetic_energy) +
+                                               ": not yet at rest. Released all the same."));
 
     scheme.release();
     for (const auto &phase : phases)

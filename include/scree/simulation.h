@@ -83,10 +83,10 @@ namespace scree
     Statistics<dim> statistics;
 
     RunTotals<dim> totals;
-    UpdateReport last_step;      // of this rank
-    double wave_speed       = 0; // largest of all ranks, m/s
-    double largest_speed    = 0; // of points, of all ranks, m/s
-    double last_time_step   = 0; // s
+    UpdateReport last_step;                                     // of this rank
+    double wave_speed     = 0;                                  // largest of all ranks, m/s
+    double largest_speed  = 0;                                  // of points, of all ranks, m/s
+    double last_time_step = 0;                                  // s
     double next_picture = 0, next_row = 0, next_checkpoint = 0; // s
   };
 } // namespace scree

@@ -25,8 +25,7 @@ run(const std::string &path, const double specific_volume, const double confinin
 }
 
 
-void
-compare(const std::string &name, const double found, const double wanted)
+void compare(const std::string &name, const double found, const double wanted)
 {
   AssertThrow(std::abs(found / wanted - 1) < 0.01,
               ExcMessage(name + " is " + std::to_string(found) + ", should be " + std::to_string(wanted)));
@@ -34,11 +33,10 @@ compare(const std::string &name, const double found, const double wanted)
 }
 
 
-void
-test_drained(const std::string &name,
-             const double specific_volume,
-             const std::array<double, 3> &peaks,
-             const std::array<double, 3> &final_volumes)
+void test_drained(const std::string &name,
+                  const double specific_volume,
+                  const std::array<double, 3> &peaks,
+                  const std::array<double, 3> &final_volumes)
 {
   const std::array<double, 3> confining_pressures = { { 10e3, 50e3, 100e3 } };
   for (unsigned int i = 0; i < 3; ++i)
@@ -55,8 +53,7 @@ test_drained(const std::string &name,
 }
 
 
-void
-test_undrained(const double specific_volume, const double pressure)
+void test_undrained(const double specific_volume, const double pressure)
 {
   const ElementDriver driver = run("undrained triaxial", specific_volume, 100e3, 0.2);
   compare("v_0 " + std::to_string(specific_volume) + ", undrained: P at 20 %, kPa",
@@ -65,8 +62,7 @@ test_undrained(const double specific_volume, const double pressure)
 }
 
 
-void
-test_shear(const std::string &name, const double specific_volume, const double peak, const double end)
+void test_shear(const std::string &name, const double specific_volume, const double peak, const double end)
 {
   const ElementDriver driver = run("simple shear", specific_volume, 20e3, 1);
   double found               = 0;
@@ -77,8 +73,7 @@ test_shear(const std::string &name, const double specific_volume, const double p
 }
 
 
-int
-main()
+int main()
 {
   std::cout << std::fixed << std::setprecision(4);
   test_drained("dense", 1.629, { { 1.089, 1.037, 1.014 } }, { { 1.763, 1.744, 1.735 } });

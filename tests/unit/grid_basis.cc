@@ -19,8 +19,7 @@ using namespace scree;
 
 /// How far a position is from the lower corner, in half cells: nodes and face points sit at whole numbers.
 template <int dim>
-std::array<long, dim>
-half_cells(const BackgroundGrid<dim> &grid, const Point<dim> &x)
+std::array<long, dim> half_cells(const BackgroundGrid<dim> &grid, const Point<dim> &x)
 {
   std::array<long, dim> result;
   for (unsigned int a = 0; a < dim; ++a)
@@ -30,8 +29,7 @@ half_cells(const BackgroundGrid<dim> &grid, const Point<dim> &x)
 
 /// A number in (-1, 1) that knows nothing of its neighbours' and is the same on all ranks.
 template <int dim>
-double
-random_value(const BackgroundGrid<dim> &grid, const unsigned int node)
+double random_value(const BackgroundGrid<dim> &grid, const unsigned int node)
 {
   std::uint64_t bits = 0;
   for (const long i : half_cells(grid, grid.node_position(node)))
@@ -70,8 +68,7 @@ evaluate(const BackgroundGrid<dim> &grid, const unsigned int cell, const Point<d
 
 /// Largest error of constants and of linear fields at random places of all cells.
 template <int dim, int n>
-double
-linear_error(const BackgroundGrid<dim> &grid)
+double linear_error(const BackgroundGrid<dim> &grid)
 {
   RandomNumbers random;
   double error = 0;
@@ -102,8 +99,7 @@ linear_error(const BackgroundGrid<dim> &grid)
 /// Largest jumps of a random field and of its gradient (times the cell size) across the faces of the mesh; the two
 /// sides of a face meet on rank 0, because they may lie on two ranks. Throws unless each interior face has two sides.
 template <int dim, int n>
-std::pair<double, double>
-jumps(const BackgroundGrid<dim> &grid)
+std::pair<double, double> jumps(const BackgroundGrid<dim> &grid)
 {
   using Trace = std::vector<double>;
   std::vector<std::pair<std::array<long, dim>, Trace>> traces;
@@ -147,8 +143,7 @@ jumps(const BackgroundGrid<dim> &grid)
 
 /// Throws unless the nodes that lie on a wall are those that say so, and each wall has as many as it should.
 template <int dim>
-void
-check_walls(const BackgroundGrid<dim> &grid, const std::array<unsigned int, dim> &nodes_along)
+void check_walls(const BackgroundGrid<dim> &grid, const std::array<unsigned int, dim> &nodes_along)
 {
   for (unsigned int face = 0; face < 2 * dim; ++face)
     {
@@ -171,8 +166,7 @@ check_walls(const BackgroundGrid<dim> &grid, const std::array<unsigned int, dim>
 }
 
 template <int dim, int n>
-void
-test(const std::string &basis, const std::array<unsigned int, dim> &cells, std::ostream &out)
+void test(const std::string &basis, const std::array<unsigned int, dim> &cells, std::ostream &out)
 {
   GridParameters parameters;
   parameters.basis     = basis;
@@ -215,8 +209,7 @@ test(const std::string &basis, const std::array<unsigned int, dim> &cells, std::
 }
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostream silent(nullptr);

@@ -14,8 +14,7 @@ using namespace dealii;
 using namespace scree;
 
 template <typename Law>
-void
-test_potential(const std::string &name, const Law &law, const PrincipalValues &mean, RandomNumbers &random)
+void test_potential(const std::string &name, const Law &law, const PrincipalValues &mean, RandomNumbers &random)
 {
   constexpr double difference = 1e-6;
   double largest_error        = 0;
@@ -45,8 +44,7 @@ test_potential(const std::string &name, const Law &law, const PrincipalValues &m
 }
 
 
-void
-test_plane_strain(const std::string &name, RandomNumbers &random)
+void test_plane_strain(const std::string &name, RandomNumbers &random)
 {
   MaterialParameters parameters;
   parameters.law   = name;
@@ -83,8 +81,7 @@ test_plane_strain(const std::string &name, RandomNumbers &random)
 }
 
 
-int
-main()
+int main()
 {
   RandomNumbers random;
   const MaterialParameters parameters;

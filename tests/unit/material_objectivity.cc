@@ -18,8 +18,7 @@ struct State
 };
 
 
-Tensor<2, 3>
-matrix(const double *t)
+Tensor<2, 3> matrix(const double *t)
 {
   Tensor<2, 3> result;
   constexpr unsigned int rows[6] = { 0, 1, 2, 0, 0, 1 }, columns[6] = { 0, 1, 2, 1, 2, 2 };
@@ -30,8 +29,7 @@ matrix(const double *t)
 
 
 /// Largest relative difference of the two observers' stresses when the second turns by `angle` a step.
-double
-error(const Material<3> &material, const double angle, const double strain, UpdateReport &report)
+double error(const Material<3> &material, const double angle, const double strain, UpdateReport &report)
 {
   const double start[6] = { -7e3, -1e4, -7e3, 0, 0, 0 }, one = 1;
   State still, turning;
@@ -63,8 +61,7 @@ error(const Material<3> &material, const double angle, const double strain, Upda
 }
 
 
-void
-test(const std::string &name, const double angle, const double strain, const double bound)
+void test(const std::string &name, const double angle, const double strain, const double bound)
 {
   MaterialParameters parameters;
   parameters.law = name;
@@ -76,8 +73,7 @@ test(const std::string &name, const double angle, const double strain, const dou
 }
 
 
-int
-main()
+int main()
 {
   for (const std::string name : { "linear elastic", "Mohr-Coulomb", "Nor-Sand" })
     test(name, 7e-4, 2e-4, 1e-9); // one sub-step an update

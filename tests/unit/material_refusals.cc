@@ -13,8 +13,7 @@
 using namespace dealii;
 using namespace scree;
 
-void
-expect_refusal(const std::string &name, const std::function<void()> &action, const std::string &wanted)
+void expect_refusal(const std::string &name, const std::function<void()> &action, const std::string &wanted)
 {
   std::string message = "no exception";
   try
@@ -31,8 +30,7 @@ expect_refusal(const std::string &name, const std::function<void()> &action, con
 
 
 template <int dim>
-void
-test_motions(const std::string &law)
+void test_motions(const std::string &law)
 {
   MaterialParameters parameters;
   parameters.law        = law;
@@ -62,8 +60,7 @@ test_motions(const std::string &law)
 }
 
 
-void
-test_starts()
+void test_starts()
 {
   const auto start = [](const std::string &law, const double vertical, const double lateral) {
     MaterialParameters parameters;
@@ -81,8 +78,7 @@ test_starts()
 }
 
 
-void
-test_parameters()
+void test_parameters()
 {
   using Change     = std::function<void(MaterialParameters &)>;
   const auto check = [](const std::string &law, const std::string &entry, const Change &change) {
@@ -107,8 +103,7 @@ test_parameters()
 }
 
 
-int
-main()
+int main()
 {
   for (const std::string law : { "linear elastic", "Mohr-Coulomb", "Nor-Sand" })
     {

@@ -15,8 +15,7 @@ using namespace dealii;
 using namespace scree;
 
 /// On faces and edges the plastic volume strain is sin psi times the sum of the sizes of the principal plastic strains.
-double
-dilation_error(const PrincipalValues &trial, const PrincipalValues &strain, const double sine)
+double dilation_error(const PrincipalValues &trial, const PrincipalValues &strain, const double sine)
 {
   double volume = 0, size = 0;
   for (unsigned int k = 0; k < 3; ++k)
@@ -28,8 +27,7 @@ dilation_error(const PrincipalValues &trial, const PrincipalValues &strain, cons
 }
 
 
-void
-test_random(const std::string &name, const MohrCoulombParameters &parameters, RandomNumbers &random)
+void test_random(const std::string &name, const MohrCoulombParameters &parameters, RandomNumbers &random)
 {
   const MohrCoulomb law(parameters);
   const double bulk = law.bulk_modulus(0), sine = std::sin(parameters.dilation_angle * numbers::PI / 180);
@@ -95,8 +93,7 @@ test_random(const std::string &name, const MohrCoulombParameters &parameters, Ra
 }
 
 
-void
-test_gap()
+void test_gap()
 {
   const MohrCoulomb law{ MohrCoulombParameters() };
   UpdateReport report;
@@ -120,8 +117,7 @@ test_gap()
 }
 
 
-int
-main()
+int main()
 {
   RandomNumbers random;
   MohrCoulombParameters parameters;

@@ -11,8 +11,7 @@
 using namespace dealii;
 using namespace scree;
 
-int
-main()
+int main()
 {
   MaterialParameters parameters;
   const auto material = make_material<2>(parameters);

@@ -20,8 +20,7 @@ struct Range
 };
 
 
-void
-test(const std::string &name, const NorSandParameters &parameters, const Range &range, RandomNumbers &random)
+void test(const std::string &name, const NorSandParameters &parameters, const Range &range, RandomNumbers &random)
 {
   const NorSand law(parameters);
   UpdateReport report;
@@ -79,8 +78,7 @@ test(const std::string &name, const NorSandParameters &parameters, const Range &
 }
 
 
-int
-main()
+int main()
 {
   const Range common  = { 3000000, 1e-6, 1e-1, 1e1, 1e6 };
   const Range extreme = { 200000, 1e-3, 10, 1e-10, 1e10 };

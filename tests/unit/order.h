@@ -12,13 +12,13 @@
 
 /// Runs the case and hands each point's location and properties to `inspect`.
 template <int dim>
-void run_case(const std::string                                                             &text,
+void run_case(const std::string &text,
               const std::function<void(const scree::Phase<dim> &, const dealii::Point<dim> &, const double *)> &inspect)
 {
   const std::string file = "case.prm";
   std::ofstream(file) << text << "\nset Output directory = results\n"
                       << "subsection Output\n set Interval = 1e6\n set Screen = nothing\n set Graphics = none\nend\n";
-  scree::Parameters       parameters(file);
+  scree::Parameters parameters(file);
   scree::Simulation<dim> simulation(parameters, scree::Start::fresh, MPI_COMM_WORLD);
   simulation.run();
   for (const auto &phase : simulation.bodies())

@@ -20,8 +20,7 @@ struct Scene
   BackgroundGrid<dim> grid;
   std::list<Phase<dim>> phases;
 
-  static GridParameters
-  box()
+  static GridParameters box()
   {
     GridParameters parameters;
     parameters.lower_corner.assign(dim, -0.3);
@@ -51,8 +50,7 @@ struct Scene
 
   /// Gives the points the pressure of their place, and shear and stress deviators that must not matter.
   template <typename Pressure>
-  void
-  set_pressure(const Pressure &pressure)
+  void set_pressure(const Pressure &pressure)
   {
     for (auto &phase : phases)
       for (const auto &cell : phase.points.cells())
@@ -68,8 +66,7 @@ struct Scene
 
 /// The fraction f of a block's mass lies below its lower face plus f times its length, to within half a point's width.
 template <int dim>
-void
-test_percentiles(std::ostream &out)
+void test_percentiles(std::ostream &out)
 {
   const Scene<dim> scene({ "x > 0.1 && x < 0.5 && y < 0.3", "x > 0.5 && x < 0.8 && y < 0.3" });
   constexpr double half_width = 0.025;
@@ -90,8 +87,7 @@ test_percentiles(std::ostream &out)
 
 /// Where the mass adds up to the fraction exactly at a point, that point is the percentile, whatever the rounding.
 template <int dim>
-void
-test_tie(std::ostream &out)
+void test_tie(std::ostream &out)
 {
   const Scene<dim> scene({ "x > 0 && x < 0.5 && y < 0.3 && x + y > -2" });
   out << dim << "D percentiles at a tie:";
@@ -106,8 +102,7 @@ test_tie(std::ostream &out)
 }
 
 template <int dim>
-void
-test_oscillation(std::ostream &out)
+void test_oscillation(std::ostream &out)
 {
   // An oblique surface: linear fits next to it see half-filled cells.
   Scene<dim> scene({ "y < 0.5 - 0.6 * x", "y > 0.5 - 0.6 * x && y < 0.8 - 0.6 * x" });
@@ -149,8 +144,7 @@ test_oscillation(std::ostream &out)
 }
 
 template <int dim>
-void
-test_invariants(std::ostream &out)
+void test_invariants(std::ostream &out)
 {
   // Uniaxial compression by 3 and a pure shear: q^2 = 3^2 + 3 * 4^2 (von Mises).
   const double stress[6] = { -3, 0, 0, 4, 0, 0 };
@@ -160,8 +154,7 @@ test_invariants(std::ostream &out)
 }
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostream silent(nullptr);

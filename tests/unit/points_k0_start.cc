@@ -17,12 +17,11 @@ constexpr double K0 = 0.683, gravity = 9.81;
 
 /// Starts the bodies of Nor-Sand and compares with `weight_above(x)`.
 template <int dim, typename Weight>
-void
-test(const std::string &name,
-     const std::vector<double> &upper_corner,
-     const std::vector<std::pair<std::string, std::string>> &bodies,
-     const Weight &weight_above,
-     std::ostream &out)
+void test(const std::string &name,
+          const std::vector<double> &upper_corner,
+          const std::vector<std::pair<std::string, std::string>> &bodies,
+          const Weight &weight_above,
+          std::ostream &out)
 {
   // Bodies beyond the first need names, which only a file gives.
   std::string names, sections;
@@ -65,8 +64,7 @@ test(const std::string &name,
 }
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostream silent(nullptr);

@@ -25,13 +25,12 @@ struct Body
 
 /// Fills the bodies; throws unless each has its mass, and all together theirs within `tolerance`.
 template <int dim>
-void
-test(const std::string &name,
-     const std::vector<double> &upper_corner,
-     const unsigned int points_per_cell,
-     const std::vector<Body<dim>> &bodies,
-     const double tolerance,
-     std::ostream &out)
+void test(const std::string &name,
+          const std::vector<double> &upper_corner,
+          const unsigned int points_per_cell,
+          const std::vector<Body<dim>> &bodies,
+          const double tolerance,
+          std::ostream &out)
 {
   GridParameters parameters;
   parameters.lower_corner.assign(dim, 0.);
@@ -90,8 +89,7 @@ test(const std::string &name,
 }
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostream silent(nullptr);

@@ -16,8 +16,7 @@ using namespace dealii;
 using namespace scree;
 
 template <int dim>
-void
-test(RandomNumbers &random)
+void test(RandomNumbers &random)
 {
   double strain_error = 0, composition_error = 0;
   for (unsigned int i = 0; i < 200000; ++i)
@@ -63,8 +62,7 @@ test(RandomNumbers &random)
 }
 
 
-int
-main()
+int main()
 {
   RandomNumbers random;
   test<2>(random);

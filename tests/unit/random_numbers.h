@@ -10,14 +10,12 @@
 class RandomNumbers
 {
 public:
-  double
-  uniform(const double low, const double high)
+  double uniform(const double low, const double high)
   {
     return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
   }
 
-  double
-  log_uniform(const double low, const double high)
+  double log_uniform(const double low, const double high)
   {
     return std::exp(uniform(std::log(low), std::log(high)));
   }

@@ -35,8 +35,7 @@ struct Momenta
 
 /// Sums over all points; the affine matrix times `spin` is B.
 template <int dim>
-Momenta<dim>
-momenta(const Simulation<dim> &simulation, const double spin)
+Momenta<dim> momenta(const Simulation<dim> &simulation, const double spin)
 {
   std::vector<double> sums(dim + 5, 0.);
   for (const auto &phase : simulation.bodies())
@@ -75,8 +74,7 @@ momenta(const Simulation<dim> &simulation, const double spin)
 
 /// Flies for `n_steps`; returns the largest relative drifts of linear and of angular momentum.
 template <int dim>
-std::pair<double, double>
-fly(const std::string &method, const std::string &basis, const unsigned int n_steps)
+std::pair<double, double> fly(const std::string &method, const std::string &basis, const unsigned int n_steps)
 {
   Parameters parameters;
   parameters.dimension        = dim;
@@ -122,8 +120,7 @@ fly(const std::string &method, const std::string &basis, const unsigned int n_st
 }
 
 template <int dim>
-void
-test(std::ostream &out)
+void test(std::ostream &out)
 {
   for (const std::string basis : { "spline", "quadratic", "linear" })
     for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC" })
@@ -146,8 +143,7 @@ test(std::ostream &out)
 }
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostream silent(nullptr);

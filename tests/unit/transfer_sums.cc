@@ -19,8 +19,7 @@ using namespace dealii;
 using namespace scree;
 
 template <int dim>
-void
-test(const std::string &basis, const std::string &method, std::ostream &out)
+void test(const std::string &basis, const std::string &method, std::ostream &out)
 {
   GridParameters grid_parameters;
   grid_parameters.basis = basis;
@@ -99,8 +98,7 @@ test(const std::string &basis, const std::string &method, std::ostream &out)
 }
 
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostream silent(nullptr);
