@@ -21,13 +21,19 @@ namespace scree
                           : std::numeric_limits<double>::infinity();
     }
 
-    std::string coordinates(const Point<2> &x)
+    /// Appointments that differ by rounding only are one.
+    bool reached(const double time, const double appointment)
     {
-      return Utilities::to_string(x[0]) + ", " + Utilities::to_string(x[1]);
+      return time >= appointment * (1. - 1e-12);
     }
-    std::string coordinates(const Point<3> &x)
+
+    template <int dim>
+    std::string coordinates(const Point<dim> &x)
     {
-      return Utilities::to_string(x[0]) + ", " + Utilities::to_string(x[1]) + ", " + Utilities::to_string(x[2]);
+      std::string text = Utilities::to_string(x[0]);
+      for (unsigned int a = 1; a < dim; ++a)
+        text += ", " + Utilities::to_string(x[a]);
+      return text;
     }
   } // namespace
 
@@ -40,7 +46,7 @@ namespace scree
     if (clock.step() == 0)
       report();
     const double updates_before = totals.n_updates;
-    while (clock.time() < parameters.end_time)
+    while (!reached(clock.time(), parameters.end_time))
       {
         const double appointment = next_appointment();
         last_time_step           = clock.next_step(grid.cell_size(), wave_speed, largest_speed, appointment);
@@ -200,18 +206,18 @@ namespace scree
   void Simulation<dim>::report()
   {
     const double time          = clock.time();
-    const bool at_start_or_end = clock.step() == 0 || time >= parameters.end_time;
+    const bool at_start_or_end = clock.step() == 0 || reached(time, parameters.end_time);
     TimerOutput::Scope part(timer, "output");
 
-    if (at_start_or_end || time >= next_row)
+    if (at_start_or_end || reached(time, next_row))
       {
         statistics.collect(phases, totals, time, clock.step(), last_time_step, last_step);
         if (folder.is_writer())
           statistics.write(folder.file("statistics"));
       }
-    if (at_start_or_end || time >= next_picture)
+    if (at_start_or_end || reached(time, next_picture))
       graphics.write(phases, field, time);
-    if (time >= next_checkpoint)
+    if (reached(time, next_checkpoint))
       write_checkpoint();
     make_appointments();
   }
