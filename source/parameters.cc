@@ -50,7 +50,9 @@ namespace scree
       {
         name_bodies();
         declare(handler);
-        file.check(handler);
+        file.check(handler, "scree --print-parameters lists all of them.", [&](const std::string &subsection) {
+          return unlisted_body(subsection);
+        });
         std::istringstream text(file.text());
         handler.parse_input(text, file_name);
         check();
@@ -87,6 +89,15 @@ namespace scree
         bodies.emplace_back();
         bodies.back().name = name;
       }
+  }
+
+
+  std::string Parameters::unlisted_body(const std::string &subsection) const
+  {
+    if (!file.sets(subsection, "Region") || subsection.find('/') != std::string::npos)
+      return "";
+    return "It is no body either: entry \"Bodies\" lists " + file.value("Bodies", "Soil") + ". Add " +
+           quoted(subsection) + " there.";
   }
 
 

@@ -5,7 +5,7 @@
 #include <scree/grid/background_grid.h>
 #include <scree/grid/boundary_conditions.h>
 #include <scree/initial/initial_state.h>
-#include <scree/input_error.h>
+#include <scree/input/input_file.h>
 #include <scree/material/table.h>
 #include <scree/output/output_parameters.h>
 #include <scree/points/seeding.h>
@@ -26,7 +26,7 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError or dealii::ExcMessage at impossible combinations of entries.
+    /// Throws EntryError at impossible combinations of entries.
     void check(const std::vector<double> &gravity) const;
 
     /// Density of the dry body, kg/m^3: grains times (1 - porosity).
@@ -71,6 +71,9 @@ namespace scree
     void name_bodies();
     void declare(dealii::ParameterHandler &prm);
     void check() const;
+
+    /// The remedy for a subsection that is not declared but looks like that of a body; empty if it does not.
+    std::string unlisted_body(const std::string &subsection) const;
 
     InputFile file;
     std::vector<std::string> body_names{ "Soil" };

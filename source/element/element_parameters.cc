@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/element/element_parameters.h>
+#include <scree/input/input_error.h>
 
 using namespace dealii;
 
@@ -49,12 +50,12 @@ namespace scree
 
   void ElementParameters::check() const
   {
-    require(confining_pressure > 0,
-            "(top)",
-            "Initial confining pressure",
-            confining_pressure,
-            "it must be positive, the paths start from compression");
-    require(K0 > 0, "(top)", "K0", K0, "it must be positive, the paths start from compression");
+    require_entry(confining_pressure > 0,
+                  "",
+                  "Initial confining pressure",
+                  confining_pressure,
+                  "it must be positive, the paths start from compression.");
+    require_entry(K0 > 0, "", "K0", K0, "it must be positive, the paths start from compression.");
     material.check("");
   }
 

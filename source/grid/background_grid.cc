@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/grid/background_grid.h>
-#include <scree/input_error.h>
+#include <scree/input/input_error.h>
 
 #include <deal.II/fe/fe_bernstein.h>
 #include <deal.II/fe/fe_q.h>
@@ -90,7 +90,7 @@ namespace scree
         require_entry(std::abs(cells - std::round(cells)) < 1e-6 && std::round(cells) >= 1,
                       "Mesh",
                       "Cell size",
-                      number_text(cell_size),
+                      cell_size,
                       "it does not divide the box: " + number_text(length) + " m along " + axis + " are " +
                           number_text(cells) + " cells. Try " + number_text(length / std::max(1., std::round(cells))) +
                           ", or move a corner.");
@@ -100,7 +100,7 @@ namespace scree
     require_entry(n_cells <= most_cells,
                   "Mesh",
                   "Cell size",
-                  number_text(cell_size),
+                  cell_size,
                   "the box would have " + number_text(n_cells) +
                       " cells, and at most 1e9 are allowed. Write a larger size.");
   }

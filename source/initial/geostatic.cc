@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
-#include <scree/input_error.h>
+#include <scree/input/input_error.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/initial_state.h>
-#include <scree/input_error.h>
+#include <scree/input/input_error.h>
 #include <scree/points/region.h>
 
 #include <algorithm>
@@ -30,13 +30,13 @@ namespace scree
     require_entry(type == "isotropic" ? pressure > 0 : pressure == 0,
                   subsection,
                   "Pressure",
-                  number_text(pressure),
+                  pressure,
                   type == "isotropic" ? "an isotropic start needs a pressure above 0, in Pa."
                                       : "nothing reads it. Remove it, or write \"Type = isotropic\".");
     require_entry(type == "K0" || k0 == defaults.k0,
                   subsection,
                   "K0",
-                  number_text(k0),
+                  k0,
                   "nothing reads it. Remove it, or write \"Type = K0\".");
     require_entry(type != "K0" || std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(gravity.size()),
                   subsection,
@@ -74,7 +74,7 @@ namespace scree
     require_entry(maximum_time == 0 || std::count(gravity.begin(), gravity.end(), 0.) < long(dim),
                   "Settling",
                   "Maximum time",
-                  number_text(maximum_time),
+                  maximum_time,
                   "without gravity nothing settles. Change entry \"Gravity\", or write 0.");
     require_entry(gate.empty() || maximum_time > 0,
                   "Settling",

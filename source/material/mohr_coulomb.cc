@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <scree/input/input_error.h>
 #include <scree/material/mohr_coulomb.h>
 
 #include <deal.II/base/numbers.h>
@@ -50,22 +51,22 @@ namespace scree
   void MohrCoulombParameters::check(const std::string &subsection) const
   {
     LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
-    require(dilation_angle <= friction_angle,
-            subsection,
-            "Dilation angle",
-            dilation_angle,
-            "beyond the friction angle, here " + std::to_string(friction_angle) +
-                ", plastic flow would create energy; lower it");
-    require(friction_angle > 0 || cohesion > 0,
-            subsection,
-            "Cohesion",
-            cohesion,
-            "without friction the soil needs some cohesion to have any strength");
-    require(tension_cut_off <= apex(*this),
-            subsection,
-            "Tension cut-off",
-            tension_cut_off,
-            "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex(*this)) + " Pa; lower it");
+    require_entry(dilation_angle <= friction_angle,
+                  subsection,
+                  "Dilation angle",
+                  dilation_angle,
+                  "beyond the friction angle, here " + number_text(friction_angle) +
+                      ", plastic flow would create energy; lower it.");
+    require_entry(friction_angle > 0 || cohesion > 0,
+                  subsection,
+                  "Cohesion",
+                  cohesion,
+                  "without friction the soil needs some cohesion to have any strength.");
+    require_entry(tension_cut_off <= apex(*this),
+                  subsection,
+                  "Tension cut-off",
+                  tension_cut_off,
+                  "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex(*this)) + " Pa; lower it.");
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <scree/input/input_error.h>
 #include <scree/material/nor_sand.h>
 
 using namespace dealii;
@@ -53,34 +54,34 @@ namespace scree
 
   void NorSandParameters::check(const std::string &subsection) const
   {
-    const std::string positive = "it must be positive";
-    require(shear_modulus > 0, subsection, "Shear modulus", shear_modulus, positive);
-    require(swelling_index > 0, subsection, "Swelling index", swelling_index, positive);
-    require(compression_index > swelling_index,
-            subsection,
-            "Compression index",
-            compression_index,
-            "it must exceed the swelling index, here " + std::to_string(swelling_index));
-    require(reference_pressure > 0, subsection, "Reference pressure", reference_pressure, positive);
-    require(critical_stress_ratio > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
-    require(potential_constant <= yield_constant,
-            subsection,
-            "Potential constant N bar",
-            potential_constant,
-            "beyond the yield constant N, here " + std::to_string(yield_constant) +
-                ", plastic flow would create energy; lower it");
-    require(hardening_coefficient > 0, subsection, "Hardening coefficient", hardening_coefficient, positive);
-    require(initial_specific_volume > 1,
-            subsection,
-            "Initial specific volume",
-            initial_specific_volume,
-            "1 is rock without pores; sand lies between 1.3 and 2");
-    require(critical_state_specific_volume > 1,
-            subsection,
-            "Critical state specific volume",
-            critical_state_specific_volume,
-            "1 is rock without pores; sand lies between 1.3 and 2");
-    require(minimum_pressure > 0, subsection, "Minimum pressure", minimum_pressure, positive + "; 1 Pa does");
+    const std::string positive = "it must be positive.";
+    require_entry(shear_modulus > 0, subsection, "Shear modulus", shear_modulus, positive);
+    require_entry(swelling_index > 0, subsection, "Swelling index", swelling_index, positive);
+    require_entry(compression_index > swelling_index,
+                  subsection,
+                  "Compression index",
+                  compression_index,
+                  "it must exceed the swelling index, here " + number_text(swelling_index) + '.');
+    require_entry(reference_pressure > 0, subsection, "Reference pressure", reference_pressure, positive);
+    require_entry(critical_stress_ratio > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
+    require_entry(potential_constant <= yield_constant,
+                  subsection,
+                  "Potential constant N bar",
+                  potential_constant,
+                  "beyond the yield constant N, here " + number_text(yield_constant) +
+                      ", plastic flow would create energy; lower it.");
+    require_entry(hardening_coefficient > 0, subsection, "Hardening coefficient", hardening_coefficient, positive);
+    require_entry(initial_specific_volume > 1,
+                  subsection,
+                  "Initial specific volume",
+                  initial_specific_volume,
+                  "1 is rock without pores; sand lies between 1.3 and 2.");
+    require_entry(critical_state_specific_volume > 1,
+                  subsection,
+                  "Critical state specific volume",
+                  critical_state_specific_volume,
+                  "1 is rock without pores; sand lies between 1.3 and 2.");
+    require_entry(minimum_pressure > 0, subsection, "Minimum pressure", minimum_pressure, positive + " 1 Pa does.");
   }
 
 

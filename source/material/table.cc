@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <scree/input/input_error.h>
 #include <scree/material/hencky_material.h>
 #include <scree/material/linear_elastic_3d.h>
 #include <scree/material/table.h>
@@ -39,13 +40,12 @@ namespace scree
 
   void MaterialParameters::check(const std::string &subsection) const
   {
-    const std::string prefix = subsection.empty() ? "" : subsection + "/";
     if (law == linear_elastic_name)
-      linear_elastic.check(prefix + linear_elastic_subsection);
+      linear_elastic.check(subsection_path(subsection, linear_elastic_subsection));
     else if (law == mohr_coulomb_name)
-      mohr_coulomb.check(prefix + mohr_coulomb_name);
+      mohr_coulomb.check(subsection_path(subsection, mohr_coulomb_name));
     else
-      nor_sand.check(prefix + nor_sand_name);
+      nor_sand.check(subsection_path(subsection, nor_sand_name));
   }
 
 

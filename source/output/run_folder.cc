@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input_error.h>
+#include <scree/input/input_error.h>
 #include <scree/output/run_folder.h>
 
 #include <deal.II/base/mpi.h>

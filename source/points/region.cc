@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input_error.h>
+#include <scree/input/input_error.h>
 #include <scree/points/region.h>
 
 #include <deal.II/base/utilities.h>
@@ -62,10 +62,14 @@ namespace scree
                                 : n_components == 2 ? "0; -2*x"
                                                     : "0; 0; -2*x";
     const std::string names   = dim == 2 ? "x, y" : "x, y, z";
+    // muParser reads "&&y" as "&" and a word "&y".
+    const bool blank_missing =
+        fault.rfind("Unexpected token \"&", 0) == 0 || fault.rfind("Unexpected token \"|", 0) == 0;
     if (!fault.empty())
       throw EntryError(where + " = " + text + ": " + fault + ". Write " +
                        (n_components == 1 ? "an expression" : "expressions, separated by semicolons,") + " of " +
-                       names + (with_time ? ", t" : "") + ", for instance " + example);
+                       names + (with_time ? ", t" : "") + (blank_missing ? ", with blanks around && and ||" : "") +
+                       ", for instance " + example);
     return function;
   }
 

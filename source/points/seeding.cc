@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input_error.h>
+#include <scree/input/input_error.h>
 #include <scree/points/seeding.h>
 
 #include <deal.II/base/mpi.h>
@@ -89,7 +89,7 @@ namespace scree
     require_entry(initial_porosity == -1 || initial_porosity >= 0,
                   body,
                   "Initial porosity",
-                  number_text(initial_porosity),
+                  initial_porosity,
                   "write a number from 0 to 0.999, or -1 for what the material law implies.");
     if (dim == 2)
       {

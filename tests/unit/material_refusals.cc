@@ -20,7 +20,7 @@ void expect_refusal(const std::string &name, const std::function<void()> &action
     {
       action();
     }
-  catch (const ExceptionBase &error)
+  catch (const std::exception &error)
     {
       message = error.what();
     }

@@ -6,8 +6,6 @@
 #include <scree/material/material.h>
 #include <scree/tensor/principal.h>
 
-#include <string>
-
 namespace scree
 {
   /// What a return map did to the trial strain.
@@ -19,13 +17,6 @@ namespace scree
     elastic, ///< The trial strain stands
     plastic  ///< The strain was changed
   };
-
-  /// Throws dealii::ExcMessage "subsection, entry, value: remedy" unless `possible`.
-  void require(const bool possible,
-               const std::string &subsection,
-               const std::string &entry,
-               const double value,
-               const std::string &remedy);
 } // namespace scree
 
 #endif

@@ -20,7 +20,7 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws dealii::ExcMessage naming the entry if a value is impossible.
+    /// Throws EntryError if a value is impossible.
     void check(const std::string &subsection) const;
   };
 

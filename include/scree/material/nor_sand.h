@@ -31,7 +31,7 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws dealii::ExcMessage naming the entry if a combination is impossible.
+    /// Throws EntryError if a combination is impossible.
     void check(const std::string &subsection) const;
   };
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <scree/material/law.h>
-
-#include <deal.II/base/exceptions.h>
+#include <scree/material/material.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace scree
 {
@@ -20,17 +17,5 @@ namespace scree
     n_vertices += other.n_vertices;
     n_separated += other.n_separated;
     n_unresolved += other.n_unresolved;
-  }
-
-
-  void require(const bool possible,
-               const std::string &subsection,
-               const std::string &entry,
-               const double value,
-               const std::string &remedy)
-  {
-    std::ostringstream message;
-    message << "subsection " << subsection << ", entry \"" << entry << "\" = " << value << ": " << remedy << '.';
-    AssertThrow(possible, dealii::ExcMessage(message.str()));
   }
 } // namespace scree

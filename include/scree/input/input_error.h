@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_input_input_error_h
+#define scree_input_input_error_h
+
+#include <deal.II/base/exceptions.h>
+
+#include <mpi.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// A fault of the user's input; what() is the whole message. All ranks throw it alike, so that one can speak for all.
+  class InputError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /// An InputError that names the entry but not the file; InputFile::error() completes it.
+  class EntryError : public InputError
+  {
+  public:
+    using InputError::InputError;
+  };
+
+  /// `Soil/Initial state` of `Soil` and `Initial state`; an empty path is the top of the file.
+  std::string subsection_path(const std::string &path, const std::string &name);
+
+  /// `subsection Soil/Initial state, entry "K0"`, as messages begin; an empty path is the top of the file.
+  std::string entry_name(const std::string &subsection, const std::string &entry);
+
+  /// entry_name(), value and remedy: `entry "Colour" = red: there is no such entry.`
+  std::string entry_message(const std::string &subsection,
+                            const std::string &entry,
+                            const std::string &value,
+                            const std::string &remedy);
+
+  /// Throws EntryError with the entry_message() unless the value is `possible`.
+  void require_entry(const bool possible,
+                     const std::string &subsection,
+                     const std::string &entry,
+                     const std::string &value,
+                     const std::string &remedy);
+
+  /// The same for a number.
+  void require_entry(const bool possible,
+                     const std::string &subsection,
+                     const std::string &entry,
+                     const double value,
+                     const std::string &remedy);
+
+  /// A number as a user would write it.
+  std::string number_text(const double value);
+
+  /// Several numbers, separated by commas.
+  std::string number_text(const std::vector<double> &values);
+
+  /// The text between double quotes.
+  std::string quoted(const std::string &text);
+
+  /// One blank for tabs, ends of lines and several blanks, as deal.II reads a line.
+  std::string single_blanks(const std::string &text);
+
+  /// What an exception of deal.II says, without its banner and in one line.
+  std::string plain_text(const dealii::ExceptionBase &error);
+
+  /// Throws EntryError on all ranks if any rank has found a `fault` (not empty). Collective.
+  void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator);
+} // namespace scree
+
+#endif

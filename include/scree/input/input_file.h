@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_input_input_file_h
+#define scree_input_input_file_h
+
+#include <scree/input/input_error.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  class DeclaredNames;
+
+  /// The statements of a `.prm` file: finds faults before deal.II does, and says where they are and what helps.
+  class InputFile
+  {
+  public:
+    /// No file.
+    InputFile() = default;
+
+    /// Reads `file` and the files it includes. Throws InputError at what is no statement and at open subsections.
+    explicit InputFile(const std::string &file);
+
+    /// The text of the file as it was read.
+    const std::string &text() const
+    {
+      return whole_text;
+    }
+
+    /// The value of an entry outside subsections, or `otherwise` if the file does not set it.
+    std::string value(const std::string &entry, const std::string &otherwise) const;
+
+    /// Whether the file sets the entry of the subsection.
+    bool sets(const std::string &subsection, const std::string &entry) const;
+
+    /// What helps if this subsection is not declared; empty: check() suggests the closest name.
+    using SubsectionRemedy = std::function<std::string(const std::string &subsection)>;
+
+    /// Throws InputError at the first entry or subsection that `prm` does not declare, and at the first value that does
+    /// not fit; suggests the closest declared name, or the `last_remedy` if no name is close.
+    void check(const dealii::ParameterHandler &prm,
+               const std::string &last_remedy,
+               const SubsectionRemedy &subsection_remedy = {}) const;
+
+    /// The message with the file before it, and the line if it begins with entry_name() of an entry that the file sets.
+    InputError error(const std::string &message) const;
+
+  private:
+    enum class Kind
+    {
+      subsection,
+      end,
+      set
+    };
+
+    struct Statement
+    {
+      Kind kind;
+      std::string file;
+      unsigned int line;
+      std::string path; ///< subsection it stands in, such as Soil/Initial state
+      std::string name, value;
+
+      InputError error(const std::string &message) const;
+    };
+
+    void read(const std::string &text, const std::string &file, std::vector<Statement> &open);
+    void read_line(const std::string &line, const Statement &place, std::vector<Statement> &open);
+
+    void check_entry(const Statement &statement, const DeclaredNames &declared, const std::string &last_remedy) const;
+
+    std::string file_name, whole_text;
+    std::vector<Statement> statements;
+  };
+} // namespace scree
+
+#endif

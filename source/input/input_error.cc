@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <sstream>
+
+namespace scree
+{
+  using namespace dealii;
+
+  std::string subsection_path(const std::string &path, const std::string &name)
+  {
+    return path.empty() ? name : path + '/' + name;
+  }
+
+
+  std::string entry_name(const std::string &subsection, const std::string &entry)
+  {
+    return (subsection.empty() ? "" : "subsection " + subsection + ", ") + "entry " + quoted(entry);
+  }
+
+
+  std::string entry_message(const std::string &subsection,
+                            const std::string &entry,
+                            const std::string &value,
+                            const std::string &remedy)
+  {
+    return entry_name(subsection, entry) + " = " + (value.empty() ? "(empty)" : value) + ": " + remedy;
+  }
+
+
+  void require_entry(const bool possible,
+                     const std::string &subsection,
+                     const std::string &entry,
+                     const std::string &value,
+                     const std::string &remedy)
+  {
+    if (!possible)
+      throw EntryError(entry_message(subsection, entry, value, remedy));
+  }
+
+
+  void require_entry(const bool possible,
+                     const std::string &subsection,
+                     const std::string &entry,
+                     const double value,
+                     const std::string &remedy)
+  {
+    require_entry(possible, subsection, entry, number_text(value), remedy);
+  }
+
+
+  std::string number_text(const double value)
+  {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+
+
+  std::string number_text(const std::vector<double> &values)
+  {
+    std::string text;
+    for (const double value : values)
+      text += (text.empty() ? "" : ", ") + number_text(value);
+    return text;
+  }
+
+
+  std::string quoted(const std::string &text)
+  {
+    return '"' + text + '"';
+  }
+
+
+  std::string single_blanks(const std::string &text)
+  {
+    std::istringstream in(text);
+    std::string word, result;
+    while (in >> word)
+      result += (result.empty() ? "" : " ") + word;
+    return result;
+  }
+
+
+  std::string plain_text(const ExceptionBase &error)
+  {
+    std::ostringstream text;
+    error.print_info(text);
+    return single_blanks(text.str());
+  }
+
+
+  void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator)
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int first   = Utilities::MPI::min(fault.empty() ? n_ranks : rank, communicator);
+    if (first < n_ranks)
+      throw EntryError(Utilities::MPI::broadcast(communicator, fault, first));
+  }
+} // namespace scree

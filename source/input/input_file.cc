@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_file.h>
+#include <scree/input/suggestions.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string read_text(const std::string &file, const std::string &remedy)
+    {
+      std::ifstream in(file);
+      std::ostringstream text;
+      if (in && !std::filesystem::is_directory(file))
+        text << std::string(std::istreambuf_iterator<char>(in), {});
+      else
+        throw InputError(file + ": this is no file that can be read. " + remedy);
+      return text.str();
+    }
+  } // namespace
+
+
+  InputFile::InputFile(const std::string &file)
+      : file_name(file)
+      , whole_text(read_text(file, "Check the path; cases are in the folder prm."))
+  {
+    std::vector<Statement> open;
+    read(whole_text, file, open);
+    if (!open.empty())
+      throw open.back().error("subsection " + subsection_path(open.back().path, open.back().name) +
+                              " is still open where the file ends. Write \"end\" after its last entry.");
+  }
+
+
+  void InputFile::read(const std::string &text, const std::string &file, std::vector<Statement> &open)
+  {
+    std::istringstream in(text);
+    std::string line, statement;
+    unsigned int n_lines = 0, first_line = 0;
+    while (std::getline(in, line))
+      {
+        ++n_lines;
+        if (statement.empty())
+          first_line = n_lines;
+        line                = Utilities::trim(line);
+        const bool to_go_on = !line.empty() && line.back() == '\\';
+        statement += to_go_on ? line.substr(0, line.size() - 1) : line;
+        if (to_go_on && !in.eof())
+          continue;
+        read_line(
+            single_blanks(statement.substr(0, statement.find('#'))), { Kind::set, file, first_line, "", "", "" }, open);
+        statement.clear();
+      }
+  }
+
+
+  void InputFile::read_line(const std::string &line, const Statement &place, std::vector<Statement> &open)
+  {
+    if (line.empty())
+      return;
+    Statement statement = place;
+    if (!open.empty())
+      statement.path = subsection_path(open.back().path, open.back().name);
+    const std::size_t blank   = line.find(' ');
+    const std::string keyword = line.substr(0, blank);
+    const std::string rest    = blank == std::string::npos ? "" : line.substr(blank + 1);
+    const std::size_t equals  = rest.find('=');
+
+    if (keyword == "subsection" || keyword == "SUBSECTION")
+      {
+        statement.kind = Kind::subsection;
+        statement.name = rest;
+        open.push_back(statement);
+      }
+    else if (keyword == "end" || keyword == "END")
+      {
+        statement.kind = Kind::end;
+        if (!rest.empty())
+          throw statement.error(quoted(line) + " does not read. Write \"end\" alone in its line.");
+        if (open.empty())
+          throw statement.error("this \"end\" closes no subsection. Remove it, or look for a wrong \"end\" above.");
+        open.pop_back();
+      }
+    else if ((keyword == "set" || keyword == "SET") && equals != std::string::npos)
+      {
+        statement.name  = Utilities::trim(rest.substr(0, equals));
+        statement.value = Utilities::trim(rest.substr(equals + 1));
+      }
+    else if (keyword == "set" || keyword == "SET")
+      throw statement.error((statement.path.empty() ? "" : "subsection " + statement.path + ", ") + quoted(line) +
+                            " has no '='. Write: set ENTRY = VALUE");
+    else if (keyword == "include" || keyword == "INCLUDE")
+      {
+        read(read_text(rest,
+                       "It is included in " + place.file + ", line " + std::to_string(place.line) +
+                           "; the path counts from where scree is started."),
+             rest,
+             open);
+        return;
+      }
+    else
+      throw statement.error((statement.path.empty() ? "" : "subsection " + statement.path + ", ") + quoted(line) +
+                            " does not read. A line begins with set, subsection, end, include or #.");
+    statements.push_back(statement);
+  }
+
+
+  InputError InputFile::Statement::error(const std::string &message) const
+  {
+    return InputError(file + ", line " + std::to_string(line) + ": " + message);
+  }
+
+
+  std::string InputFile::value(const std::string &entry, const std::string &otherwise) const
+  {
+    std::string result = otherwise;
+    for (const Statement &statement : statements)
+      if (statement.kind == Kind::set && statement.path.empty() && statement.name == entry)
+        result = statement.value;
+    return result;
+  }
+
+
+  bool InputFile::sets(const std::string &subsection, const std::string &entry) const
+  {
+    return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
+      return statement.kind == Kind::set && statement.path == subsection && statement.name == entry;
+    });
+  }
+
+
+  void InputFile::check(const ParameterHandler &prm,
+                        const std::string &last_remedy,
+                        const SubsectionRemedy &subsection_remedy) const
+  {
+    const DeclaredNames declared(prm);
+    for (const Statement &statement : statements)
+      if (statement.kind == Kind::subsection && !declared.has_subsection(statement.path, statement.name))
+        {
+          const std::string path = subsection_path(statement.path, statement.name);
+          std::string remedy     = subsection_remedy ? subsection_remedy(path) : "";
+          if (remedy.empty())
+            remedy = declared.suggest_subsection(statement.path, statement.name);
+          throw statement.error("subsection " + path + ": there is no such subsection. " +
+                                (remedy.empty() ? last_remedy : remedy));
+        }
+      else if (statement.kind == Kind::set)
+        check_entry(statement, declared, last_remedy);
+  }
+
+
+  void InputFile::check_entry(const Statement &statement,
+                              const DeclaredNames &declared,
+                              const std::string &last_remedy) const
+  {
+    const auto error = [&](const std::string &remedy) {
+      return statement.error(entry_message(statement.path, statement.name, statement.value, remedy));
+    };
+    const DeclaredNames::Name *entry = declared.entry(statement.path, statement.name);
+    if (!entry)
+      {
+        const std::string remedy = declared.suggest_entry(statement.path, statement.name);
+        throw error(std::string("there is no such entry") + (statement.path.empty() ? ". " : " here. ") +
+                    (remedy.empty() ? last_remedy : remedy));
+      }
+    if (!Patterns::pattern_factory(entry->pattern)->match(statement.value))
+      throw error(value_remedy(*entry, statement.value));
+  }
+
+
+  InputError InputFile::error(const std::string &message) const
+  {
+    for (auto statement = statements.rbegin(); statement != statements.rend(); ++statement)
+      if (statement->kind == Kind::set && message.rfind(entry_name(statement->path, statement->name) + " =", 0) == 0)
+        return statement->error(message);
+    return InputError(file_name + ": " + message);
+  }
+} // namespace scree
