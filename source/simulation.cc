@@ -14,6 +14,9 @@ namespace scree
 
   namespace
   {
+    const std::string remedy_for_instability =
+        "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in subsection Stabilisation.";
+
     /// The first multiple of `interval` after `time`; never, if there is no interval.
     double first_after(const double time, const double interval)
     {
@@ -46,10 +49,17 @@ namespace scree
     if (clock.step() == 0)
       report();
     const double updates_before = totals.n_updates;
+    const double first_step     = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
     while (!reached(clock.time(), parameters.end_time))
       {
+        const double stable_step = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
+        // A run that gains energy would creep on with ever smaller steps.
+        AssertThrow(stable_step > 1e-3 * first_step,
+                    ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
+                               " s the stable step has fallen to " + Utilities::to_string(stable_step) + " s, from " +
+                               Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
         const double appointment = next_appointment();
-        last_time_step           = clock.next_step(grid.cell_size(), wave_speed, largest_speed, appointment);
+        last_time_step           = clock.next_step(stable_step, appointment);
         advance(last_time_step);
         clock.advance(last_time_step, appointment);
         report();
@@ -111,9 +121,8 @@ namespace scree
     largest_speed = largest[1];
     AssertThrow(std::isfinite(largest_speed) && largest_speed * time_step < 2 * grid.cell_size(),
                 ExcMessage("The motion is unstable at t = " + Utilities::to_string(clock.time()) +
-                           " s: a point moves at " + Utilities::to_string(largest_speed) +
-                           " m/s. Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in "
-                           "subsection Stabilisation."));
+                           " s: a point moves at " + Utilities::to_string(largest_speed) + " m/s. " +
+                           remedy_for_instability));
     if (largest[2] > 0)
       account_for_lost_points();
   }

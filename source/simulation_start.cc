@@ -146,8 +146,8 @@ namespace scree
     double ratio                                = std::numeric_limits<double>::infinity();
     while (settling_clock.time() < settling.maximum_time && ratio >= settling.kinetic_energy)
       {
-        const double step =
-            settling_clock.next_step(grid.cell_size(), wave_speed, largest_speed, settling.maximum_time);
+        const double step = settling_clock.next_step(
+            settling_clock.stable_step(grid.cell_size(), wave_speed, largest_speed), settling.maximum_time);
         advance(step);
         settling_clock.advance(step, settling.maximum_time);
         if (settling_clock.step() % steps_between_checks == 0 || settling_clock.time() >= settling.maximum_time)

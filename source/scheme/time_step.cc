@@ -26,14 +26,18 @@ namespace scree
   }
 
 
-  double
-  Clock::next_step(const double cell_size, const double wave_speed, const double speed, const double appointment) const
+  double Clock::stable_step(const double cell_size, const double wave_speed, const double speed) const
   {
-    const double signal    = wave_speed + speed;
-    const double stable    = signal > 0 ? parameters.courant_number * cell_size / signal : parameters.maximum_time_step;
-    const double largest   = std::min(stable, parameters.maximum_time_step);
+    const double signal = wave_speed + speed;
+    const double stable = signal > 0 ? parameters.courant_number * cell_size / signal : parameters.maximum_time_step;
+    return std::min(stable, parameters.maximum_time_step);
+  }
+
+
+  double Clock::next_step(const double stable_step, const double appointment) const
+  {
     const double remaining = appointment - current_time;
-    return remaining / std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
+    return remaining / std::max(1., std::ceil(remaining / stable_step * (1. - 1e-12)));
   }
 
 

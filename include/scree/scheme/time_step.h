@@ -21,10 +21,11 @@ namespace scree
   public:
     explicit Clock(const TimeStepParameters &parameters);
 
-    /// The step, s, from now on: at most Courant number times cell size over (wave speed + speed) and the maximum, and
-    /// shortened so that equal steps end at `appointment`.
-    double
-    next_step(const double cell_size, const double wave_speed, const double speed, const double appointment) const;
+    /// Largest step, s: Courant number times cell size over (wave speed + speed), and at most the maximum.
+    double stable_step(const double cell_size, const double wave_speed, const double speed) const;
+
+    /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `appointment`.
+    double next_step(const double stable_step, const double appointment) const;
 
     /// Moves on by the step, to the appointment itself if the step ends there.
     void advance(const double time_step, const double appointment);
