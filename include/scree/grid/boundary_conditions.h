@@ -55,11 +55,6 @@ namespace scree
     /// Corrects the end-of-step velocity of a node that lies on the given faces of the box.
     void apply(dealii::Tensor<1, dim> &velocity, const std::uint8_t faces) const;
 
-    const Wall &wall(const unsigned int face) const
-    {
-      return walls[face];
-    }
-
     /// Name of the face of the box nearest to a point outside, and whether it is open.
     std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const;
 
