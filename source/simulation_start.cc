@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
+#include <scree/input/input_error.h>
 #include <scree/output/checkpoint.h>
 #include <scree/points/seeding.h>
 #include <scree/simulation.h>
@@ -72,7 +73,7 @@ namespace scree
     set_initial_stress();
     folder.remove_old_results(); // not before the input has proved good
     balance_load();
-    set_phases_in_motion();
+    measure_speeds();
     if (parameters.settling.maximum_time > 0)
       settle();
   }
@@ -95,8 +96,8 @@ namespace scree
           {
             std::vector<typename Overburden<dim>::Layer> layers;
             for (const auto &layer : parameters.bodies)
-              layers.push_back({ Region<dim>("Subsection " + layer.name + ": 'Region'", layer.seeding.region),
-                                 layer.bulk_density() });
+              layers.push_back(
+                  { Region<dim>(entry_name(layer.name, "Region"), layer.seeding.region), layer.bulk_density() });
             overburden =
                 std::make_unique<Overburden<dim>>(grid, std::move(layers), scheme.gravity(), grid.cell_size() / 4);
           }
@@ -106,7 +107,7 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::set_phases_in_motion()
+  void Simulation<dim>::measure_speeds()
   {
     std::vector<double> largest{ 0., 0. };
     for (const auto &phase : phases)
@@ -135,7 +136,7 @@ namespace scree
     std::vector<char> held;
     if (!settling.gate.empty())
       {
-        const Region<dim> gate("Subsection Settling: 'Gate'", settling.gate);
+        const Region<dim> gate(entry_name("Settling", "Gate"), settling.gate);
         for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
           held.push_back(gate.contains(grid.node_position(node)));
       }
@@ -170,7 +171,7 @@ namespace scree
     totals                       = RunTotals<dim>();
     totals.n_lost                = settled.n_lost;
     totals.lost_mass             = settled.lost_mass;
-    set_phases_in_motion();
+    measure_speeds();
   }
 
 

@@ -52,7 +52,9 @@ namespace scree
     void set_initial_stress();
     void resume();
     void settle();
-    void set_phases_in_motion();
+
+    /// Wave speed and largest speed of the points as they are, for the first step.
+    void measure_speeds();
 
     void make_appointments();
     double next_appointment() const;

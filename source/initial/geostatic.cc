@@ -94,26 +94,38 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Gives each point the state with the stress components that `fill_stress(location, components)` writes.
+    template <int dim, typename Function>
+    void set_stress(Phase<dim> &phase, const Function &fill_stress)
+    {
+      for (const auto &cell : phase.points.cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          {
+            double stress[n_symmetric_components<dim>] = {};
+            fill_stress(cell.location[p], stress);
+            double *properties = cell.properties + p * phase.points.stride();
+            phase.material->initialise(stress,
+                                       properties + phase.layout.left_cauchy_green,
+                                       properties + phase.layout.stress,
+                                       properties + phase.layout.internal_variables);
+          }
+    }
+  } // namespace
+
+
   template <int dim>
   void set_k0_stress(Phase<dim> &phase, Overburden<dim> &overburden, const double k0)
   {
     std::string fault; // The law may refuse the stress of points on one rank only.
     try
       {
-        for (const auto &cell : phase.points.cells())
-          for (unsigned int p = 0; p < cell.n_points; ++p)
-            {
-              const double vertical                      = -overburden.weight_above(cell.location[p]);
-              double stress[n_symmetric_components<dim>] = {};
-              for (unsigned int a = 0; a < 3; ++a)
-                stress[a] = (a == overburden.vertical_axis() ? 1. : k0) * vertical;
-
-              double *properties = cell.properties + p * phase.points.stride();
-              phase.material->initialise(stress,
-                                         properties + phase.layout.left_cauchy_green,
-                                         properties + phase.layout.stress,
-                                         properties + phase.layout.internal_variables);
-            }
+        set_stress(phase, [&](const Point<dim> &x, double *stress) {
+          const double vertical = -overburden.weight_above(x);
+          for (unsigned int a = 0; a < 3; ++a)
+            stress[a] = (a == overburden.vertical_axis() ? 1. : k0) * vertical;
+        });
       }
     catch (const ExceptionBase &error)
       {
@@ -126,16 +138,7 @@ namespace scree
   template <int dim>
   void set_isotropic_stress(Phase<dim> &phase, const double pressure)
   {
-    double stress[n_symmetric_components<dim>] = { -pressure, -pressure, -pressure };
-    for (const auto &cell : phase.points.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          double *properties = cell.properties + p * phase.points.stride();
-          phase.material->initialise(stress,
-                                     properties + phase.layout.left_cauchy_green,
-                                     properties + phase.layout.stress,
-                                     properties + phase.layout.internal_variables);
-        }
+    set_stress(phase, [&](const Point<dim> &, double *stress) { std::fill_n(stress, 3, -pressure); });
   }
 
   template class Overburden<2>;
