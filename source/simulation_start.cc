@@ -50,8 +50,13 @@ namespace scree
         auto material = make_material<dim>(body.material);
         const PropertyLayout<dim> layout(material->internal_variable_names().size(),
                                          parameters.transfer.carries_affine_field());
-        phases.emplace_back(
-            body.name, body.bulk_density(), std::move(material), layout, grid.triangulation(), grid.mapping());
+        phases.emplace_back(body.name,
+                            body.bulk_density(),
+                            body.seeding.grain_density,
+                            std::move(material),
+                            layout,
+                            grid.triangulation(),
+                            grid.mapping());
       }
     // Cost sits where the points are; an empty cell costs a little.
     grid.triangulation().signals.weight.connect([this](const auto &cell, const auto) {

@@ -29,16 +29,6 @@ namespace scree
 
 
   template <int dim>
-  StepBalance<dim> &StepBalance<dim>::operator+=(const StepBalance &other)
-  {
-    wall_impulse += other.wall_impulse;
-    body_impulse += other.body_impulse;
-    wall_dissipation += other.wall_dissipation;
-    return *this;
-  }
-
-
-  template <int dim>
   ExplicitScheme<dim>::ExplicitScheme(const BackgroundGrid<dim> &grid,
                                       const BoundaryConditions<dim> &walls,
                                       const std::vector<double> &gravity,
@@ -125,8 +115,6 @@ namespace scree
     return balance;
   }
 
-  template struct StepBalance<2>;
-  template struct StepBalance<3>;
   template class ExplicitScheme<2>;
   template class ExplicitScheme<3>;
 } // namespace scree

@@ -40,6 +40,7 @@ struct Scene
         seeding.points_per_cell = 2;
         phases.emplace_back("Soil",
                             1000.,
+                            1000.,
                             make_material<dim>(material),
                             PropertyLayout<dim>(0, false),
                             grid.triangulation(),

@@ -49,6 +49,7 @@ void test(const std::string &name,
       seeding.points_per_cell = points_per_cell;
       Phase<dim> phase("Soil",
                        density,
+                       density,
                        make_material<dim>(material),
                        PropertyLayout<dim>(0, false),
                        grid.triangulation(),

@@ -39,6 +39,7 @@ void test(const std::string &basis, const std::string &method, std::ostream &out
   seeding.points_per_cell = 3;
   Phase<dim> phase("Soil",
                    1000.,
+                   1000.,
                    make_material<dim>(material),
                    PropertyLayout<dim>(0, affine),
                    grid.triangulation(),

@@ -3,7 +3,7 @@
 #define scree_output_statistics_h
 
 #include <scree/output/measures.h>
-#include <scree/scheme/explicit_scheme.h>
+#include <scree/scheme/step_balance.h>
 
 #include <deal.II/base/table_handler.h>
 
@@ -32,7 +32,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &balance.wall_impulse &balance.body_impulse &balance.wall_dissipation;
+      archive &balance;
       archive &plastic_dissipation &lost_mass &lost_energy &lost_momentum &n_lost;
       archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
     }

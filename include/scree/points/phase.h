@@ -17,19 +17,22 @@ namespace scree
   struct Phase
   {
     std::string name;
-    double density; ///< bulk density at J = 1, kg/m^3
+    double density;       ///< bulk density of the dry soil at J = 1, kg/m^3
+    double grain_density; ///< kg/m^3
     std::unique_ptr<Material<dim>> material;
     PropertyLayout<dim> layout;
     PointSet<dim> points;
 
     Phase(const std::string &name,
           const double density,
+          const double grain_density,
           std::unique_ptr<Material<dim>> material,
           const PropertyLayout<dim> &layout,
           const dealii::Triangulation<dim> &triangulation,
           const dealii::Mapping<dim> &mapping)
         : name(name)
         , density(density)
+        , grain_density(grain_density)
         , material(std::move(material))
         , layout(layout)
         , points(triangulation, mapping, layout.n_properties)

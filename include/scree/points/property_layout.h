@@ -22,9 +22,10 @@ namespace scree
 
     /// @param n_internal_variables of the material law
     /// @param with_affine whether the transfer carries an affine velocity field
-    PropertyLayout(const unsigned int n_internal_variables, const bool with_affine)
+    /// @param n_further slots behind the soil's own: of water that rides on the points
+    PropertyLayout(const unsigned int n_internal_variables, const bool with_affine, const unsigned int n_further = 0)
         : affine(internal_variables + n_internal_variables)
-        , n_properties(affine + (with_affine ? dim * dim : 0))
+        , n_properties(affine + (with_affine ? dim * dim : 0) + n_further)
     {
     }
   };

@@ -4,6 +4,7 @@
 
 #include <scree/grid/boundary_conditions.h>
 #include <scree/grid/nodal_field.h>
+#include <scree/scheme/step_balance.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/parameter_handler.h>
@@ -21,17 +22,6 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm);
     void check(const unsigned int dim) const;
-  };
-
-  /// What a step gave to and took from the soil at the nodes of this rank (2D: per m).
-  template <int dim>
-  struct StepBalance
-  {
-    dealii::Tensor<1, dim> wall_impulse; ///< N s
-    dealii::Tensor<1, dim> body_impulse; ///< gravity and body force, N s
-    double wall_dissipation = 0;         ///< energy that walls took, J
-
-    StepBalance &operator+=(const StepBalance &other);
   };
 
   /// The explicit step of one phase at the nodes: momentum and force in, velocity and its change out.

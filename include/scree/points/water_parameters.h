@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_points_water_parameters_h
+#define scree_points_water_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// How points carry soil and water.
+  enum class PointSets
+  {
+    double_point, ///< water has points of its own
+    single_point  ///< water rides on the soil's points
+  };
+
+  /// Subsection Water: where it is, and how it flows through the soil.
+  struct WaterParameters
+  {
+    std::string region           = "same"; ///< as the soil, or an expression
+    std::string point_sets       = "double";
+    unsigned int points_per_cell = 4;             ///< along each axis
+    double density               = 1000;          ///< kg/m^3
+    double conductivity          = 1e-3;          ///< m/s, at the initial porosity
+    std::string conductivity_law = "constant";    ///< constant | Kozeny-Carman
+    double viscosity             = 0;             ///< Pa s
+    double bulk_modulus          = 0;             ///< Pa; 0: incompressible
+    double fluidisation_porosity = 1;             ///< soil looser than this bears no stress
+    double volume_correction     = 0;             ///< of free water
+    std::string initial_pressure = "hydrostatic"; ///< hydrostatic | none
+    std::string initial_velocity = "";            ///< m/s, one expression an axis; empty: at rest
+
+    /// Declares the entries in the subsection that is open.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations.
+    void check(const unsigned int dim, const unsigned int n_bodies) const;
+
+    PointSets point_sets_kind() const;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_step_balance_h
+#define scree_scheme_step_balance_h
+
+#include <deal.II/base/tensor.h>
+
+namespace scree
+{
+  /// What a step gave to and took from soil and water at the nodes of this rank (2D: per m), and what its pressure
+  /// solve took. Steps add up.
+  template <int dim>
+  struct StepBalance
+  {
+    dealii::Tensor<1, dim> wall_impulse; ///< N s
+    dealii::Tensor<1, dim> body_impulse; ///< gravity and body force, N s
+    dealii::Tensor<1, dim>
+        pressure_impulse;                ///< sum over soil and water of -V grad p: walls and surfaces push back, N s
+    dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
+    double wall_dissipation = 0;         ///< energy that walls took, J
+    double drag_dissipation = 0;         ///< between soil and water, J
+    double load_work        = 0;         ///< of the surface load, J
+
+    // Counts, on the writing rank only; doubles hold them exactly and travel like the rest.
+    double n_solves = 0, n_iterations = 0, n_preconditioners = 0;
+
+    StepBalance &operator+=(const StepBalance &other);
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &wall_impulse &body_impulse &pressure_impulse &load_impulse;
+      archive &wall_dissipation &drag_dissipation &load_work;
+      archive &n_solves &n_iterations &n_preconditioners;
+    }
+  };
+} // namespace scree
+
+#endif

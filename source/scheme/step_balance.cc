@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/step_balance.h>
+
+namespace scree
+{
+  template <int dim>
+  StepBalance<dim> &StepBalance<dim>::operator+=(const StepBalance &other)
+  {
+    wall_impulse += other.wall_impulse;
+    body_impulse += other.body_impulse;
+    pressure_impulse += other.pressure_impulse;
+    load_impulse += other.load_impulse;
+    wall_dissipation += other.wall_dissipation;
+    drag_dissipation += other.drag_dissipation;
+    load_work += other.load_work;
+    n_solves += other.n_solves;
+    n_iterations += other.n_iterations;
+    n_preconditioners += other.n_preconditioners;
+    return *this;
+  }
+
+  template struct StepBalance<2>;
+  template struct StepBalance<3>;
+} // namespace scree
