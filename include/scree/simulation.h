@@ -6,6 +6,8 @@
 #include <scree/output/progress.h>
 #include <scree/output/statistics.h>
 #include <scree/parameters.h>
+#include <scree/scheme/explicit_scheme.h>
+#include <scree/scheme/semi_implicit_scheme.h>
 #include <scree/transfer/transfer.h>
 
 #include <list>
@@ -49,9 +51,24 @@ namespace scree
   private:
     void make_phases();
     void initialise();
-    void set_initial_stress();
+    void fill_with_points();
+    void set_initial_state();
     void resume();
     void settle();
+
+    /// Velocity of the nodes at the end of a step, from the points.
+    void solve_nodes(const double time_step);
+
+    /// Soil, water and markers follow the nodes; they are not sorted yet.
+    void move_points(const double time_step, std::vector<double> &largest);
+
+    /// Largest step, s, of the points as they are.
+    double stable_step() const;
+
+    /// All sets of points, in a fixed order.
+    std::vector<PointSet<dim> *> point_sets();
+
+    double n_points_of_rank() const;
 
     /// Wave speed and largest speed of the points as they are, for the first step.
     void measure_speeds();
@@ -78,8 +95,16 @@ namespace scree
     BoundaryConditions<dim> walls;
     NodalField<dim> field;
     Transfer<dim> transfer;
+    Forcing<dim> forcing;
     ExplicitScheme<dim> scheme;
     std::list<Phase<dim>> phases;
+    std::unique_ptr<SurfaceLoad<dim>> load; // null without
+
+    // Of a scene with water; else null and empty.
+    std::unique_ptr<WaterBoundaryConditions<dim>> water_walls;
+    std::unique_ptr<SemiImplicitScheme<dim>> semi_implicit;
+    std::list<WaterPhase<dim>> water;
+
     Clock clock;
     Graphics<dim> graphics;
     Statistics<dim> statistics;

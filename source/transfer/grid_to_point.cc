@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/transfer/node_rows.h>
+#include <scree/transfer/affine_field.h>
+#include <scree/transfer/cell_velocity.h>
 #include <scree/transfer/transfer.h>
 
 #include <cmath>
@@ -7,76 +8,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// End-of-step velocity and its change at a cell's nodes.
-    template <int dim, int n>
-    struct CellVelocity
-    {
-      static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-
-      NodeRow velocity[dim][n_rows];
-      NodeRow change[dim][n_rows];
-
-      CellVelocity(const unsigned int *nodes, const NodalField<dim> &field)
-      {
-        for (unsigned int r = 0; r < n_rows; ++r)
-          {
-            std::array<const double *, n> node;
-            for (unsigned int i = 0; i < n; ++i)
-              node[i] = field[nodes[r * n + i]];
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                std::array<double, n> v, dv;
-                for (unsigned int i = 0; i < n; ++i)
-                  {
-                    v[i]  = node[i][NodalField<dim>::velocity + c];
-                    dv[i] = node[i][NodalField<dim>::velocity_change + c];
-                  }
-                velocity[c][r] = make_row(v);
-                change[c][r]   = make_row(dv);
-              }
-          }
-      }
-    };
-
-    /// sum over the rows of factor times values
-    template <std::size_t n_rows>
-    NodeRow contract(const std::array<double, n_rows> &factor, const NodeRow (&values)[n_rows])
-    {
-      NodeRow result = values[0] * factor[0];
-      for (unsigned int r = 1; r < n_rows; ++r)
-        result += values[r] * factor[r];
-      return result;
-    }
-
-    /// APIC's sum phi_i v_i (x_i - x)^T, m^2/s, row `c`.
-    template <int dim, int n>
-    void affine_moment(const CellBasis<dim, n> &basis,
-                       const RowFactors<dim, n> &rows,
-                       const OpenKnots open,
-                       const Point<dim> &x,
-                       const double width,
-                       const NodeRow (&velocity)[RowFactors<dim, n>::n_rows],
-                       double *moment)
-    {
-      const auto offset = [&](const unsigned int a, const unsigned int i) {
-        return width * (CellBasis<dim, n>::node_positions(open, a)[i] - x[a]);
-      };
-      std::array<double, n> along_x;
-      for (unsigned int i = 0; i < n; ++i)
-        along_x[i] = offset(0, i) * basis.value[0][i];
-      moment[0] = sum(contract(rows.value, velocity) * make_row(along_x));
-      for (unsigned int a = 1; a < dim; ++a)
-        {
-          auto factor = rows.value;
-          for (unsigned int r = 0; r < factor.size(); ++r)
-            factor[r] *= offset(a, a == 1 ? r % n : r / n);
-          moment[a] = sum(contract(factor, velocity) * make_row(basis.value[0]));
-        }
-    }
-  } // namespace
 
 
   template <int dim>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/tensor/matrix.h>
-#include <scree/transfer/node_rows.h>
+#include <scree/transfer/affine_field.h>
 #include <scree/transfer/transfer.h>
 
 namespace scree
@@ -94,39 +94,17 @@ namespace scree
               }
 
             if constexpr (is_affine)
-              {
-                std::array<std::array<double, n>, dim> offset; // of the nodes from the point, m
-                std::array<double, dim> inertia{};
-                for (unsigned int a = 0; a < dim; ++a)
-                  {
-                    offset[a] = CellBasis<dim, n>::node_positions(open, a);
-                    for (unsigned int i = 0; i < n; ++i)
-                      {
-                        offset[a][i] = width * (offset[a][i] - cell.reference_location[p][a]);
-                        inertia[a] += basis.value[a][i] * offset[a][i] * offset[a][i];
-                      }
-                  }
-                const NodeRow offset_x = make_row(offset[0]);
-                for (unsigned int c = 0; c < dim; ++c)
-                  {
-                    double slope[dim]; // of the momentum, kg/s
-                    for (unsigned int a = 0; a < dim; ++a)
-                      {
-                        slope[a] = mass * properties[layout.affine + c * dim + a];
-                        // APIC stores sum phi v (x_i - x)^T; hats make this vanish at a node together with its inertia.
-                        if (method == TransferMethod::apic)
-                          slope[a] = inertia[a] > 1e-12 * width * width ? slope[a] / inertia[a] : 0.;
-                      }
-                    momentum[c] += value_x * offset_x * slope[0];
-                    for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
-                      {
-                        double along = slope[1] * offset[1][r % n];
-                        if constexpr (dim == 3)
-                          along += slope[2] * offset[2][r / n];
-                        sums.add_momentum(r, c, value_x * (along * rows.value[r]));
-                      }
-                  }
-              }
+              add_affine_momentum<method>(basis,
+                                          rows,
+                                          open,
+                                          cell.reference_location[p],
+                                          width,
+                                          mass,
+                                          properties + layout.affine,
+                                          momentum,
+                                          [&](const unsigned int r, const unsigned int c, const NodeRow &part) {
+                                            sums.add_momentum(r, c, part);
+                                          });
 
             sums.add(rows, value_x * mass, momentum, force_x, force_other);
           }

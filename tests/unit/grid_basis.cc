@@ -150,7 +150,7 @@ void check_walls(const BackgroundGrid<dim> &grid, const std::array<unsigned int,
       const unsigned int axis = face / 2;
       const double wall       = face % 2 ? grid.upper_corner()[axis] : grid.lower_corner()[axis];
       unsigned int n = 0, expected = 1;
-      const unsigned int n_ghosts = grid.node_partitioner()->n_ghost_indices();
+      const unsigned int n_ghosts = grid.numbering().partitioner()->n_ghost_indices();
       for (unsigned int node = 0; node < grid.n_owned_nodes() + n_ghosts; ++node)
         {
           const bool on_wall = std::abs(grid.node_position(node)[axis] - wall) < 1e-6 * grid.cell_size();

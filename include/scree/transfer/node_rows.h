@@ -51,6 +51,16 @@ namespace scree
             }
     }
   };
+
+  /// sum over the rows of factor times values
+  template <std::size_t n_rows>
+  NodeRow contract(const std::array<double, n_rows> &factor, const NodeRow (&values)[n_rows])
+  {
+    NodeRow result = values[0] * factor[0];
+    for (unsigned int r = 1; r < n_rows; ++r)
+      result += values[r] * factor[r];
+    return result;
+  }
 } // namespace scree
 
 #endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_forcing_h
+#define scree_scheme_forcing_h
+
+#include <scree/grid/background_grid.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// Entry Body force: an acceleration beside gravity, for verification.
+  struct BodyForceParameters
+  {
+    std::string expression; ///< m/s^2, of x, y (z) and t, one an axis; empty: none
+
+    void add_parameters(dealii::ParameterHandler &prm);
+    void check(const unsigned int dim) const;
+  };
+
+  /// What acts on all nodes besides stress, pressure and walls: gravity, body force, and the damping and the gate of
+  /// the settling.
+  template <int dim>
+  class Forcing
+  {
+  public:
+    Forcing(const BackgroundGrid<dim> &grid, const std::vector<double> &gravity, const BodyForceParameters &body_force);
+
+    const dealii::Tensor<1, dim> &gravity() const
+    {
+      return uniform;
+    }
+
+    /// The time, s, of the accelerations asked for next.
+    void set_time(const double time);
+
+    /// Acceleration of a node, m/s^2.
+    dealii::Tensor<1, dim> acceleration(const unsigned int node) const
+    {
+      dealii::Tensor<1, dim> sum = uniform;
+      if (body_force)
+        for (unsigned int c = 0; c < dim; ++c)
+          sum[c] += body_force->value(grid.node_position(node), c);
+      return sum;
+    }
+
+    /// Damped settling: velocity decays at `rate`, 1/s, and nodes with `held[node]` do not move.
+    void start_settling(const double rate, std::vector<char> held);
+
+    /// Ends the settling: nothing is held or damped from here on.
+    void release();
+
+    bool is_damped() const
+    {
+      return damping_rate > 0.;
+    }
+
+    /// What damping leaves of a velocity after a step.
+    double decay(const double time_step) const;
+
+    bool is_held(const unsigned int node) const
+    {
+      return !held.empty() && held[node];
+    }
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    dealii::Tensor<1, dim> uniform;
+    std::unique_ptr<dealii::Function<dim>> body_force;
+    double damping_rate = 0;
+    std::vector<char> held;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_free_surface_h
+#define scree_scheme_free_surface_h
+
+#include <scree/grid/water_walls.h>
+#include <scree/scheme/pressure_parameters.h>
+#include <scree/transfer/mixture.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+namespace scree
+{
+  using CornerVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /// What the pressure is at a corner of the cells.
+  enum class CornerKind : char
+  {
+    dry,        ///< 0
+    unknown,    ///< a degree of freedom
+    surface,    ///< extrapolated, so that it vanishes at the surface beside the corner
+    prescribed, ///< by a drained wall
+  };
+
+  /// Where the water ends: kinds of the corners, and the pressure at those beside the surface.
+  ///
+  /// The fill F of a corner (volume of water and wet grains under its hat function) gives its signed distance d from a
+  /// surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. Unknown are the corners at
+  /// least a quarter of a cell inside. Those beside them hold p = d sum p_j / sum d_j of their unknown neighbours: p is
+  /// linear and vanishes at the surface, wherever that is in the cell.
+  template <int dim>
+  class FreeSurfaceLocator
+  {
+  public:
+    /// @param corners the numbering of hat functions on the grid
+    FreeSurfaceLocator(const BackgroundGrid<dim> &grid,
+                       const NodeNumbering<dim> &corners,
+                       const WaterBoundaryConditions<dim> &walls,
+                       const FreeSurface rule);
+
+    /// Fits the surface to the grid's current corners.
+    void reinit();
+
+    /// Finds the surface, and fills `pressure` at the unknown corners from the mixture's points (0 elsewhere but at
+    /// drained walls). Collective.
+    void locate(const Mixture<dim> &mixture, CornerVector &pressure);
+
+    /// Sets a pressure (or its change) at the corners beside the surface. Collective; ghosts hold values afterwards.
+    void extrapolate(const Mixture<dim> &mixture, CornerVector &pressure);
+
+    CornerKind kind(const unsigned int corner) const
+    {
+      return kinds[corner];
+    }
+
+    /// Pressure at `surface_corner` over that at an unknown corner of the same cell, as the matrix sees it.
+    double ratio(const unsigned int surface_corner, const unsigned int unknown_corner) const
+    {
+      return std::max(distances[surface_corner] / depth(unknown_corner, surface_corner), -steepest);
+    }
+
+    /// Volume of water under the hat function of an owned corner, m^3.
+    double water_volume(const unsigned int corner) const
+    {
+      return filling[corner][0];
+    }
+
+    /// Whether no grains are under the hat function of an owned corner.
+    bool is_free_water(const unsigned int corner) const
+    {
+      return filling[corner][1] <= filling[corner][0] * (1. + 1e-12);
+    }
+
+    /// Fill of an owned corner's hat function, 1 if it is full of water and wet grains.
+    double fill(const unsigned int corner) const
+    {
+      return filling[corner][1] / hat_volume(corner);
+    }
+
+    /// Integral of a corner's hat function over the box, m^3.
+    double hat_volume(const unsigned int corner) const;
+
+    /// The owned corners of cells with water.
+    const std::vector<unsigned int> &wet_corners() const
+    {
+      return filling.active_nodes();
+    }
+
+  private:
+    static constexpr double steepest = 3.; // bounds the extrapolation from shallow corners
+
+    /// Distance of an unknown corner from the surface that is near another one, cells.
+    double depth(const unsigned int corner, const unsigned int surface_corner) const
+    {
+      // Fills do not tell more than one cell of water from many.
+      return distances[corner] < 1. ? distances[corner] : 1. + std::max(distances[surface_corner], 0.);
+    }
+
+    bool is_unknown(const unsigned int corner, const double fill) const;
+    void sum_filling(const Mixture<dim> &mixture);
+
+    /// Calls `act(corner)` for the owned corners that any rank's water may touch, and for the ghosts that this rank's
+    /// water touches: for these more than once.
+    template <typename Function>
+    void for_all_wet_corners(const Mixture<dim> &mixture, const Function &act) const
+    {
+      for (const unsigned int corner : filling.active_nodes())
+        act(corner);
+      for (const MixtureCell<dim> &cell : mixture.cells())
+        if (cell.water_volume > 0)
+          for (unsigned int v = 0; v < cell.n_corners; ++v)
+            if (const unsigned int corner = corners.nodes(cell.cell)[v]; corner >= corners.n_owned())
+              act(corner);
+    }
+
+    const BackgroundGrid<dim> &grid;
+    const NodeNumbering<dim> &corners;
+    const WaterBoundaryConditions<dim> &walls;
+    const FreeSurface rule;
+    NodeValues<dim, 4> filling;    // volume of water, of water and wet grains, water times pressure; wet cells
+    NodeValues<dim, 3> neighbours; // unknown corners around one beside the surface: number, sum of d, sum of p
+    std::vector<CornerKind> kinds;
+    std::vector<double> distances; // cells; positive in the water
+  };
+} // namespace scree
+
+#endif

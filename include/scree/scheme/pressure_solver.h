@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_pressure_solver_h
+#define scree_scheme_pressure_solver_h
+
+#include <scree/scheme/free_surface.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace scree
+{
+  /// What a pressure solve took.
+  struct SolveReport
+  {
+    unsigned int n_iterations = 0;
+    bool made_preconditioner  = false;
+  };
+
+  /// The system for the change of the pressure, L dp = b, on the corners of the cells that hold water.
+  ///
+  /// L = dt sum kappa K with the Laplacian K of one cell and the mobility kappa of the mixture's cells; corners beside
+  /// the surface enter through the unknown ones. The matrix is applied cell by cell and never stored, but for the
+  /// algebraic multigrid preconditioner of the conjugate gradients, which is kept over steps and made anew when it gets
+  /// worse. Unknowns are numbered for the wet cells and those next to them: the numbering, too, serves many steps.
+  template <int dim>
+  class PressureSolver
+  {
+  public:
+    PressureSolver(const BackgroundGrid<dim> &grid,
+                   const NodeNumbering<dim> &corners,
+                   const PressureParameters &parameters);
+
+    /// Forgets what belongs to another partition of the mesh.
+    void reinit();
+
+    /// Sets the matrix. Collective.
+    /// @param storage what the diagonal of an owned corner gains: of compressible water, m^3/(Pa s)
+    /// @param projection tau of the pressure projection over the step, 1/(Pa s); 0: none
+    void assemble(const Mixture<dim> &mixture,
+                  const FreeSurfaceLocator<dim> &surface,
+                  const double time_step,
+                  const std::function<double(unsigned int corner)> &storage,
+                  const double projection);
+
+    /// Solves for the change of the pressure, Pa, at the unknown corners (0 at the others); `rhs`, m^3/s, is read at
+    /// owned unknown corners. Starts from what `change` holds. What `pressure` drives sets the size below which a
+    /// residual is rounding. Collective; throws if the solver does not converge.
+    SolveReport solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change);
+
+  private:
+    static constexpr unsigned int n_corners = 1 << dim;
+    using CellMatrix                        = std::array<std::array<double, n_corners>, n_corners>;
+
+    struct Cell
+    {
+      std::array<unsigned int, n_corners> numbers;
+      double mobility;   // dt kappa h^(dim-2), m^3/(Pa s)
+      double projection; // m^3/(Pa s)
+    };
+
+    /// The matrix for SolverCG: applied cell by cell.
+    struct Operator
+    {
+      const PressureSolver &solver;
+      void vmult(CornerVector &target, const CornerVector &source) const;
+    };
+
+    /// Hands out new numbers if a wet cell has a corner without one. Collective.
+    void number(const Mixture<dim> &mixture);
+    void make_preconditioner();
+    CellMatrix matrix(const Cell &cell) const;
+
+    const BackgroundGrid<dim> &grid;
+    const NodeNumbering<dim> &corners;
+    const double relative_tolerance;
+    const unsigned int maximum_iterations;
+
+    CellMatrix laplacian, fluctuation; // of the unit cell
+
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; // of the numbers
+    std::vector<unsigned int> number_of_corner, corner_of_number;           // local indices; owned numbers first
+
+    std::vector<Cell> cells;
+    std::vector<char> is_unknown; // by number
+    std::vector<double> diagonal; // what surface corners and storage add, by owned number
+    CornerVector source, solution, scratch;
+
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
+    unsigned int iterations_when_new = 0;
+    bool is_worn                     = true;
+  };
+} // namespace scree
+
+#endif

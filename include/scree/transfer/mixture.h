@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_mixture_h
+#define scree_transfer_mixture_h
+
+#include <scree/grid/nodal_field.h>
+#include <scree/transfer/node_rows.h>
+
+#include <array>
+#include <vector>
+
+namespace scree
+{
+  /// What the points of a cell weigh and fill (2D: per m).
+  template <int dim>
+  struct MixtureCell
+  {
+    static constexpr unsigned int n_corners = 1 << dim;
+    using AtCorners                         = std::array<double, n_corners>;
+
+    unsigned int cell;                         ///< active cell index
+    double soil_mass = 0, water_mass = 0;      ///< kg
+    double grain_volume = 0, water_volume = 0; ///< m^3
+    double pore_volume = 0;                    ///< of the soil, m^3
+    double drag        = 0;                    ///< of saturated soil: sum V n^2 rho_w g/k, N s/m
+
+    // Sums weighted with the hat functions of the corners.
+    AtCorners grains_at_corner{}, water_at_corner{}; ///< volume, m^3
+    AtCorners pressure_at_corner{};                  ///< volume of water times pressure there, Pa m^3
+
+    double saturation = 0; ///< of the pores, at most 1
+    double fill       = 0; ///< volume of water and wet grains over that of the cell
+    double mobility   = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
+
+    explicit MixtureCell(const unsigned int cell)
+        : cell(cell)
+    {
+    }
+  };
+
+  /// A pressure that is linear along each axis of a cell: coefficients of the monomials of the cell's coordinates from
+  /// 0 to 1; bit a of the index stands for a factor x_a.
+  template <int dim>
+  using Multilinear = std::array<double, (1 << dim)>;
+
+  /// The multilinear function with the given values at the corners (deal.II's order).
+  template <int dim>
+  inline Multilinear<dim> multilinear_of(std::array<double, (1 << dim)> values)
+  {
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int m = 0; m < values.size(); ++m)
+        if ((m >> a) & 1)
+          values[m] -= values[m ^ (1 << a)];
+    return values;
+  }
+
+  /// Soil and water in the cells that hold points: sums of each cell, and the moments V phi_i x^m of grains and water,
+  /// with which the pressure's force on a node, sum V phi_i grad p, needs no second walk over the points.
+  template <int dim>
+  class Mixture
+  {
+  public:
+    /// Monomials in a pressure's gradient: all products of coordinates but the one of all axes.
+    static constexpr unsigned int n_moments = (1 << dim) - 1;
+
+    explicit Mixture(const BackgroundGrid<dim> &grid);
+
+    /// Fits the mixture to the grid's current cells.
+    void reinit();
+
+    /// Empties the mixture, before a new step.
+    void clear();
+
+    /// The number of a cell's record, which is made if there is none.
+    unsigned int record(const unsigned int cell);
+
+    /// Saturation and fill, when all points are in.
+    void finish();
+
+    std::vector<MixtureCell<dim>> &cells()
+    {
+      return records;
+    }
+    const std::vector<MixtureCell<dim>> &cells() const
+    {
+      return records;
+    }
+
+    /// Moments of a cell's grains or water: rows of nodes of n_moments each.
+    NodeRow *grain_moments(const unsigned int record)
+    {
+      return &grains[std::size_t(record) * moments_per_cell];
+    }
+    NodeRow *water_moments(const unsigned int record)
+    {
+      return &water[std::size_t(record) * moments_per_cell];
+    }
+
+    /// Adds `factor` sum S V_grains phi_i grad p and `factor` sum V_water phi_i grad p to `dim` components each of the
+    /// nodes of a cell, from `first_soil` of `soil_nodes` and `first_water` of `water_nodes` on (N at factor 1).
+    template <typename SoilNodes, typename WaterNodes>
+    void add_pressure_gradient(const unsigned int record,
+                               const Multilinear<dim> &pressure,
+                               const double factor,
+                               SoilNodes &soil_nodes,
+                               const unsigned int first_soil,
+                               WaterNodes &water_nodes,
+                               const unsigned int first_water) const;
+
+  private:
+    template <int n, typename Nodes>
+    void add_gradient(const NodeRow *moments,
+                      const unsigned int *nodes,
+                      const Multilinear<dim> &slopes,
+                      Nodes &values,
+                      const unsigned int first) const;
+
+    const BackgroundGrid<dim> &grid;
+    const unsigned int moments_per_cell;
+    std::vector<MixtureCell<dim>> records;
+    std::vector<unsigned int> record_of_cell; // by active cell index
+    std::vector<NodeRow> grains, water;
+  };
+
+
+  template <int dim>
+  template <int n, typename Nodes>
+  inline void Mixture<dim>::add_gradient(const NodeRow *moments,
+                                         const unsigned int *nodes,
+                                         const Multilinear<dim> &slopes,
+                                         Nodes &values,
+                                         const unsigned int first) const
+  {
+    for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r, moments += n_moments)
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          NodeRow force{};
+          for (unsigned int m = 0; m < n_moments; ++m)
+            if (!((m >> a) & 1))
+              force += slopes[m | (1 << a)] * moments[m];
+          for (unsigned int i = 0; i < n; ++i)
+            values[nodes[r * n + i]][first + a] += force[i];
+        }
+  }
+
+
+  template <int dim>
+  template <typename SoilNodes, typename WaterNodes>
+  inline void Mixture<dim>::add_pressure_gradient(const unsigned int record,
+                                                  const Multilinear<dim> &pressure,
+                                                  const double factor,
+                                                  SoilNodes &soil_nodes,
+                                                  const unsigned int first_soil,
+                                                  WaterNodes &water_nodes,
+                                                  const unsigned int first_water) const
+  {
+    const MixtureCell<dim> &cell = records[record];
+    const unsigned int *nodes    = grid.nodes(cell.cell);
+    const auto add = [&](const NodeRow *moments, const double weight, auto &values, const unsigned int at) {
+      Multilinear<dim> slopes = pressure;
+      for (double &slope : slopes)
+        slope *= weight / grid.cell_size();
+      if (grid.n_nodes_1d() == 2)
+        add_gradient<2>(moments, nodes, slopes, values, at);
+      else
+        add_gradient<3>(moments, nodes, slopes, values, at);
+    };
+    if (cell.grain_volume > 0 && cell.saturation > 0)
+      add(&grains[std::size_t(record) * moments_per_cell], factor * cell.saturation, soil_nodes, first_soil);
+    if (cell.water_volume > 0)
+      add(&water[std::size_t(record) * moments_per_cell], factor, water_nodes, first_water);
+  }
+} // namespace scree
+
+#endif

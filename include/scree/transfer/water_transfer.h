@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_water_transfer_h
+#define scree_transfer_water_transfer_h
+
+#include <scree/points/water_parameters.h>
+#include <scree/points/water_phase.h>
+#include <scree/transfer/mixture.h>
+#include <scree/transfer/transfer.h>
+
+#include <functional>
+
+namespace scree
+{
+  /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
+  template <int dim>
+  class PoreField : public NodeValues<dim, 3>
+  {
+  public:
+    static constexpr unsigned int pore_volume    = 0; ///< sum n V phi_i of the soil, m^3
+    static constexpr unsigned int drag           = 1; ///< sum V n^2 rho_w g/k phi_i, N s/m; then times the step, kg
+    static constexpr unsigned int grain_volume   = 2; ///< sum S V_grains phi_i, m^3
+    static constexpr unsigned int grain_fraction = 2; ///< then: volume of grains over that of grains and water
+
+    explicit PoreField(const BackgroundGrid<dim> &grid)
+        : NodeValues<dim, 3>(grid.numbering())
+    {
+    }
+  };
+
+  /// The pressure at a cell's corners, Pa, in deal.II's order.
+  template <int dim>
+  using CornerPressure = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
+
+  /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
+  template <int dim>
+  class WaterTransfer
+  {
+  public:
+    /// @param pressure_slope 1: the points' pressure travels with its gradient, 0: without
+    WaterTransfer(const BackgroundGrid<dim> &grid,
+                  const TransferParameters &transfer,
+                  const WaterParameters &water,
+                  const double pressure_slope);
+
+    /// Adds pores, drag and grains of a body's points to the mixture and to `pores`.
+    void soil_to_grid(const Phase<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
+
+    /// Adds mass, momentum and viscous force of the water's points to `field`, and volume and pressure to the mixture.
+    void to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const;
+
+    /// One pass over the water's points at the end of a step: velocity, pressure with its gradient, and place, if they
+    /// are the water's own; else the volume of the pores. Returns the largest speed, m/s; not a number if any point's
+    /// is not.
+    double to_points(WaterPhase<dim> &water,
+                     const NodalField<dim> &field,
+                     const CornerPressure<dim> &pressure,
+                     const double time_step) const;
+
+    /// Hydraulic conductivity, m/s, of soil at a porosity.
+    double conductivity(const double porosity, const double initial_porosity) const;
+
+  private:
+    template <int n>
+    void add_soil(const Phase<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
+
+    template <int n, TransferMethod method>
+    void add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const;
+
+    template <int n, TransferMethod method>
+    double move_water(WaterPhase<dim> &water,
+                      const NodalField<dim> &field,
+                      const CornerPressure<dim> &pressure,
+                      const double time_step) const;
+
+    const BackgroundGrid<dim> &grid;
+    const TransferMethod method;
+    const double pic_rate;
+    const double unit_weight; ///< of water, N/m^3, at standard gravity: what defines the conductivity
+    const double reference_conductivity;
+    const bool follows_porosity; ///< Kozeny-Carman
+    const double viscosity;
+    const double pressure_slope;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/points/region.h>
+#include <scree/scheme/forcing.h>
+
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void BodyForceParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Body force",
+                      expression,
+                      "Acceleration beside gravity, m/s^2: an expression of x, y (z) and t an axis, separated by "
+                      "semicolons; empty: none. For verification.",
+                      Patterns::Anything());
+  }
+
+
+  void BodyForceParameters::check(const unsigned int dim) const
+  {
+    if (!expression.empty() && dim == 2)
+      parse_expression<2>(entry_name("", "Body force"), expression, 2, true);
+    if (!expression.empty() && dim == 3)
+      parse_expression<3>(entry_name("", "Body force"), expression, 3, true);
+  }
+
+
+  template <int dim>
+  Forcing<dim>::Forcing(const BackgroundGrid<dim> &grid,
+                        const std::vector<double> &gravity,
+                        const BodyForceParameters &body_force)
+      : grid(grid)
+      , uniform(make_array_view(gravity))
+  {
+    if (!body_force.expression.empty())
+      this->body_force = parse_expression<dim>(entry_name("", "Body force"), body_force.expression, dim, true);
+  }
+
+
+  template <int dim>
+  void Forcing<dim>::set_time(const double time)
+  {
+    if (body_force)
+      body_force->set_time(time);
+  }
+
+
+  template <int dim>
+  void Forcing<dim>::start_settling(const double rate, std::vector<char> held)
+  {
+    damping_rate = rate;
+    this->held   = std::move(held);
+  }
+
+
+  template <int dim>
+  void Forcing<dim>::release()
+  {
+    damping_rate = 0;
+    held.clear();
+  }
+
+
+  template <int dim>
+  double Forcing<dim>::decay(const double time_step) const
+  {
+    return std::exp(-damping_rate * time_step);
+  }
+
+  template class Forcing<2>;
+  template class Forcing<3>;
+} // namespace scree

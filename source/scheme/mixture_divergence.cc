@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/mixture_divergence.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  MixtureDivergence<dim>::MixtureDivergence(const BackgroundGrid<dim> &grid,
+                                            const NodeNumbering<dim> &corners,
+                                            const Divergence form)
+      : grid(grid)
+      , corners(corners)
+      , form(form)
+  {
+    const QGauss<dim> gauss(n_gauss);
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        points[q]  = gauss.point(q);
+        weights[q] = gauss.weight(q);
+        for (unsigned int v = 0; v < n_corners; ++v)
+          {
+            hats[q][v]          = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
+            hat_gradients[q][v] = GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
+          }
+      }
+  }
+
+
+  namespace
+  {
+    /// One component of a field at the nodes of a cell, in rows.
+    template <int dim, int n, typename Function>
+    void gather(const unsigned int *nodes, const Function &value_of_node, NodeRow (&rows)[RowFactors<dim, n>::n_rows])
+    {
+      for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
+        {
+          std::array<double, n> row;
+          for (unsigned int i = 0; i < n; ++i)
+            row[i] = value_of_node(nodes[r * n + i]);
+          rows[r] = make_row(row);
+        }
+    }
+  } // namespace
+
+
+  template <int dim>
+  template <int n>
+  void MixtureDivergence<dim>::integrate_cells(const Mixture<dim> &mixture,
+                                               const NodalField<dim> &soil,
+                                               const NodalField<dim> &water,
+                                               const PoreField<dim> &pores,
+                                               CornerVector &sums)
+  {
+    constexpr unsigned int velocity = NodalField<dim>::velocity;
+    constexpr unsigned int n_rows   = RowFactors<dim, n>::n_rows;
+    const double inverse_width      = 1. / grid.cell_size();
+    const double cell_volume        = Utilities::fixed_power<dim>(grid.cell_size());
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      {
+        if (cell.water_volume == 0)
+          continue;
+        const unsigned int *nodes = grid.nodes(cell.cell);
+        const OpenKnots open      = grid.open_knots(cell.cell);
+        NodeRow soil_rows[dim][n_rows], slip_rows[dim][n_rows], grain_rows[n_rows];
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            gather<dim, n>(
+                nodes, [&](const unsigned int node) { return soil[node][velocity + c]; }, soil_rows[c]);
+            gather<dim, n>(
+                nodes,
+                [&](const unsigned int node) { return water[node][velocity + c] - soil[node][velocity + c]; },
+                slip_rows[c]);
+          }
+        gather<dim, n>(
+            nodes, [&](const unsigned int node) { return pores[node][PoreField<dim>::grain_fraction]; }, grain_rows);
+
+        const double scale = cell_volume * std::min(cell.fill, 1.);
+        std::array<double, n_corners> integrals{};
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const CellBasis<dim, n> basis(points[q], open);
+            const RowFactors<dim, n> rows(basis);
+            const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
+            const auto value = [&](const NodeRow(&field)[n_rows]) {
+              return sum(contract(rows.value, field) * value_x);
+            };
+            const auto slope = [&](const NodeRow(&field)[n_rows], const unsigned int a) {
+              return inverse_width * (a == 0 ? sum(contract(rows.value, field) * derivative_x)
+                                             : sum(contract(rows.derivative[a - 1], field) * value_x));
+            };
+            const double porosity = 1. - value(grain_rows);
+            if (form == Divergence::expanded)
+              {
+                // div v_s + n div(v_w - v_s) + grad n . (v_w - v_s)
+                double divergence = 0;
+                for (unsigned int c = 0; c < dim; ++c)
+                  divergence += slope(soil_rows[c], c) + porosity * slope(slip_rows[c], c) -
+                                slope(grain_rows, c) * value(slip_rows[c]);
+                const double weighted = -scale * weights[q] * divergence;
+                for (unsigned int v = 0; v < n_corners; ++v)
+                  integrals[v] += weighted * hats[q][v];
+              }
+            else
+              {
+                Tensor<1, dim> flux;
+                for (unsigned int c = 0; c < dim; ++c)
+                  flux[c] = value(soil_rows[c]) + porosity * value(slip_rows[c]);
+                const double weight = scale * weights[q] * inverse_width;
+                for (unsigned int v = 0; v < n_corners; ++v)
+                  integrals[v] += weight * (flux * hat_gradients[q][v]);
+              }
+          }
+        for (unsigned int v = 0; v < n_corners; ++v)
+          sums.local_element(corners.nodes(cell.cell)[v]) += integrals[v];
+      }
+  }
+
+
+  template <int dim>
+  void MixtureDivergence<dim>::integrate(const Mixture<dim> &mixture,
+                                         const NodalField<dim> &soil,
+                                         const NodalField<dim> &water,
+                                         const PoreField<dim> &pores,
+                                         CornerVector &sums)
+  {
+    sums = 0.;
+    if (grid.n_nodes_1d() == 2)
+      integrate_cells<2>(mixture, soil, water, pores, sums);
+    else
+      integrate_cells<3>(mixture, soil, water, pores, sums);
+    sums.compress(VectorOperation::add);
+  }
+
+  template class MixtureDivergence<2>;
+  template class MixtureDivergence<3>;
+} // namespace scree

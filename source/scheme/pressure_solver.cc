@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/pressure_solver.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  PressureSolver<dim>::PressureSolver(const BackgroundGrid<dim> &grid,
+                                      const NodeNumbering<dim> &corners,
+                                      const PressureParameters &parameters)
+      : grid(grid)
+      , corners(corners)
+      , relative_tolerance(parameters.relative_tolerance)
+      , maximum_iterations(parameters.maximum_iterations)
+  {
+    // Hat functions on the unit cell: one-dimensional mass and stiffness, multiplied.
+    for (unsigned int v = 0; v < n_corners; ++v)
+      for (unsigned int w = 0; w < n_corners; ++w)
+        {
+          double sum = 0, mass = 1;
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              double product = 1;
+              for (unsigned int b = 0; b < dim; ++b)
+                {
+                  const bool same = ((v ^ w) >> b & 1) == 0;
+                  product *= b == a ? (same ? 1. : -1.) : (same ? 1. / 3. : 1. / 6.);
+                }
+              sum += product;
+              mass *= ((v ^ w) >> a & 1) == 0 ? 1. / 3. : 1. / 6.;
+            }
+          laplacian[v][w]   = sum;
+          fluctuation[v][w] = mass - 1. / (n_corners * n_corners);
+        }
+    reinit();
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::reinit()
+  {
+    const auto &nodes = *corners.partitioner();
+    number_of_corner.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), numbers::invalid_unsigned_int);
+    partitioner.reset();
+    preconditioner.reset();
+    is_worn = true;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::number(const Mixture<dim> &mixture)
+  {
+    const auto all_corners = [&](const unsigned int cell, const auto &condition) {
+      return std::all_of(corners.nodes(cell), corners.nodes(cell) + n_corners, condition);
+    };
+    bool serves = partitioner != nullptr;
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      serves = serves && (cell.water_volume == 0 || all_corners(cell.cell, [&](const unsigned int corner) {
+                            return number_of_corner[corner] != numbers::invalid_unsigned_int;
+                          }));
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    if (Utilities::MPI::min(int(serves), communicator) == 1)
+      return;
+
+    // The corners of wet cells, and those of all cells that share one of them.
+    CornerVector marks(corners.partitioner());
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0)
+        for (unsigned int v = 0; v < n_corners; ++v)
+          marks.local_element(corners.nodes(cell.cell)[v]) = 1.;
+    marks.compress(VectorOperation::add);
+    marks.update_ghost_values();
+    std::vector<unsigned int> margin;
+    for (const auto &cell : grid.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && !all_corners(cell->active_cell_index(), [&](const unsigned int corner) {
+            return marks.local_element(corner) == 0.;
+          }))
+        margin.push_back(cell->active_cell_index());
+    marks.zero_out_ghost_values();
+    for (const unsigned int cell : margin)
+      for (unsigned int v = 0; v < n_corners; ++v)
+        marks.local_element(corners.nodes(cell)[v]) += 1.;
+    marks.compress(VectorOperation::add);
+
+    const unsigned int n_owned =
+        std::count_if(marks.begin(), marks.begin() + corners.n_owned(), [](const double mark) { return mark > 0.; });
+    const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
+        communicator, n_owned)[Utilities::MPI::this_mpi_process(communicator)];
+    auto next = owned.begin();
+    for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
+      marks.local_element(corner) = marks.local_element(corner) > 0. ? double(*next++) : -1.;
+    marks.update_ghost_values();
+
+    IndexSet ghosts(owned.size());
+    for (const unsigned int cell : margin)
+      for (unsigned int v = 0; v < n_corners; ++v)
+        if (const unsigned int corner = corners.nodes(cell)[v]; corner >= corners.n_owned())
+          ghosts.add_index(static_cast<types::global_dof_index>(marks.local_element(corner)));
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, communicator);
+
+    std::fill(number_of_corner.begin(), number_of_corner.end(), numbers::invalid_unsigned_int);
+    corner_of_number.assign(n_owned + ghosts.n_elements(), numbers::invalid_unsigned_int);
+    const auto take = [&](const unsigned int corner) {
+      number_of_corner[corner] =
+          partitioner->global_to_local(static_cast<types::global_dof_index>(marks.local_element(corner)));
+      corner_of_number[number_of_corner[corner]] = corner;
+    };
+    for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
+      if (marks.local_element(corner) >= 0.)
+        take(corner);
+    for (const unsigned int cell : margin)
+      for (unsigned int v = 0; v < n_corners; ++v)
+        take(corners.nodes(cell)[v]);
+
+    for (CornerVector *vector : { &source, &solution, &scratch })
+      vector->reinit(partitioner);
+    is_worn = true;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::assemble(const Mixture<dim> &mixture,
+                                     const FreeSurfaceLocator<dim> &surface,
+                                     const double time_step,
+                                     const std::function<double(unsigned int corner)> &storage,
+                                     const double projection)
+  {
+    number(mixture);
+    is_unknown.assign(corner_of_number.size(), false);
+    diagonal.assign(partitioner->locally_owned_size(), 0.);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      if (surface.kind(corner_of_number[i]) == CornerKind::unknown)
+        {
+          is_unknown[i] = true;
+          diagonal[i]   = storage(corner_of_number[i]);
+        }
+
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    const double scale       = time_step * cell_volume / (grid.cell_size() * grid.cell_size());
+    scratch                  = 0.;
+    cells.clear();
+    for (const MixtureCell<dim> &mixed : mixture.cells())
+      if (mixed.water_volume > 0)
+        {
+          cells.emplace_back();
+          Cell &cell              = cells.back();
+          cell.mobility           = scale * mixed.mobility;
+          cell.projection         = projection * cell_volume * std::min(mixed.fill, 1.);
+          const CellMatrix own    = matrix(cell);
+          const unsigned int *all = corners.nodes(mixed.cell);
+          for (unsigned int v = 0; v < n_corners; ++v)
+            {
+              cell.numbers[v] = number_of_corner[all[v]];
+              if (surface.kind(all[v]) != CornerKind::unknown)
+                continue;
+              is_unknown[cell.numbers[v]] = true;
+              // A corner beside the surface follows the unknown one; this keeps the matrix symmetric.
+              for (unsigned int w = 0; w < n_corners; ++w)
+                if (surface.kind(all[w]) == CornerKind::surface)
+                  scratch.local_element(cell.numbers[v]) += own[v][w] * surface.ratio(all[w], all[v]);
+            }
+        }
+    scratch.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      diagonal[i] += scratch.local_element(i);
+  }
+
+
+  template <int dim>
+  typename PressureSolver<dim>::CellMatrix PressureSolver<dim>::matrix(const Cell &cell) const
+  {
+    CellMatrix own;
+    for (unsigned int v = 0; v < n_corners; ++v)
+      for (unsigned int w = 0; w < n_corners; ++w)
+        own[v][w] = cell.mobility * laplacian[v][w] + cell.projection * fluctuation[v][w];
+    return own;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::Operator::vmult(CornerVector &target, const CornerVector &source) const
+  {
+    target = 0.;
+    source.update_ghost_values();
+    for (const Cell &cell : solver.cells)
+      {
+        std::array<double, n_corners> values;
+        for (unsigned int v = 0; v < n_corners; ++v)
+          values[v] = solver.is_unknown[cell.numbers[v]] ? source.local_element(cell.numbers[v]) : 0.;
+        for (unsigned int v = 0; v < n_corners; ++v)
+          if (solver.is_unknown[cell.numbers[v]])
+            {
+              double flux = 0, fluctuation = 0;
+              for (unsigned int w = 0; w < n_corners; ++w)
+                flux += solver.laplacian[v][w] * values[w];
+              if (cell.projection > 0)
+                for (unsigned int w = 0; w < n_corners; ++w)
+                  fluctuation += solver.fluctuation[v][w] * values[w];
+              target.local_element(cell.numbers[v]) += cell.mobility * flux + cell.projection * fluctuation;
+            }
+      }
+    target.compress(VectorOperation::add);
+    source.zero_out_ghost_values();
+    for (unsigned int i = 0; i < solver.diagonal.size(); ++i)
+      target.local_element(i) += (solver.is_unknown[i] ? solver.diagonal[i] : 1.) * source.local_element(i);
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::make_preconditioner()
+  {
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const IndexSet owned        = partitioner->locally_owned_range();
+    TrilinosWrappers::SparsityPattern pattern(owned, communicator, Utilities::pow(3, dim));
+    for (const auto i : owned)
+      pattern.add(i, i);
+    std::array<types::global_dof_index, n_corners> global;
+    const auto globalise = [&](const Cell &cell) {
+      for (unsigned int v = 0; v < n_corners; ++v)
+        global[v] = partitioner->local_to_global(cell.numbers[v]);
+    };
+    for (const Cell &cell : cells)
+      {
+        globalise(cell);
+        for (unsigned int v = 0; v < n_corners; ++v)
+          pattern.add_entries(global[v], global.begin(), global.end());
+      }
+    pattern.compress();
+
+    TrilinosWrappers::SparseMatrix matrix_of_cells;
+    matrix_of_cells.reinit(pattern);
+    for (const Cell &cell : cells)
+      {
+        globalise(cell);
+        const CellMatrix own = matrix(cell);
+        for (unsigned int v = 0; v < n_corners; ++v)
+          for (unsigned int w = 0; w < n_corners; ++w)
+            if (is_unknown[cell.numbers[v]] && is_unknown[cell.numbers[w]])
+              matrix_of_cells.add(global[v], global[w], own[v][w]);
+      }
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      {
+        const auto row = partitioner->local_to_global(i);
+        matrix_of_cells.add(row, row, is_unknown[i] ? diagonal[i] : 1.);
+      }
+    matrix_of_cells.compress(VectorOperation::add);
+
+    TrilinosWrappers::PreconditionAMG::AdditionalData data;
+    data.elliptic  = true;
+    preconditioner = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    preconditioner->initialize(matrix_of_cells, data);
+  }
+
+
+  template <int dim>
+  SolveReport PressureSolver<dim>::solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change)
+  {
+    const auto take = [&](const CornerVector &from, CornerVector &to) {
+      to = 0.;
+      for (unsigned int i = 0; i < diagonal.size(); ++i)
+        if (is_unknown[i])
+          to.local_element(i) = from.local_element(corner_of_number[i]);
+    };
+    const Operator system{ *this };
+    take(pressure, solution);
+    system.vmult(scratch, solution);
+    const double rounding = 1e-12 * scratch.l2_norm();
+    take(rhs, source);
+    take(change, solution);
+
+    SolveReport report;
+    if (is_worn)
+      {
+        make_preconditioner();
+        report.made_preconditioner = true;
+      }
+    SolverControl control(maximum_iterations, std::max(rounding, relative_tolerance * source.l2_norm()));
+    if (control.tolerance() > 0.) // else nothing flows
+      try
+        {
+          SolverCG<CornerVector>(control).solve(system, solution, source, *preconditioner);
+        }
+      catch (const SolverControl::NoConvergence &failure)
+        {
+          AssertThrow(false,
+                      ExcMessage("The pressure solver did not converge: after " + std::to_string(failure.last_step) +
+                                 " iterations the residual is " +
+                                 std::to_string(failure.last_residual / control.tolerance()) +
+                                 " times the wanted one. Remedies: a smaller 'Courant number' in subsection Time step, "
+                                 "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection "
+                                 "Water/Pressure."));
+        }
+    report.n_iterations = control.tolerance() > 0. ? control.last_step() : 0;
+    if (is_worn)
+      iterations_when_new = report.n_iterations;
+    is_worn = report.n_iterations > iterations_when_new + std::max(3u, iterations_when_new / 2);
+
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      change.local_element(corner_of_number[i]) = is_unknown[i] ? solution.local_element(i) : 0.;
+    return report;
+  }
+
+  template class PressureSolver<2>;
+  template class PressureSolver<3>;
+} // namespace scree

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/semi_implicit_scheme.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  double SemiImplicitScheme<dim>::to_points(WaterPhase<dim> &water, const double time_step)
+  {
+    return transfer.to_points(
+        water, water_nodes, [this](const unsigned int cell) { return corner_pressure(cell); }, time_step);
+  }
+
+
+  namespace
+  {
+    /// The value of nodal components from `first` on at a place of a cell.
+    template <int dim, int n>
+    Tensor<1, dim> interpolate(const Point<dim> &x,
+                               const OpenKnots open,
+                               const unsigned int *nodes,
+                               const NodeValues<dim, 2 * dim> &values,
+                               const unsigned int first)
+    {
+      const CellBasis<dim, n> basis(x, open);
+      Tensor<1, dim> result;
+      for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
+        {
+          double shape = 1.;
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+            shape *= basis.value[a][rest % n];
+          for (unsigned int c = 0; c < dim; ++c)
+            result[c] += shape * values[nodes[i]][first + c];
+        }
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::correct_volume(WaterPhase<dim> &water, const double time_step)
+  {
+    if (volume_correction == 0. || water.carrier() != nullptr)
+      return;
+    // A flow that takes a part of the surplus out of each corner: L chi = beta (F - 1) integral psi / dt.
+    source = 0.;
+    for (const unsigned int corner : surface.wet_corners())
+      if (surface.kind(corner) == CornerKind::unknown && surface.is_free_water(corner))
+        source.local_element(corner) =
+            volume_correction * (surface.fill(corner) - 1.) * surface.hat_volume(corner) / time_step;
+    solver.solve(source, pressure, crowding);
+    crowding.update_ghost_values();
+    surface.extrapolate(mixture, crowding);
+
+    correction.clear();
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      if (const MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
+        {
+          correction.activate_cell(cell.cell);
+          mixture.add_pressure_gradient(record,
+                                        multilinear_of<dim>(at_corners(crowding, cell.cell)),
+                                        -time_step * time_step,
+                                        correction,
+                                        0,
+                                        correction,
+                                        dim);
+        }
+    correction.add_contributions();
+    const double most = 0.1 * grid.cell_size();
+    for (const unsigned int node : correction.active_nodes())
+      {
+        const double mass  = water_nodes[node][NodalField<dim>::mass];
+        const bool in_soil = pores[node][PoreField<dim>::grain_fraction] > 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            double &shift = correction[node][dim + c];
+            const bool fixed =
+                grid.node_faces(node) != 0 && (water_walls.fixed_components(grid.node_faces(node)) >> c) & 1;
+            shift = mass > 0. && !in_soil && !fixed ? std::clamp(shift / mass, -most, most) : 0.;
+          }
+      }
+    correction.update_ghosts();
+
+    for (const CellPoints<dim> &cell : water.points().cells())
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        {
+          const unsigned int *nodes = grid.nodes(cell.cell);
+          const OpenKnots open      = grid.open_knots(cell.cell);
+          const Point<dim> &x       = cell.reference_location[p];
+          cell.location[p] += grid.n_nodes_1d() == 2 ? interpolate<dim, 2>(x, open, nodes, correction, dim)
+                                                     : interpolate<dim, 3>(x, open, nodes, correction, dim);
+        }
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::fluidise(Phase<dim> &soil) const
+  {
+    if (fluidisation_porosity >= 1.)
+      return;
+    const auto &layout = soil.layout;
+    std::vector<double> scratch(layout.n_properties); // a state without stress must not reset the internal variables
+    const double no_stress[n_symmetric_components<dim>] = {};
+    for (const CellPoints<dim> &cell : soil.points.cells())
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        {
+          double *properties    = cell.properties + p * soil.points.stride();
+          const double porosity = 1. - properties[layout.mass] / (soil.grain_density * properties[layout.volume]);
+          if (porosity > fluidisation_porosity)
+            soil.material->initialise(no_stress,
+                                      properties + layout.left_cauchy_green,
+                                      properties + layout.stress,
+                                      scratch.data());
+        }
+  }
+
+  template double SemiImplicitScheme<2>::to_points(WaterPhase<2> &, const double);
+  template double SemiImplicitScheme<3>::to_points(WaterPhase<3> &, const double);
+  template void SemiImplicitScheme<2>::correct_volume(WaterPhase<2> &, const double);
+  template void SemiImplicitScheme<3>::correct_volume(WaterPhase<3> &, const double);
+  template void SemiImplicitScheme<2>::fluidise(Phase<2> &) const;
+  template void SemiImplicitScheme<3>::fluidise(Phase<3> &) const;
+} // namespace scree

@@ -1,0 +1,472 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/semi_implicit_scheme.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  SemiImplicitScheme<dim>::SemiImplicitScheme(const BackgroundGrid<dim> &grid,
+                                              const BoundaryConditions<dim> &walls,
+                                              const WaterBoundaryConditions<dim> &water_walls,
+                                              const Forcing<dim> &forcing,
+                                              const TransferParameters &transfer_parameters,
+                                              const WaterParameters &water,
+                                              const PressureParameters &parameters)
+      : grid(grid)
+      , walls(walls)
+      , water_walls(water_walls)
+      , forcing(forcing)
+      , rubs(std::any_of(walls.walls().begin(),
+                         walls.walls().end(),
+                         [](const Wall &wall) { return wall.type == WallType::friction; }))
+      , splitting(parameters.splitting_kind())
+      , previous_pressure(parameters.previous_pressure_kind())
+      , projection(parameters.projection)
+      , water_density(water.density)
+      , bulk_modulus(water.bulk_modulus)
+      , volume_correction(water.volume_correction)
+      , fluidisation_porosity(water.fluidisation_porosity)
+      , corners(numbered(grid))
+      , transfer(grid, transfer_parameters, water, previous_pressure == PreviousPressure::average ? 0. : 1.)
+      , mixture(grid)
+      , pores(grid)
+      , water_nodes(grid)
+      , correction(grid.numbering())
+      , surface(grid, corners, water_walls, parameters.free_surface_kind())
+      , divergence(grid, corners, parameters.divergence_kind())
+      , solver(grid, corners, parameters)
+  {
+    reinit_vectors();
+  }
+
+
+  template <int dim>
+  NodeNumbering<dim> SemiImplicitScheme<dim>::numbered(const BackgroundGrid<dim> &grid)
+  {
+    NodeNumbering<dim> hats(Basis::linear);
+    hats.distribute(grid.triangulation(), grid.cell_size());
+    return hats;
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::reinit()
+  {
+    corners.distribute(grid.triangulation(), grid.cell_size());
+    mixture.reinit();
+    pores.reinit();
+    water_nodes.reinit();
+    correction.reinit();
+    surface.reinit();
+    solver.reinit();
+    reinit_vectors();
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::reinit_vectors()
+  {
+    for (CornerVector *vector : { &pressure, &kept_pressure, &change, &source, &crowding })
+      vector->reinit(corners.partitioner());
+    contacts.assign(rubs ? grid.n_owned_nodes() : 0, 0);
+    reactions.assign(contacts.size(), Tensor<1, dim>());
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::gather(const std::list<Phase<dim>> &soil, const std::list<WaterPhase<dim>> &water)
+  {
+    mixture.clear();
+    pores.clear();
+    water_nodes.clear();
+    for (const auto &body : soil)
+      transfer.soil_to_grid(body, mixture, pores);
+    for (const auto &part : water)
+      transfer.to_grid(part, mixture, water_nodes);
+    mixture.finish();
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::complete_pores()
+  {
+    correction.clear();
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      {
+        const MixtureCell<dim> &cell = mixture.cells()[record];
+        // All fields are active where any is: an absent phase takes the other's velocity.
+        pores.activate_cell(cell.cell);
+        water_nodes.activate_cell(cell.cell);
+        correction.activate_cell(cell.cell);
+        if (cell.saturation == 0 || cell.grain_volume == 0)
+          continue;
+        const unsigned int *nodes = grid.nodes(cell.cell);
+        const unsigned int n      = grid.n_nodes_1d();
+        const NodeRow *moments    = mixture.grain_moments(record);
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          pores[nodes[i]][PoreField<dim>::grain_volume] +=
+              cell.saturation * moments[(i / n) * Mixture<dim>::n_moments][i % n];
+      }
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::find_pressure()
+  {
+    if (previous_pressure == PreviousPressure::grid)
+      kept_pressure.swap(pressure);
+    surface.locate(mixture, pressure);
+    if (previous_pressure == PreviousPressure::grid || previous_pressure == PreviousPressure::dropped)
+      for (const unsigned int corner : surface.wet_corners())
+        if (surface.kind(corner) == CornerKind::unknown)
+          pressure.local_element(corner) =
+              previous_pressure == PreviousPressure::grid ? kept_pressure.local_element(corner) : 0.;
+    pressure.update_ghost_values();
+    surface.extrapolate(mixture, pressure);
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::read_pressure(const std::list<Phase<dim>> &soil,
+                                              const std::list<WaterPhase<dim>> &water)
+  {
+    gather(soil, water);
+    complete_pores();
+    find_pressure();
+  }
+
+
+  template <int dim>
+  std::array<double, (1 << dim)> SemiImplicitScheme<dim>::at_corners(const CornerVector &values,
+                                                                     const unsigned int cell) const
+  {
+    std::array<double, (1 << dim)> result;
+    for (unsigned int v = 0; v < result.size(); ++v)
+      result[v] = values.local_element(corners.nodes(cell)[v]);
+    return result;
+  }
+
+
+  template <int dim>
+  std::array<double, (1 << dim)> SemiImplicitScheme<dim>::corner_pressure(const unsigned int cell) const
+  {
+    return at_corners(pressure, cell);
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::add_pressure_forces(NodalField<dim> &soil)
+  {
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      if (mixture.cells()[record].water_volume > 0)
+        mixture.add_pressure_gradient(record,
+                                      multilinear_of<dim>(corner_pressure(mixture.cells()[record].cell)),
+                                      -1.,
+                                      soil,
+                                      NodalField<dim>::force,
+                                      water_nodes,
+                                      NodalField<dim>::force);
+  }
+
+
+  template <int dim>
+  DragPair<dim> SemiImplicitScheme<dim>::pair_at(const unsigned int node, const NodalField<dim> &soil) const
+  {
+    DragPair<dim> pair;
+    pair.soil_mass  = soil[node][NodalField<dim>::mass];
+    pair.water_mass = water_nodes[node][NodalField<dim>::mass];
+    pair.drag       = pores[node][PoreField<dim>::drag];
+    pair.fixed_soil = pair.fixed_water = 0;
+    if (forcing.is_held(node))
+      pair.fixed_soil = pair.fixed_water = (1 << dim) - 1;
+    else if (const auto faces = grid.node_faces(node); faces != 0)
+      {
+        pair.fixed_soil  = walls.fixed_components(faces) | (contacts.empty() ? 0 : contacts[node]);
+        pair.fixed_water = water_walls.fixed_components(faces);
+      }
+    return pair;
+  }
+
+
+  template <int dim>
+  StepBalance<dim> SemiImplicitScheme<dim>::predict(NodalField<dim> &soil, const double time_step)
+  {
+    StepBalance<dim> balance;
+    const double decay = forcing.decay(time_step);
+    std::fill(contacts.begin(), contacts.end(), 0);
+    for (const unsigned int node : pores.active_nodes())
+      {
+        double *pore    = pores[node];
+        double *of_soil = soil[node], *of_water = water_nodes[node];
+        const double soil_mass  = of_soil[NodalField<dim>::mass];
+        const double water_mass = of_water[NodalField<dim>::mass];
+        if (soil_mass <= 0. && water_mass <= 0.)
+          continue; // Another rank sees this node, but no point acts on it.
+
+        // Where water does not fill the pores, it drags less.
+        const double water_volume = water_mass / water_density;
+        const double pore_volume  = pore[PoreField<dim>::pore_volume];
+        pore[PoreField<dim>::drag] *=
+            soil_mass <= 0. || water_mass <= 0. ? 0. : time_step * std::min(1., water_volume / pore_volume);
+        const double grains                  = pore[PoreField<dim>::grain_volume];
+        pore[PoreField<dim>::grain_fraction] = grains > 0. ? grains / (grains + water_volume) : 0.;
+
+        const Tensor<1, dim> push = forcing.acceleration(node);
+        Tensor<1, dim> soil_impulse, water_impulse, soil_before, water_before;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double soil_momentum  = of_soil[NodalField<dim>::momentum + c];
+            const double water_momentum = of_water[NodalField<dim>::momentum + c];
+            // Stress adds up to nothing.
+            balance.pressure_impulse[c] +=
+                time_step * (of_soil[NodalField<dim>::force + c] + of_water[NodalField<dim>::force + c]);
+            soil_before[c]  = soil_mass > 0. ? soil_momentum / soil_mass : 0.;
+            water_before[c] = water_mass > 0. ? water_momentum / water_mass : 0.;
+            soil_impulse[c] = soil_momentum + time_step * (of_soil[NodalField<dim>::force + c] + soil_mass * push[c]);
+            water_impulse[c] =
+                water_momentum + time_step * (of_water[NodalField<dim>::force + c] + water_mass * push[c]);
+          }
+        balance.body_impulse += (soil_mass + water_mass) * time_step * push;
+        if (forcing.is_damped())
+          {
+            balance.wall_impulse -= (1. - decay) * (soil_impulse + water_impulse);
+            soil_impulse *= decay;
+            water_impulse *= decay;
+          }
+
+        DragPair<dim> pair = pair_at(node, soil);
+        Tensor<1, dim> soil_after, water_after;
+        pair.solve(soil_impulse, water_impulse, soil_after, water_after);
+        if (!contacts.empty() && walls.has_friction(grid.node_faces(node)) && soil_mass > 0.)
+          {
+            // A friction wall stops the soil that moves into it; it slips along the wall until the step's end.
+            contacts[node] = contact_components(soil_after, grid.node_faces(node));
+            pair           = pair_at(node, soil);
+            pair.solve(soil_impulse, water_impulse, soil_after, water_after);
+          }
+        if (pair.fixed_soil != 0 || pair.fixed_water != 0)
+          {
+            const Tensor<1, dim> soil_wall  = pair.soil_reaction(soil_impulse, water_after);
+            const Tensor<1, dim> water_wall = pair.water_reaction(water_impulse, soil_after);
+            balance.wall_impulse += soil_wall + water_wall;
+            // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
+            balance.wall_dissipation -=
+                0.5 * (soil_wall * (soil_before + soil_after) + water_wall * (water_before + water_after));
+            if (!contacts.empty())
+              reactions[node] = soil_wall;
+          }
+        if (soil_mass <= 0.)
+          soil_after = soil_before = water_after;
+        if (water_mass <= 0.)
+          water_after = water_before = soil_after;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            of_soil[NodalField<dim>::velocity + c]         = soil_after[c];
+            of_soil[NodalField<dim>::velocity_change + c]  = soil_after[c] - soil_before[c];
+            of_water[NodalField<dim>::velocity + c]        = water_after[c];
+            of_water[NodalField<dim>::velocity_change + c] = water_after[c] - water_before[c];
+          }
+      }
+    return balance;
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::set_mobilities(const double time_step)
+  {
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    for (MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0)
+        {
+          const double V_s = cell.saturation * cell.grain_volume, V_w = cell.water_volume;
+          const double a = cell.soil_mass, b = cell.water_mass;
+          double mobility = V_w * V_w / b;
+          if (a > 0.)
+            {
+              const double C = splitting == Splitting::classical ? 0. : cell.saturation * cell.drag * time_step;
+              mobility       = (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));
+            }
+          cell.mobility = mobility / (cell_volume * std::min(cell.fill, 1.));
+        }
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::solve_pressure(NodalField<dim> &soil,
+                                               const double time_step,
+                                               const double shear_modulus,
+                                               TimerOutput &timer,
+                                               StepBalance<dim> &balance)
+  {
+    {
+      TimerOutput::Scope part(timer, "pressure: system");
+      divergence.integrate(mixture, soil, water_nodes, pores, source);
+      set_mobilities(time_step);
+      const double storage = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
+      const double tau     = projection > 0 && shear_modulus > 0 ? projection / (2. * shear_modulus * time_step) : 0.;
+      solver.assemble(
+          mixture,
+          surface,
+          time_step,
+          [&](const unsigned int corner) { return storage * surface.water_volume(corner); },
+          tau);
+    }
+    TimerOutput::Scope part(timer, "pressure: solve");
+    const SolveReport report = solver.solve(source, pressure, change);
+    if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) == 0)
+      {
+        balance.n_solves += 1;
+        balance.n_iterations += report.n_iterations;
+        balance.n_preconditioners += report.made_preconditioner;
+      }
+    change.update_ghost_values();
+    surface.extrapolate(mixture, change);
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::correct(NodalField<dim> &soil, const double time_step, StepBalance<dim> &balance)
+  {
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      {
+        const MixtureCell<dim> &cell = mixture.cells()[record];
+        if (cell.water_volume > 0)
+          mixture.add_pressure_gradient(
+              record, multilinear_of<dim>(at_corners(change, cell.cell)), -time_step, correction, 0, correction, dim);
+      }
+    correction.add_contributions();
+
+    for (const unsigned int node : pores.active_nodes())
+      {
+        double *of_soil = soil[node], *of_water = water_nodes[node];
+        const DragPair<dim> pair = pair_at(node, soil);
+        if (pair.soil_mass <= 0. && pair.water_mass <= 0.)
+          continue;
+        Tensor<1, dim> soil_impulse(make_array_view(correction[node], correction[node] + dim));
+        Tensor<1, dim> water_impulse(make_array_view(correction[node] + dim, correction[node] + 2 * dim));
+        balance.pressure_impulse += soil_impulse + water_impulse;
+        DragPair<dim> free_of_drag = pair;
+        if (splitting == Splitting::classical)
+          free_of_drag.drag = 0.;
+        Tensor<1, dim> soil_change, water_change;
+        free_of_drag.solve(soil_impulse, water_impulse, soil_change, water_change);
+
+        Tensor<1, dim> soil_before, water_before;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            soil_before[c]  = of_soil[NodalField<dim>::velocity + c] - of_soil[NodalField<dim>::velocity_change + c];
+            water_before[c] = of_water[NodalField<dim>::velocity + c] - of_water[NodalField<dim>::velocity_change + c];
+          }
+        if (pair.fixed_soil != 0 || pair.fixed_water != 0)
+          {
+            const Tensor<1, dim> soil_wall  = free_of_drag.soil_reaction(soil_impulse, water_change);
+            const Tensor<1, dim> water_wall = free_of_drag.water_reaction(water_impulse, soil_change);
+            balance.wall_impulse += soil_wall + water_wall;
+            // Before the correction the nodes were at rest there, so that only the start's velocity counts.
+            balance.wall_dissipation -= 0.5 * (soil_wall * soil_before + water_wall * water_before);
+            if (!contacts.empty() && contacts[node] != 0)
+              rub(node, soil, reactions[node] + soil_wall, soil_change, balance);
+          }
+        if (pair.soil_mass <= 0.)
+          soil_change = water_change;
+        if (pair.water_mass <= 0.)
+          water_change = soil_change;
+        Tensor<1, dim> slip;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            of_soil[NodalField<dim>::velocity + c] += soil_change[c];
+            of_soil[NodalField<dim>::velocity_change + c] += soil_change[c];
+            of_water[NodalField<dim>::velocity + c] += water_change[c];
+            of_water[NodalField<dim>::velocity_change + c] += water_change[c];
+            slip[c] = of_water[NodalField<dim>::velocity + c] - of_soil[NodalField<dim>::velocity + c];
+          }
+        balance.drag_dissipation += pair.drag * slip.norm_square();
+      }
+    for (const unsigned int corner : surface.wet_corners())
+      if (surface.kind(corner) != CornerKind::dry)
+        pressure.local_element(corner) += change.local_element(corner);
+    pressure.update_ghost_values();
+  }
+
+
+  template <int dim>
+  std::uint8_t SemiImplicitScheme<dim>::contact_components(const Tensor<1, dim> &velocity,
+                                                           const std::uint8_t faces) const
+  {
+    std::uint8_t components   = 0;
+    const std::uint8_t rubbed = walls.friction_faces(faces);
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if (((rubbed >> f) & 1) && (f % 2 == 0 ? 1. : -1.) * velocity[f / 2] < 0.)
+        components |= 1 << (f / 2);
+    return components;
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::rub(const unsigned int node,
+                                    const NodalField<dim> &soil,
+                                    const Tensor<1, dim> &reaction,
+                                    Tensor<1, dim> &soil_change,
+                                    StepBalance<dim> &balance) const
+  {
+    const std::uint8_t rubbed = walls.friction_faces(grid.node_faces(node));
+    double bound              = 0; // Coulomb's, of the tangential impulse, N s
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if ((rubbed >> f) & 1)
+        bound += walls.walls()[f].friction_coefficient * std::max(0., (f % 2 == 0 ? 1. : -1.) * reaction[f / 2]);
+
+    const double *values = soil[node];
+    const double mass    = values[NodalField<dim>::mass];
+    Tensor<1, dim> before, velocity;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        velocity[c] = values[NodalField<dim>::velocity + c] + soil_change[c];
+        before[c]   = values[NodalField<dim>::velocity + c] - values[NodalField<dim>::velocity_change + c];
+      }
+    const double speed = velocity.norm();
+    if (speed == 0. || bound == 0.)
+      return;
+    const Tensor<1, dim> loss = std::min(1., bound / (mass * speed)) * velocity;
+    soil_change -= loss;
+    balance.wall_impulse -= mass * loss;
+    balance.wall_dissipation += 0.5 * mass * loss * (before + velocity - loss);
+  }
+
+
+  template <int dim>
+  StepBalance<dim> SemiImplicitScheme<dim>::solve(NodalField<dim> &soil,
+                                                  const double time_step,
+                                                  const double shear_modulus,
+                                                  TimerOutput &timer)
+  {
+    StepBalance<dim> balance;
+    {
+      TimerOutput::Scope part(timer, "nodes");
+      for (const MixtureCell<dim> &cell : mixture.cells())
+        soil.activate_cell(cell.cell);
+      complete_pores();
+      find_pressure();
+      add_pressure_forces(soil);
+      soil.add_contributions();
+      water_nodes.add_contributions();
+      pores.add_contributions();
+      balance = predict(soil, time_step);
+      soil.update_ghosts();
+      water_nodes.update_ghosts();
+      pores.update_ghosts();
+    }
+    solve_pressure(soil, time_step, shear_modulus, timer, balance);
+    TimerOutput::Scope part(timer, "nodes");
+    correct(soil, time_step, balance);
+    soil.update_ghosts();
+    water_nodes.update_ghosts();
+    return balance;
+  }
+
+
+  template class SemiImplicitScheme<2>;
+  template class SemiImplicitScheme<3>;
+} // namespace scree

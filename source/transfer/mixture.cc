@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/transfer/mixture.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  Mixture<dim>::Mixture(const BackgroundGrid<dim> &grid)
+      : grid(grid)
+      , moments_per_cell(Utilities::pow(grid.n_nodes_1d(), dim - 1) * n_moments)
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::reinit()
+  {
+    records.clear();
+    record_of_cell.assign(grid.triangulation().n_active_cells(), numbers::invalid_unsigned_int);
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::clear()
+  {
+    for (const MixtureCell<dim> &cell : records)
+      record_of_cell[cell.cell] = numbers::invalid_unsigned_int;
+    records.clear();
+    grains.clear();
+    water.clear();
+  }
+
+
+  template <int dim>
+  unsigned int Mixture<dim>::record(const unsigned int cell)
+  {
+    unsigned int &record = record_of_cell[cell];
+    if (record == numbers::invalid_unsigned_int)
+      {
+        record = records.size();
+        records.emplace_back(cell);
+        grains.resize(grains.size() + moments_per_cell, NodeRow{});
+        water.resize(water.size() + moments_per_cell, NodeRow{});
+      }
+    return record;
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::finish()
+  {
+    const double volume = Utilities::fixed_power<dim>(grid.cell_size());
+    for (MixtureCell<dim> &cell : records)
+      {
+        cell.saturation = cell.water_volume < cell.pore_volume ? cell.water_volume / cell.pore_volume
+                                                               : (cell.water_volume > 0 ? 1. : 0.);
+        cell.fill       = (cell.water_volume + cell.saturation * cell.grain_volume) / volume;
+      }
+  }
+
+  template class Mixture<2>;
+  template class Mixture<3>;
+} // namespace scree
