@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/parameters.h>
+#include <scree/points/water_seeding.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -28,11 +29,15 @@ namespace scree
   }
 
 
+  double BodyParameters::initial_porosity() const
+  {
+    return seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
+  }
+
+
   double BodyParameters::bulk_density() const
   {
-    const double porosity =
-        seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
-    return seeding.grain_density * (1. - porosity);
+    return seeding.grain_density * (1. - initial_porosity());
   }
 
 
@@ -40,6 +45,7 @@ namespace scree
   {
     name_bodies();
     declare(handler);
+    declare_water(handler);
   }
 
 
@@ -49,10 +55,19 @@ namespace scree
     try
       {
         name_bodies();
-        declare(handler);
-        file.check(handler, "scree --print-parameters lists all of them.", [&](const std::string &subsection) {
+        has_water = file.has_subsection("Water");
+        // Suggestions know of water's entries also where a dry run's list of all entries leaves them out: read again,
+        // that list must not make the scene wet.
+        ParameterHandler all;
+        declare(all);
+        declare_water(all);
+        file.check(all, "scree --print-parameters lists all of them.", [&](const std::string &subsection) {
           return unlisted_body(subsection);
         });
+        check_unread();
+        declare(handler);
+        if (has_water)
+          declare_water(handler);
         std::istringstream text(file.text());
         handler.parse_input(text, file_name);
         check();
@@ -71,20 +86,23 @@ namespace scree
   void Parameters::name_bodies()
   {
     // The names of the bodies are names of subsections: the declarations need them.
-    static const std::set<std::string> taken{ "Mesh",       "Time step", "Transfer", "Stabilisation",
-                                              "Boundaries", "Settling",  "Output",   "Water" };
-    const std::string names = file.value("Bodies", "Soil");
+    static const std::set<std::string> taken{ "Mesh",     "Time step", "Transfer", "Stabilisation", "Boundaries",
+                                              "Settling", "Output",    "Water",    "Surface load" };
+    const std::string names = file.value("", "Bodies", "Soil");
+    if (names == "none")
+      return;
     std::set<std::string> seen;
     for (const std::string &name : Utilities::split_string_list(names))
       {
         const bool is_new = seen.insert(name).second;
-        require_entry(!name.empty() && is_new && taken.count(name) == 0,
+        require_entry(!name.empty() && is_new && taken.count(name) == 0 && name != "none",
                       "",
                       "Bodies",
                       names,
-                      (name.empty() ? "a name is missing"
-                       : is_new     ? '"' + name + "\" is the name of another subsection"
-                                    : '"' + name + "\" stands there twice") +
+                      (name.empty()     ? "a name is missing"
+                       : !is_new        ? quoted(name) + " stands there twice"
+                       : name == "none" ? "\"none\" stands for no body at all"
+                                        : quoted(name) + " is the name of another subsection") +
                           ". Write names of your own, separated by commas.");
         bodies.emplace_back();
         bodies.back().name = name;
@@ -96,7 +114,7 @@ namespace scree
   {
     if (!file.sets(subsection, "Region") || subsection.find('/') != std::string::npos)
       return "";
-    return "It is no body either: entry \"Bodies\" lists " + file.value("Bodies", "Soil") + ". Add " +
+    return "It is no body either: entry \"Bodies\" lists " + file.value("", "Bodies", "Soil") + ". Add " +
            quoted(subsection) + " there.";
   }
 
@@ -113,7 +131,7 @@ namespace scree
                       Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Bodies",
                       body_names,
-                      "Names of the bodies of soil, separated by commas; each has a subsection of its name.",
+                      "Names of the bodies of soil, separated by commas; each has a subsection of its name; or none.",
                       Patterns::List(Patterns::Anything(), 1));
     body_force.add_parameters(prm);
     grid.add_parameters(prm);
@@ -123,8 +141,19 @@ namespace scree
     for (auto &body : bodies)
       body.add_parameters(prm);
     boundaries.add_parameters(prm);
+    surface_load.add_parameters(prm);
     settling.add_parameters(prm);
     output.add_parameters(prm);
+  }
+
+
+  void Parameters::declare_water(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Water");
+    water.add_parameters(prm);
+    pressure.add_parameters(prm);
+    prm.leave_subsection();
+    water_boundaries.add_parameters(prm);
   }
 
 
@@ -139,6 +168,7 @@ namespace scree
     require_entry(!output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
     grid.check(dimension);
     boundaries.check(dimension);
+    surface_load.check(grid, dimension);
     body_force.check(dimension);
     settling.check(gravity);
     require_entry(transfer.method != "APIC" || grid.basis == "spline",
@@ -150,6 +180,68 @@ namespace scree
                       "cell faces. Write \"Basis = spline\", or another method.");
     for (const auto &body : bodies)
       body.check(gravity);
+    if (has_water)
+      check_water();
+  }
+
+
+  void Parameters::check_water() const
+  {
+    water.check(gravity, bodies.size());
+    pressure.check(bodies.size());
+    water_boundaries.check(dimension);
+    for (const SoilRegion &body : soil_regions())
+      {
+        if (water.region == "same")
+          require_pores(body);
+        require_entry(body.porosity < water.fluidisation_porosity,
+                      "Water",
+                      "Fluidisation porosity",
+                      water.fluidisation_porosity,
+                      quoted(body.name) + " has a porosity of " + number_text(body.porosity) +
+                          " at the start and would never bear a stress. Write a larger number.");
+      }
+  }
+
+
+  void Parameters::check_unread() const
+  {
+    const auto require_unset = [&](const std::string &subsection, const std::string &entry, const std::string &why) {
+      require_entry(!file.sets(subsection, entry),
+                    subsection,
+                    entry,
+                    file.value(subsection, entry, ""),
+                    "nothing reads it, as " + why);
+    };
+    const std::string no_soil = "there is no soil: entry \"Bodies\" is none. Remove it";
+    if (!has_water)
+      {
+        require_entry(!bodies.empty(),
+                      "",
+                      "Bodies",
+                      "none",
+                      "the scene is empty. Name a body of soil, or add a subsection Water.");
+        for (const auto &face : BoundaryParameters::face_names(3))
+          require_unset("Boundaries/Water", face, "the file has no subsection Water. Add one, or remove the entry.");
+      }
+    if (bodies.empty())
+      {
+        for (const auto &face : BoundaryParameters::face_names(3))
+          require_unset("Boundaries", face, no_soil + ", or move it to subsection Water of subsection Boundaries.");
+        for (const std::string entry : { "Lower corner", "Upper corner", "Traction" })
+          require_unset("Surface load", entry, no_soil + '.');
+        for (const std::string entry : { "Maximum time", "Damping rate", "Kinetic energy", "Gate" })
+          require_unset("Settling", entry, no_soil + '.');
+      }
+  }
+
+
+  std::vector<SoilRegion> Parameters::soil_regions() const
+  {
+    std::vector<SoilRegion> regions;
+    for (const auto &body : bodies)
+      regions.push_back({ body.name, body.seeding.region, body.initial_porosity(), body.bulk_density() });
+    return regions;
   }
 
 

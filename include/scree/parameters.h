@@ -4,12 +4,16 @@
 
 #include <scree/grid/background_grid.h>
 #include <scree/grid/boundary_conditions.h>
+#include <scree/grid/water_walls.h>
 #include <scree/initial/initial_state.h>
 #include <scree/input/input_file.h>
 #include <scree/material/table.h>
 #include <scree/output/output_parameters.h>
 #include <scree/points/seeding.h>
+#include <scree/points/surface_load.h>
+#include <scree/points/water_parameters.h>
 #include <scree/scheme/explicit_scheme.h>
+#include <scree/scheme/pressure_parameters.h>
 #include <scree/scheme/time_step.h>
 #include <scree/transfer/transfer_parameters.h>
 
@@ -28,6 +32,9 @@ namespace scree
 
     /// Throws EntryError at impossible combinations of entries.
     void check(const std::vector<double> &gravity) const;
+
+    /// Volume of pores over total volume, as the entry or the law says.
+    double initial_porosity() const;
 
     /// Density of the dry body, kg/m^3: grains times (1 - porosity).
     double bulk_density() const;
@@ -55,8 +62,17 @@ namespace scree
     BodyForceParameters body_force;
     std::vector<BodyParameters> bodies;
     BoundaryParameters boundaries;
+    SurfaceLoadParameters surface_load;
     SettlingParameters settling;
     OutputParameters output;
+
+    bool has_water = false; ///< whether there is a subsection Water; without it, nothing reads the next three
+    WaterParameters water;
+    PressureParameters pressure;
+    WaterBoundaryParameters water_boundaries;
+
+    /// Where the bodies are, and how porous and heavy.
+    std::vector<SoilRegion> soil_regions() const;
 
     /// The text of the file as it was read.
     const std::string &original() const;
@@ -70,7 +86,10 @@ namespace scree
   private:
     void name_bodies();
     void declare(dealii::ParameterHandler &prm);
+    void declare_water(dealii::ParameterHandler &prm);
     void check() const;
+    void check_water() const;
+    void check_unread() const;
 
     /// The remedy for a subsection that is not declared but looks like that of a body; empty if it does not.
     std::string unlisted_body(const std::string &subsection) const;

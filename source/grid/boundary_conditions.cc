@@ -95,7 +95,7 @@ namespace scree
   template <int dim>
   BoundaryConditions<dim>::BoundaryConditions(const BackgroundGrid<dim> &grid, const BoundaryParameters &parameters)
       : grid(grid)
-      , walls(parameters.walls(dim))
+      , wall_list(parameters.walls(dim))
   {
   }
 
@@ -107,7 +107,7 @@ namespace scree
       if ((faces >> f) & 1)
         {
           const unsigned int axis = f / 2;
-          switch (walls[f].type)
+          switch (wall_list[f].type)
             {
             case WallType::fixed:
               velocity = 0.;
@@ -123,7 +123,7 @@ namespace scree
                 // The wall stops the normal motion; its impulse bounds the tangential one (Coulomb).
                 velocity[axis]     = 0.;
                 const double speed = velocity.norm();
-                const double loss  = -walls[f].friction_coefficient * inward;
+                const double loss  = -wall_list[f].friction_coefficient * inward;
                 velocity *= speed > loss ? 1. - loss / speed : 0.;
                 break;
               }
@@ -135,9 +135,44 @@ namespace scree
 
 
   template <int dim>
+  unsigned int BoundaryConditions<dim>::fixed_components(const std::uint8_t faces) const
+  {
+    unsigned int fixed = 0;
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if ((faces >> f) & 1)
+        {
+          if (wall_list[f].type == WallType::fixed)
+            fixed |= (1u << dim) - 1;
+          else if (wall_list[f].type == WallType::free_slip)
+            fixed |= 1u << (f / 2);
+        }
+    return fixed;
+  }
+
+
+  template <int dim>
+  std::uint8_t BoundaryConditions<dim>::friction_faces(const std::uint8_t faces) const
+  {
+    std::uint8_t result = 0;
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if (wall_list[f].type == WallType::friction)
+        result |= faces & (1u << f);
+    return result;
+  }
+
+
+  template <int dim>
   std::pair<std::string, bool> BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
   {
-    unsigned int crossed = 0;
+    const unsigned int face = nearest_face(grid, location);
+    return { BoundaryParameters::face_names(dim)[face], wall_list[face].type == WallType::open };
+  }
+
+
+  template <int dim>
+  unsigned int nearest_face(const BackgroundGrid<dim> &grid, const Point<dim> &location)
+  {
+    unsigned int nearest = 0;
     double largest       = -std::numeric_limits<double>::infinity();
     for (unsigned int f = 0; f < 2 * dim; ++f)
       {
@@ -146,12 +181,14 @@ namespace scree
         if (outside > largest)
           {
             largest = outside;
-            crossed = f;
+            nearest = f;
           }
       }
-    return { BoundaryParameters::face_names(dim)[crossed], walls[crossed].type == WallType::open };
+    return nearest;
   }
 
   template class BoundaryConditions<2>;
   template class BoundaryConditions<3>;
+  template unsigned int nearest_face(const BackgroundGrid<2> &, const Point<2> &);
+  template unsigned int nearest_face(const BackgroundGrid<3> &, const Point<3> &);
 } // namespace scree

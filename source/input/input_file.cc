@@ -119,11 +119,12 @@ namespace scree
   }
 
 
-  std::string InputFile::value(const std::string &entry, const std::string &otherwise) const
+  std::string
+  InputFile::value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const
   {
     std::string result = otherwise;
     for (const Statement &statement : statements)
-      if (statement.kind == Kind::set && statement.path.empty() && statement.name == entry)
+      if (statement.kind == Kind::set && statement.path == subsection && statement.name == entry)
         result = statement.value;
     return result;
   }
@@ -133,6 +134,14 @@ namespace scree
   {
     return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
       return statement.kind == Kind::set && statement.path == subsection && statement.name == entry;
+    });
+  }
+
+
+  bool InputFile::has_subsection(const std::string &path) const
+  {
+    return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
+      return statement.kind == Kind::subsection && subsection_path(statement.path, statement.name) == path;
     });
   }
 

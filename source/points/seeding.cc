@@ -1,58 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
+#include <scree/points/lattice.h>
 #include <scree/points/seeding.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    template <int dim>
-    struct Seed
-    {
-      Point<dim> location;
-      double volume;
-    };
-
-    /// The seeds of one cell. Cubes filled by less than a quarter join the nearest fuller one of the cell.
-    template <int dim>
-    std::vector<Seed<dim>>
-    seeds_of_cell(const Region<dim> &region, const Point<dim> &lower, const double cell_size, const unsigned int n)
-    {
-      const double width = cell_size / n;
-      std::vector<Seed<dim>> full, slivers;
-      for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
-        {
-          Point<dim> corner = lower;
-          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-            corner[a] += width * (rest % n);
-          const auto [volume, centroid] = region.part_of_cube(corner, width);
-          if (volume > 0)
-            (volume < 0.25 * Utilities::fixed_power<dim>(width) ? slivers : full).push_back({ centroid, volume });
-        }
-      for (const Seed<dim> &sliver : slivers)
-        {
-          const auto nearest = std::min_element(full.begin(), full.end(), [&](const auto &a, const auto &b) {
-            return a.location.distance_square(sliver.location) < b.location.distance_square(sliver.location);
-          });
-          if (nearest == full.end())
-            {
-              full.push_back(sliver);
-              continue;
-            }
-          const double sum = nearest->volume + sliver.volume;
-          nearest->location += sliver.volume / sum * (sliver.location - nearest->location);
-          nearest->volume = sum;
-        }
-      return full;
-    }
-  } // namespace
-
 
   void SeedingParameters::add_parameters(ParameterHandler &prm)
   {
@@ -118,46 +73,34 @@ namespace scree
             ? nullptr
             : parse_expression<dim>(entry_name(phase.name, "Initial velocity"), parameters.initial_velocity, dim);
 
-    using Cell = typename Triangulation<dim>::active_cell_iterator;
-    std::vector<std::pair<Cell, Seed<dim>>> seeds;
-    double volume = 0;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const auto &one : seeds_of_cell(region, cell->vertex(0), cell_size, parameters.points_per_cell))
-          {
-            seeds.emplace_back(cell, one);
-            volume += one.volume;
-          }
-
     const MPI_Comm communicator = triangulation.get_communicator();
+    const auto seeds            = lattice_seeds<dim>(triangulation,
+                                          cell_size,
+                                          parameters.points_per_cell,
+                                          [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
+                                            const auto [volume, centroid] = region.part_of_cube(lower, width);
+                                            return { volume, volume, centroid };
+                                          });
+    double volume               = 0;
+    for (const Seed<dim> &one : seeds)
+      volume += one.volume;
     require_entry(Utilities::MPI::sum(volume, communicator) > 0,
                   phase.name,
                   "Region",
                   parameters.region,
                   "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
 
-    const auto ids = Utilities::MPI::create_ascending_partitioning(
-        communicator, seeds.size())[Utilities::MPI::this_mpi_process(communicator)];
-    auto id = ids.begin();
-
-    auto &handler = phase.points.handler();
-    handler.reserve(seeds.size());
-    std::vector<double> properties(phase.layout.n_properties);
-    for (const auto &[cell, one] : seeds)
-      {
-        std::fill(properties.begin(), properties.end(), 0.);
-        if (velocity)
-          for (unsigned int a = 0; a < dim; ++a)
-            properties[phase.layout.velocity + a] = velocity->value(one.location, a);
-        properties[phase.layout.mass]   = phase.density * one.volume;
-        properties[phase.layout.volume] = one.volume;
-        for (unsigned int a = 0; a < 3; ++a)
-          properties[phase.layout.left_cauchy_green + a] = 1.;
-        const Point<dim> reference((one.location - cell->vertex(0)) / cell_size);
-        handler.insert_particle(one.location, reference, *id++, cell, properties);
-      }
-    handler.update_cached_numbers();
-    phase.points.sort(); // brings the points of a cell together in memory
+    const auto &layout = phase.layout;
+    insert_points<dim>(
+        phase.points, seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
+          if (velocity)
+            for (unsigned int a = 0; a < dim; ++a)
+              properties[layout.velocity + a] = velocity->value(one.location, a);
+          properties[layout.mass]   = phase.density * one.volume;
+          properties[layout.volume] = one.volume;
+          for (unsigned int a = 0; a < 3; ++a)
+            properties[layout.left_cauchy_green + a] = 1.;
+        });
   }
 
   template void seed(Phase<2> &, const SeedingParameters &, const Triangulation<2> &, const double);

@@ -15,6 +15,10 @@ namespace scree
                       courant_number,
                       "Step times (wave speed + velocity) over cell size. 1.2 contaminates the stress, 0.6 is safe.",
                       Patterns::Double(1e-6, 2));
+    prm.add_parameter("Advection number",
+                      advection_number,
+                      "Largest distance a point moves in a step over cell size.",
+                      Patterns::Double(1e-6, 1));
     prm.add_parameter("Maximum time step", maximum_time_step, "Upper bound of the step, s.", Patterns::Double(1e-12));
     prm.leave_subsection();
   }
@@ -28,9 +32,13 @@ namespace scree
 
   double Clock::stable_step(const double cell_size, const double wave_speed, const double speed) const
   {
+    double step         = parameters.maximum_time_step;
     const double signal = wave_speed + speed;
-    const double stable = signal > 0 ? parameters.courant_number * cell_size / signal : parameters.maximum_time_step;
-    return std::min(stable, parameters.maximum_time_step);
+    if (signal > 0)
+      step = std::min(step, parameters.courant_number * cell_size / signal);
+    if (speed > 0)
+      step = std::min(step, parameters.advection_number * cell_size / speed);
+    return step;
   }
 
 

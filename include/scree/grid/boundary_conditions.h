@@ -55,13 +55,35 @@ namespace scree
     /// Corrects the end-of-step velocity of a node that lies on the given faces of the box.
     void apply(dealii::Tensor<1, dim> &velocity, const std::uint8_t faces) const;
 
+    /// The components of velocity that a node on these faces may not have: bit c for component c. Friction is not among
+    /// them.
+    unsigned int fixed_components(const std::uint8_t faces) const;
+
+    /// Those of the faces that have friction: bit f for face f.
+    std::uint8_t friction_faces(const std::uint8_t faces) const;
+
+    bool has_friction(const std::uint8_t faces) const
+    {
+      return friction_faces(faces) != 0;
+    }
+
+    /// One wall a face of the box, in deal.II's numbering.
+    const std::vector<Wall> &walls() const
+    {
+      return wall_list;
+    }
+
     /// Name of the face of the box nearest to a point outside, and whether it is open.
     std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const;
 
   private:
     const BackgroundGrid<dim> &grid;
-    std::vector<Wall> walls;
+    const std::vector<Wall> wall_list;
   };
+
+  /// The face of the box, in deal.II's numbering, beyond which a point outside is farthest.
+  template <int dim>
+  unsigned int nearest_face(const BackgroundGrid<dim> &grid, const dealii::Point<dim> &location);
 } // namespace scree
 
 #endif

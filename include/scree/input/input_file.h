@@ -30,11 +30,14 @@ namespace scree
       return whole_text;
     }
 
-    /// The value of an entry outside subsections, or `otherwise` if the file does not set it.
-    std::string value(const std::string &entry, const std::string &otherwise) const;
+    /// The value of an entry of the subsection, or `otherwise` if the file does not set it.
+    std::string value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const;
 
     /// Whether the file sets the entry of the subsection.
     bool sets(const std::string &subsection, const std::string &entry) const;
+
+    /// Whether the file has a subsection of that path.
+    bool has_subsection(const std::string &path) const;
 
     /// What helps if this subsection is not declared; empty: check() suggests the closest name.
     using SubsectionRemedy = std::function<std::string(const std::string &subsection)>;

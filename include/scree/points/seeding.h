@@ -27,6 +27,15 @@ namespace scree
     void check(const std::string &body, const unsigned int dim) const;
   };
 
+  /// Where a body of soil is at the start, and what water finds there.
+  struct SoilRegion
+  {
+    std::string name;    ///< of the body
+    std::string region;  ///< expression
+    double porosity;     ///< volume of pores over total volume
+    double bulk_density; ///< dry, kg/m^3
+  };
+
   /// Fills the phase's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point
   /// stands at the centroid of the part of its cube that is inside and has its volume, and slivers join their
   /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region

@@ -36,9 +36,13 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.
-    void check(const unsigned int dim, const unsigned int n_bodies) const;
+    /// @param gravity m/s^2, one number an axis
+    void check(const std::vector<double> &gravity, const unsigned int n_bodies) const;
 
     PointSets point_sets_kind() const;
+
+  private:
+    void check_single_point() const;
   };
 } // namespace scree
 

@@ -53,6 +53,9 @@ namespace scree
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /// Throws EntryError at what nothing reads.
+    void check(const unsigned int n_bodies) const;
+
     Splitting splitting_kind() const;
     FreeSurface free_surface_kind() const;
     Divergence divergence_kind() const;

@@ -10,6 +10,7 @@ namespace scree
   struct TimeStepParameters
   {
     double courant_number    = 0.6;
+    double advection_number  = 0.3;
     double maximum_time_step = 1e-2; ///< s
 
     void add_parameters(dealii::ParameterHandler &prm);
@@ -21,7 +22,8 @@ namespace scree
   public:
     explicit Clock(const TimeStepParameters &parameters);
 
-    /// Largest step, s: Courant number times cell size over (wave speed + speed), and at most the maximum.
+    /// Largest step, s: Courant number times cell size over (wave speed + speed), advection number times cell size over
+    /// speed, and at most the maximum.
     double stable_step(const double cell_size, const double wave_speed, const double speed) const;
 
     /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `appointment`.

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_points_lattice_h
+#define scree_points_lattice_h
+
+#include <scree/points/point_set.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <functional>
+#include <vector>
+
+namespace scree
+{
+  /// What a material fills of one cube of a lattice.
+  template <int dim>
+  struct CubePart
+  {
+    double filled;               ///< part of the cube that its region covers, m^3 (2D: m^2)
+    double volume;               ///< of the material itself there: less than `filled` in pores
+    dealii::Point<dim> location; ///< centroid of the volume, m
+  };
+
+  /// A point to be.
+  template <int dim>
+  struct Seed
+  {
+    typename dealii::Triangulation<dim>::active_cell_iterator cell;
+    dealii::Point<dim> location; ///< m
+    double volume;               ///< m^3 (2D: per m)
+  };
+
+  /// What lies in the cube with this lower corner, m, and width, m.
+  template <int dim>
+  using PartOfCube = std::function<CubePart<dim>(const dealii::Point<dim> &lower, const double width)>;
+
+  /// The seeds of this rank's cells on a regular lattice of `n` cubes an axis and cell. Cubes covered by less than a
+  /// quarter join the nearest fuller one of their cell.
+  template <int dim>
+  std::vector<Seed<dim>> lattice_seeds(const dealii::Triangulation<dim> &triangulation,
+                                       const double cell_size,
+                                       const unsigned int n,
+                                       const PartOfCube<dim> &part_of_cube);
+
+  /// Writes a new point's properties, which are 0 before.
+  template <int dim>
+  using FillProperties = std::function<void(const Seed<dim> &seed, std::vector<double> &properties)>;
+
+  /// Makes points of the seeds. Collective.
+  template <int dim>
+  void insert_points(PointSet<dim> &points,
+                     const std::vector<Seed<dim>> &seeds,
+                     const double cell_size,
+                     const MPI_Comm communicator,
+                     const FillProperties<dim> &fill);
+} // namespace scree
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_points_surface_load_h
+#define scree_points_surface_load_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/points/point_set.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// Subsection Surface load: a traction on a flat patch, which moves with the soil.
+  struct SurfaceLoadParameters
+  {
+    std::vector<double> lower_corner{ 0., 0. }, upper_corner{ 0., 0. }; ///< of the patch, m
+    std::string traction; ///< Pa, of x, y (z) and t, one expression an axis; empty: no load
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations.
+    void check(const GridParameters &grid, const unsigned int dim) const;
+
+    bool is_set() const
+    {
+      return !traction.empty();
+    }
+
+    /// The axis along which the patch has no width.
+    unsigned int normal_axis(const unsigned int dim) const;
+  };
+
+  /// Markers on the patch, which carry its load to the nodes around them and move with the soil.
+  template <int dim>
+  class SurfaceLoad
+  {
+  public:
+    static constexpr unsigned int area = 0; ///< a marker's only property: m^2 (2D: m), as it was at the start
+
+    /// Lays the markers, 4 a cell and axis. A patch on a face between two cells belongs to the one with the lower
+    /// coordinate, so that the load on top of a body finds the body's cells. Collective.
+    SurfaceLoad(const BackgroundGrid<dim> &grid, const SurfaceLoadParameters &parameters);
+
+    /// Force per initial area, Pa, at a place and a time, s.
+    dealii::Tensor<1, dim> traction(const dealii::Point<dim> &x, const double time) const;
+
+    PointSet<dim> &points()
+    {
+      return markers;
+    }
+    const PointSet<dim> &points() const
+    {
+      return markers;
+    }
+
+  private:
+    PointSet<dim> markers;
+    std::unique_ptr<dealii::FunctionParser<dim>> function;
+  };
+} // namespace scree
+
+#endif

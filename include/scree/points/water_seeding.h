@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_points_water_seeding_h
+#define scree_points_water_seeding_h
+
+#include <scree/points/seeding.h>
+#include <scree/points/water_parameters.h>
+#include <scree/points/water_phase.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// A part of the water's region, as an expression, and how much room there is for water.
+  struct WaterPart
+  {
+    std::string region;
+    double porosity;        ///< 1 outside the soil
+    const SoilRegion *soil; ///< null outside
+  };
+
+  /// The water's region, cut along the surfaces of the soil. Refers to `soil`.
+  std::vector<WaterPart> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil);
+
+  /// Throws EntryError unless a body in the water has pores.
+  void require_pores(const SoilRegion &soil);
+
+  /// Fills the water's region with points of its own, on a lattice as seed() does. A point's volume is that of the
+  /// water itself: porosity times the part of its cube in soil, plus the part outside; its mass is density times
+  /// volume. They get the velocity of the entry; pressure is 0. Collective; throws EntryError if the region holds no
+  /// volume, or covers a body without pores.
+  template <int dim>
+  void seed_water(WaterPhase<dim> &water,
+                  const WaterParameters &parameters,
+                  const std::vector<SoilRegion> &soil,
+                  const dealii::Triangulation<dim> &triangulation,
+                  const double cell_size);
+
+  /// Fills the pores of the points that carry the water: its volume is theirs less the grains', its velocity theirs.
+  template <int dim>
+  void fill_pores(WaterPhase<dim> &water);
+} // namespace scree
+
+#endif

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/boundary_conditions.h>
+#include <scree/grid/water_walls.h>
+#include <scree/input/input_error.h>
+
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr char pattern_text[] = "impermeable | no slip | drained | drained PRESSURE (Pa)";
+
+    /// Reads one wall, or throws with the words that are allowed.
+    WaterWall wall_from_text(const std::string &name, const std::string &text)
+    {
+      if (text == "impermeable")
+        return { WaterWallType::impermeable, 0. };
+      if (text == "no slip")
+        return { WaterWallType::no_slip, 0. };
+      if (text == "drained")
+        return { WaterWallType::drained, 0. };
+      if (text.rfind("drained ", 0) == 0)
+        {
+          std::size_t end  = 0;
+          double pressure  = 0;
+          const auto rest  = Utilities::trim(text.substr(8));
+          bool is_a_number = false;
+          try
+            {
+              pressure    = std::stod(rest, &end);
+              is_a_number = end == rest.size() && std::isfinite(pressure);
+            }
+          catch (const std::exception &)
+            {
+            }
+          if (is_a_number)
+            return { WaterWallType::drained, pressure };
+        }
+      throw EntryError(entry_name("Boundaries/Water", name) + " = " + text + ": write one of: " + pattern_text + '.');
+    }
+  } // namespace
+
+
+  void WaterBoundaryParameters::add_parameters(ParameterHandler &prm)
+  {
+    const std::string what = std::string(" of the box, for the water: ") + pattern_text + ".";
+    prm.enter_subsection("Boundaries");
+    prm.enter_subsection("Water");
+    prm.add_parameter("Left", left, "Lower x face" + what);
+    prm.add_parameter("Right", right, "Upper x face" + what);
+    prm.add_parameter("Front", front, "Lower y face (3D only)" + what);
+    prm.add_parameter("Back", back, "Upper y face (3D only)" + what);
+    prm.add_parameter("Bottom", bottom, "Lower face of the last axis" + what);
+    prm.add_parameter("Top", top, "Upper face of the last axis" + what);
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
+  void WaterBoundaryParameters::check(const unsigned int dim) const
+  {
+    walls(3);
+    const WaterBoundaryParameters defaults;
+    if (dim == 2)
+      for (const auto &[name, wall, otherwise] :
+           { std::make_tuple("Front", front, defaults.front), std::make_tuple("Back", back, defaults.back) })
+        require_entry(wall == otherwise,
+                      "Boundaries/Water",
+                      name,
+                      wall,
+                      "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
+  }
+
+
+  std::vector<WaterWall> WaterBoundaryParameters::walls(const unsigned int dim) const
+  {
+    std::vector<WaterWall> result{ wall_from_text("Left", left), wall_from_text("Right", right) };
+    if (dim == 3)
+      {
+        result.push_back(wall_from_text("Front", front));
+        result.push_back(wall_from_text("Back", back));
+      }
+    result.push_back(wall_from_text("Bottom", bottom));
+    result.push_back(wall_from_text("Top", top));
+    return result;
+  }
+
+
+  template <int dim>
+  WaterBoundaryConditions<dim>::WaterBoundaryConditions(const BackgroundGrid<dim> &grid,
+                                                        const WaterBoundaryParameters &parameters)
+      : grid(grid)
+      , wall_list(parameters.walls(dim))
+  {
+  }
+
+
+  template <int dim>
+  unsigned int WaterBoundaryConditions<dim>::fixed_components(const std::uint8_t faces) const
+  {
+    unsigned int fixed = 0;
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if ((faces >> f) & 1)
+        {
+          if (wall_list[f].type == WaterWallType::no_slip)
+            fixed |= (1u << dim) - 1;
+          else if (wall_list[f].type == WaterWallType::impermeable)
+            fixed |= 1u << (f / 2);
+        }
+    return fixed;
+  }
+
+
+  template <int dim>
+  bool WaterBoundaryConditions<dim>::prescribes_pressure(const std::uint8_t faces) const
+  {
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if ((faces >> f) & 1 && is_drained(f))
+        return true;
+    return false;
+  }
+
+
+  template <int dim>
+  double WaterBoundaryConditions<dim>::pressure(const std::uint8_t faces) const
+  {
+    double sum     = 0;
+    unsigned int n = 0;
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if ((faces >> f) & 1 && is_drained(f))
+        {
+          sum += wall_list[f].pressure;
+          ++n;
+        }
+    return n > 0 ? sum / n : 0.;
+  }
+
+
+  template <int dim>
+  std::pair<std::string, bool> WaterBoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
+  {
+    const unsigned int face = nearest_face(grid, location);
+    return { BoundaryParameters::face_names(dim)[face], is_drained(face) };
+  }
+
+  template class WaterBoundaryConditions<2>;
+  template class WaterBoundaryConditions<3>;
+} // namespace scree

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/points/lattice.h>
+#include <scree/points/region.h>
+#include <scree/points/surface_load.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int markers_per_cell = 4; // along each axis of the patch
+
+    /// The markers' places on one axis of a cell and the width each stands for, m.
+    std::vector<std::pair<double, double>>
+    places_on_axis(const double cell_lower, const double cell_size, const double lower, const double upper)
+    {
+      std::vector<std::pair<double, double>> places;
+      const double width = cell_size / markers_per_cell;
+      for (unsigned int i = 0; i < markers_per_cell; ++i)
+        {
+          const double begin = std::max(lower, cell_lower + i * width);
+          const double end   = std::min(upper, cell_lower + (i + 1) * width);
+          if (end - begin > 1e-9 * width) // rounding leaves slivers
+            places.emplace_back(0.5 * (begin + end), end - begin);
+        }
+      return places;
+    }
+  } // namespace
+
+
+  void SurfaceLoadParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Surface load");
+    prm.add_parameter("Lower corner",
+                      lower_corner,
+                      "Corner of a flat patch of the soil's surface, m; the patch has no width along one axis.",
+                      Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter(
+        "Upper corner", upper_corner, "The opposite corner, m.", Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter("Traction",
+                      traction,
+                      "Force per initial area of the patch, Pa: an expression of x, y (z) and t an axis, separated by "
+                      "semicolons, e.g. 0; -1e4; empty: no load.",
+                      Patterns::Anything());
+    prm.leave_subsection();
+  }
+
+
+  unsigned int SurfaceLoadParameters::normal_axis(const unsigned int dim) const
+  {
+    unsigned int axis = 0;
+    while (axis < dim && lower_corner[axis] != upper_corner[axis])
+      ++axis;
+    return axis;
+  }
+
+
+  void SurfaceLoadParameters::check(const GridParameters &grid, const unsigned int dim) const
+  {
+    const std::string subsection = "Surface load";
+    const auto corners           = { std::make_pair("Lower corner", lower_corner), { "Upper corner", upper_corner } };
+    if (!is_set())
+      {
+        for (const auto &[name, corner] : corners)
+          require_entry(corner == SurfaceLoadParameters().lower_corner,
+                        subsection,
+                        name,
+                        number_text(corner),
+                        "nothing reads it. Remove it, or write a \"Traction\", in Pa.");
+        return;
+      }
+    if (dim == 2)
+      parse_expression<2>(entry_name(subsection, "Traction"), traction, 2, true);
+    else
+      parse_expression<3>(entry_name(subsection, "Traction"), traction, 3, true);
+
+    for (const auto &[name, corner] : corners)
+      {
+        require_entry(corner.size() == dim,
+                      subsection,
+                      name,
+                      number_text(corner),
+                      "entry \"Dimension\" is " + std::to_string(dim) + ". Write " + std::to_string(dim) +
+                          " coordinates in m, separated by commas.");
+        for (unsigned int a = 0; a < dim; ++a)
+          require_entry(corner[a] >= grid.lower_corner[a] && corner[a] <= grid.upper_corner[a],
+                        subsection,
+                        name,
+                        number_text(corner),
+                        "it lies outside the box of subsection Mesh, from " + number_text(grid.lower_corner) + " to " +
+                            number_text(grid.upper_corner) + ". Move it, or a corner of the box.");
+      }
+    unsigned int n_equal = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        n_equal += lower_corner[a] == upper_corner[a];
+        require_entry(lower_corner[a] <= upper_corner[a],
+                      subsection,
+                      "Upper corner",
+                      number_text(upper_corner),
+                      "it lies below \"Lower corner\" = " + number_text(lower_corner) + " along " +
+                          std::string(1, "xyz"[a]) + ". Exchange the two coordinates.");
+      }
+    require_entry(n_equal == 1,
+                  subsection,
+                  "Upper corner",
+                  number_text(upper_corner),
+                  "it has " + std::to_string(n_equal) + " coordinates of \"Lower corner\" = " +
+                      number_text(lower_corner) + ". A flat patch has exactly one.");
+  }
+
+
+  template <int dim>
+  SurfaceLoad<dim>::SurfaceLoad(const BackgroundGrid<dim> &grid, const SurfaceLoadParameters &parameters)
+      : markers(grid.triangulation(), grid.mapping(), 1)
+      , function(
+            parse_expression<dim>(entry_name("Surface load", "Traction"), parameters.traction, dim, /*with_time*/ true))
+  {
+    const double cell_size    = grid.cell_size();
+    const unsigned int normal = parameters.normal_axis(dim);
+    // Cells below the plane; 0 if the plane is the lower face of the box.
+    const double cells_below = (parameters.lower_corner[normal] - grid.lower_corner()[normal]) / cell_size;
+    const double layer       = std::max(0., std::ceil(cells_below - 1e-9) - 1);
+    const double layer_lower = grid.lower_corner()[normal] + layer * cell_size;
+
+    std::vector<Seed<dim>> seeds;
+    for (const auto &cell : grid.triangulation().active_cell_iterators())
+      {
+        const Point<dim> lower = cell->vertex(0);
+        if (!cell->is_locally_owned() || std::abs(lower[normal] - layer_lower) > 0.5 * cell_size)
+          continue;
+        std::array<std::vector<std::pair<double, double>>, dim> places;
+        unsigned int n = 1;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            places[a] =
+                a == normal
+                    ? std::vector<std::pair<double, double>>{ { parameters.lower_corner[a], 1. } }
+                    : places_on_axis(lower[a], cell_size, parameters.lower_corner[a], parameters.upper_corner[a]);
+            n *= places[a].size();
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            Seed<dim> seed{ cell, {}, 1. };
+            for (unsigned int a = 0, rest = i; a < dim; ++a)
+              {
+                const auto &[place, width] = places[a][rest % places[a].size()];
+                rest /= places[a].size();
+                seed.location[a] = place;
+                seed.volume *= width;
+              }
+            seeds.push_back(seed);
+          }
+      }
+    insert_points<dim>(markers,
+                       seeds,
+                       cell_size,
+                       grid.triangulation().get_communicator(),
+                       [](const Seed<dim> &seed, std::vector<double> &properties) { properties[area] = seed.volume; });
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> SurfaceLoad<dim>::traction(const Point<dim> &x, const double time) const
+  {
+    function->set_time(time);
+    Tensor<1, dim> result;
+    for (unsigned int a = 0; a < dim; ++a)
+      result[a] = function->value(x, a);
+    return result;
+  }
+
+  template class SurfaceLoad<2>;
+  template class SurfaceLoad<3>;
+} // namespace scree

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/points/region.h>
+#include <scree/points/water_parameters.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void WaterParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Region",
+                      region,
+                      "Where the water is, in the soil's pores and outside: \"same\" (wherever soil is), or an "
+                      "expression of x, y (and z), in m. Without a subsection Water the scene is dry.",
+                      Patterns::Anything());
+    prm.add_parameter("Point sets",
+                      point_sets,
+                      "double: water has points of its own, which move with it; single: it rides on the soil's points.",
+                      Patterns::Selection("double|single"));
+    prm.add_parameter("Points per cell",
+                      points_per_cell,
+                      "Points of water along each axis of a cell; double-point only.",
+                      Patterns::Integer(1, 32));
+    prm.add_parameter("Density", density, "Density of the water, kg/m^3.", Patterns::Double(1e-12));
+    prm.add_parameter("Hydraulic conductivity",
+                      conductivity,
+                      "Darcy's conductivity of the soil at its initial porosity, m/s.",
+                      Patterns::Double(1e-20));
+    prm.add_parameter("Conductivity law",
+                      conductivity_law,
+                      "constant; Kozeny-Carman: in proportion to n^3/(1-n)^2 of the porosity n.",
+                      Patterns::Selection("constant|Kozeny-Carman"));
+    prm.add_parameter("Viscosity", viscosity, "Dynamic viscosity of the water, Pa s; 0: none.", Patterns::Double(0));
+    prm.add_parameter(
+        "Bulk modulus", bulk_modulus, "Bulk modulus of the water, Pa; 0: incompressible.", Patterns::Double(0));
+    prm.add_parameter("Fluidisation porosity",
+                      fluidisation_porosity,
+                      "Soil looser than this bears no effective stress; 1: never.",
+                      Patterns::Double(1e-12, 1));
+    prm.add_parameter("Volume correction",
+                      volume_correction,
+                      "Part of the cells' surplus of free water that a step moves away; 0: none, 0.05 to 0.1 is usual. "
+                      "Double-point only.",
+                      Patterns::Double(0, 1));
+    prm.add_parameter(
+        "Initial pressure",
+        initial_pressure,
+        "hydrostatic: the weight of the water above a point, and the soil's K0 stress is buoyant; none: 0.",
+        Patterns::Selection("hydrostatic|none"));
+    prm.add_parameter(
+        "Initial velocity",
+        initial_velocity,
+        "Velocity of the water at the start, m/s: an expression an axis, separated by semicolons; empty: at "
+        "rest. Double-point only.",
+        Patterns::Anything());
+  }
+
+
+  void WaterParameters::check(const std::vector<double> &gravity, const unsigned int n_bodies) const
+  {
+    const std::size_t dim = gravity.size();
+    const WaterParameters defaults;
+    require_entry(
+        region != "same" || n_bodies > 0,
+        "Water",
+        "Region",
+        region,
+        "there is no soil, as entry \"Bodies\" is none. Write where the water is, for instance x < 1 && y < 1");
+    const std::string where_region = entry_name("Water", "Region");
+    const std::string where_speed  = entry_name("Water", "Initial velocity");
+    if (region != "same" && dim == 2)
+      Region<2>(where_region, region);
+    if (region != "same" && dim == 3)
+      Region<3>(where_region, region);
+    if (!initial_velocity.empty() && dim == 2)
+      parse_expression<2>(where_speed, initial_velocity, 2);
+    if (!initial_velocity.empty() && dim == 3)
+      parse_expression<3>(where_speed, initial_velocity, 3);
+
+    if (point_sets_kind() == PointSets::single_point)
+      check_single_point();
+    if (n_bodies == 0)
+      {
+        const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
+        require_entry(conductivity == defaults.conductivity, "Water", "Hydraulic conductivity", conductivity, remedy);
+        require_entry(
+            conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
+        require_entry(fluidisation_porosity == defaults.fluidisation_porosity,
+                      "Water",
+                      "Fluidisation porosity",
+                      fluidisation_porosity,
+                      remedy);
+      }
+    // Gravity 0 is no fault: the pressure starts at 0.
+    require_entry(initial_pressure == "none" || std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
+                  "Water",
+                  "Initial pressure",
+                  initial_pressure,
+                  "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
+                      number_text(gravity) + ". Change it, or write \"Initial pressure = none\".");
+  }
+
+
+  void WaterParameters::check_single_point() const
+  {
+    const WaterParameters defaults;
+    require_entry(region == "same",
+                  "Water",
+                  "Region",
+                  region,
+                  "single-point water rides on the soil's points and is where they are. Write \"Region = same\", or "
+                  "\"Point sets = double\".");
+    const std::string remedy =
+        "nothing reads it, as single-point water rides on the soil's points. Remove it, or write "
+        "\"Point sets = double\".";
+    require_entry(points_per_cell == defaults.points_per_cell, "Water", "Points per cell", points_per_cell, remedy);
+    require_entry(
+        volume_correction == defaults.volume_correction, "Water", "Volume correction", volume_correction, remedy);
+    require_entry(initial_velocity == defaults.initial_velocity, "Water", "Initial velocity", initial_velocity, remedy);
+  }
+
+
+  PointSets WaterParameters::point_sets_kind() const
+  {
+    return point_sets == "single" ? PointSets::single_point : PointSets::double_point;
+  }
+} // namespace scree
