@@ -48,17 +48,17 @@ namespace scree
     if (clock.step() == 0)
       report();
     const double updates_before = totals.n_updates;
-    const double first_step     = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
+    const double first_step     = stable_step();
     while (!reached(clock.time(), parameters.end_time))
       {
-        const double stable_step = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
+        const double largest_step = stable_step();
         // A run that gains energy would creep on with ever smaller steps.
-        AssertThrow(stable_step > 1e-3 * first_step,
+        AssertThrow(largest_step > 1e-3 * first_step,
                     ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
-                               " s the stable step has fallen to " + Utilities::to_string(stable_step) + " s, from " +
+                               " s the stable step has fallen to " + Utilities::to_string(largest_step) + " s, from " +
                                Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
         const double appointment = next_appointment();
-        last_time_step           = clock.next_step(stable_step, appointment);
+        last_time_step           = clock.next_step(largest_step, appointment);
         advance(last_time_step);
         clock.advance(last_time_step, appointment);
         report();
@@ -79,39 +79,20 @@ namespace scree
     constexpr unsigned int steps_between_balances = 100;
     if (clock.step() % steps_between_balances == steps_between_balances - 1)
       balance_load();
-    {
-      TimerOutput::Scope part(timer, "points to grid");
-      field.clear();
-      for (const auto &phase : phases)
-        transfer.to_grid(phase, field);
-      field.add_contributions();
-    }
-    {
-      TimerOutput::Scope part(timer, "nodes");
-      totals.balance += scheme.solve(field, clock.time(), time_step);
-      field.update_ghosts();
-    }
+
+    solve_nodes(time_step);
 
     // largest wave speed and speed; whether a point left
     std::vector<double> largest{ 0., 0., 0. };
-    last_step = UpdateReport();
-    for (auto &phase : phases)
-      {
+    move_points(time_step, largest);
+    {
+      TimerOutput::Scope part(timer, "sort into cells and ranks");
+      for (PointSet<dim> *points : point_sets())
         {
-          TimerOutput::Scope part(timer, "grid to points, stress");
-          const MotionReport motion = transfer.to_points(phase, field, time_step);
-          largest[0]                = std::max(largest[0], phase.wave_speed(motion.material.largest_bulk_modulus));
-          largest[1] = motion.largest_speed <= largest[1] ? largest[1] : motion.largest_speed; // keeps a NaN
-          last_step.add(motion.material);
+          points->sort();
+          largest[2] = std::max<double>(largest[2], points->lost().size());
         }
-        {
-          TimerOutput::Scope part(timer, "sort into cells and ranks");
-          phase.points.sort();
-          largest[2] = std::max<double>(largest[2], phase.points.lost().size());
-        }
-      }
-    totals.add(last_step);
-
+    }
     {
       TimerOutput::Scope part(timer, "agree on the next step");
       largest = largest_of_ranks(largest);
@@ -124,6 +105,106 @@ namespace scree
                            remedy_for_instability));
     if (largest[2] > 0)
       account_for_lost_points();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::solve_nodes(const double time_step)
+  {
+    forcing.set_time(clock.time());
+    StepBalance<dim> balance;
+    {
+      TimerOutput::Scope part(timer, "points to grid");
+      field.clear();
+      for (const auto &phase : phases)
+        transfer.to_grid(phase, field);
+      if (semi_implicit)
+        semi_implicit->gather(phases, water);
+      if (load)
+        balance.load_impulse = time_step * add_load(*load, clock.time(), grid, field);
+      if (!semi_implicit)
+        field.add_contributions();
+    }
+    if (semi_implicit)
+      {
+        double shear_modulus = 0;
+        for (const auto &phase : phases)
+          shear_modulus = std::max(shear_modulus, phase.material->shear_modulus());
+        totals.balance += semi_implicit->solve(field, time_step, shear_modulus, timer);
+        // The scheme sees the load among the forces on the soil.
+        balance.pressure_impulse = -balance.load_impulse;
+      }
+    else
+      {
+        TimerOutput::Scope part(timer, "nodes");
+        totals.balance += scheme.solve(field, time_step);
+        field.update_ghosts();
+      }
+    totals.balance += balance;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::move_points(const double time_step, std::vector<double> &largest)
+  {
+    const auto keep_largest = [&](const double speed) {
+      largest[1] = speed <= largest[1] ? largest[1] : speed; // keeps a NaN
+    };
+    last_step = UpdateReport();
+    {
+      TimerOutput::Scope part(timer, "grid to points, stress");
+      for (auto &phase : phases)
+        {
+          const MotionReport motion = transfer.to_points(phase, field, time_step);
+          largest[0]                = std::max(largest[0], phase.wave_speed(motion.material.largest_bulk_modulus));
+          keep_largest(motion.largest_speed);
+          last_step.add(motion.material);
+          if (semi_implicit)
+            semi_implicit->fluidise(phase);
+        }
+      if (load)
+        totals.balance.load_work += move_load(*load, clock.time(), grid, field, time_step);
+    }
+    if (semi_implicit)
+      {
+        TimerOutput::Scope part(timer, "grid to water points");
+        for (auto &part_of_water : water)
+          {
+            keep_largest(semi_implicit->to_points(part_of_water, time_step));
+            semi_implicit->correct_volume(part_of_water, time_step);
+            if (part_of_water.carrier() == nullptr)
+              totals.n_updates += part_of_water.points().handler().n_locally_owned_particles();
+          }
+      }
+    totals.add(last_step);
+  }
+
+
+  template <int dim>
+  double Simulation<dim>::stable_step() const
+  {
+    double step = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
+    // Viscous stress is explicit.
+    if (parameters.has_water && parameters.water.viscosity > 0)
+      step = std::min(step,
+                      0.25 / dim * grid.cell_size() * grid.cell_size() * parameters.water.density /
+                          parameters.water.viscosity);
+    return step;
+  }
+
+
+  template <int dim>
+  std::vector<PointSet<dim> *> Simulation<dim>::point_sets()
+  {
+    std::vector<PointSet<dim> *> sets;
+    for (auto &phase : phases)
+      sets.push_back(&phase.points);
+    for (auto &part : water)
+      if (part.carrier() == nullptr)
+        sets.push_back(&part.points());
+    if (load)
+      sets.push_back(&load->points());
+    return sets;
   }
 
 
