@@ -300,7 +300,7 @@ namespace scree
 
     if (at_start_or_end || reached(time, next_row))
       {
-        statistics.collect(phases, totals, time, clock.step(), last_time_step, last_step);
+        statistics.collect(phases, {}, totals, time, clock.step(), last_time_step, last_step);
         if (folder.is_writer())
           statistics.write(folder.file("statistics"));
       }

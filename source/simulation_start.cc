@@ -157,7 +157,7 @@ namespace scree
         advance(step);
         settling_clock.advance(step, settling.maximum_time);
         if (settling_clock.step() % steps_between_checks == 0 || settling_clock.time() >= settling.maximum_time)
-          ratio = kinetic_to_elastic_energy(phases, communicator);
+          ratio = kinetic_to_elastic_energy(phases, {}, communicator);
       }
     folder.log(
         "Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
@@ -197,7 +197,10 @@ namespace scree
   {
     const RunTotals<dim> own = totals;
     totals                   = totals.sum_over_ranks(communicator);
-    save_checkpoint(parameters.output_directory, grid, phases, [&](auto &archive) { serialize_state(archive); });
+    std::vector<PointSet<dim> *> sets;
+    for (auto &phase : phases)
+      sets.push_back(&phase.points);
+    save_checkpoint(parameters.output_directory, grid, sets, [&](auto &archive) { serialize_state(archive); });
     totals = own;
   }
 
@@ -205,7 +208,10 @@ namespace scree
   template <int dim>
   void Simulation<dim>::resume()
   {
-    load_checkpoint(parameters.output_directory, grid, phases, [&](auto &archive) { serialize_state(archive); });
+    std::vector<PointSet<dim> *> sets;
+    for (auto &phase : phases)
+      sets.push_back(&phase.points);
+    load_checkpoint(parameters.output_directory, grid, sets, [&](auto &archive) { serialize_state(archive); });
     if (!folder.is_writer())
       totals = RunTotals<dim>(); // The writer holds the sums.
     field.reinit();

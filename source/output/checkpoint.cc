@@ -36,7 +36,7 @@ namespace scree
   template <int dim>
   void save_checkpoint(const std::string &run_folder,
                        const BackgroundGrid<dim> &grid,
-                       std::list<Phase<dim>> &phases,
+                       const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_oarchive &)> &state)
   {
     const std::string folder    = run_folder + "/checkpoint/";
@@ -46,15 +46,15 @@ namespace scree
       std::filesystem::create_directories(folder);
     const std::string name = Utilities::MPI::broadcast(communicator, other(latest(folder)));
 
-    for (auto &phase : phases)
-      phase.points.handler().prepare_for_serialization();
+    for (PointSet<dim> *points : sets)
+      points->handler().prepare_for_serialization();
     grid.triangulation().save(folder + name + ".mesh");
     if (writer)
       {
         std::ofstream file(folder + name + ".state", std::ios::binary);
         boost::archive::binary_oarchive archive(file);
-        for (auto &phase : phases)
-          archive << phase.points.handler();
+        for (PointSet<dim> *points : sets)
+          archive << points->handler();
         state(archive);
       }
     MPI_Barrier(communicator);
@@ -69,7 +69,7 @@ namespace scree
   template <int dim>
   void load_checkpoint(const std::string &run_folder,
                        BackgroundGrid<dim> &grid,
-                       std::list<Phase<dim>> &phases,
+                       const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_iarchive &)> &state)
   {
     const std::string folder = run_folder + "/checkpoint/";
@@ -84,30 +84,30 @@ namespace scree
     grid.load(folder + name + ".mesh");
     std::ifstream file(folder + name + ".state", std::ios::binary);
     boost::archive::binary_iarchive archive(file);
-    for (auto &phase : phases)
-      archive >> phase.points.handler();
-    for (auto &phase : phases)
+    for (PointSet<dim> *points : sets)
+      archive >> points->handler();
+    for (PointSet<dim> *points : sets)
       {
-        phase.points.handler().deserialize();
-        phase.points.sort();
+        points->handler().deserialize();
+        points->sort();
       }
     state(archive);
   }
 
   template void save_checkpoint(const std::string &,
                                 const BackgroundGrid<2> &,
-                                std::list<Phase<2>> &,
+                                const std::vector<PointSet<2> *> &,
                                 const std::function<void(boost::archive::binary_oarchive &)> &);
   template void save_checkpoint(const std::string &,
                                 const BackgroundGrid<3> &,
-                                std::list<Phase<3>> &,
+                                const std::vector<PointSet<3> *> &,
                                 const std::function<void(boost::archive::binary_oarchive &)> &);
   template void load_checkpoint(const std::string &,
                                 BackgroundGrid<2> &,
-                                std::list<Phase<2>> &,
+                                const std::vector<PointSet<2> *> &,
                                 const std::function<void(boost::archive::binary_iarchive &)> &);
   template void load_checkpoint(const std::string &,
                                 BackgroundGrid<3> &,
-                                std::list<Phase<3>> &,
+                                const std::vector<PointSet<3> *> &,
                                 const std::function<void(boost::archive::binary_iarchive &)> &);
 } // namespace scree

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/output/measures.h>
 
+#include <scree/output/cell_contents.h>
+#include <scree/output/point_sums.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -25,56 +29,74 @@ namespace scree
   }
 
 
-  template <int dim>
-  std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
-                                       const BackgroundGrid<dim> &grid,
-                                       const unsigned int axis,
-                                       const std::vector<double> &fractions)
-  {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
-
-    // Each pass finds the bin in which the wanted mass is reached and looks into it the next time.
-    const auto find = [&](const double fraction) {
-      constexpr unsigned int n_bins = 1000;
-      double begin = grid.lower_corner()[axis], end = grid.upper_corner()[axis], below = 0, wanted = -1;
-      for (unsigned int pass = 0; pass < 5; ++pass)
-        {
-          std::vector<double> bins(n_bins, 0.);
-          for (const auto &phase : phases)
-            for (const auto &cell : phase.points.cells())
-              for (unsigned int p = 0; p < cell.n_points; ++p)
-                {
-                  const double position = (cell.location[p][axis] - begin) / (end - begin) * n_bins;
-                  if (position >= 0 && position < n_bins)
-                    bins[static_cast<unsigned int>(position)] +=
-                        cell.properties[p * phase.points.stride() + phase.layout.mass];
-                }
-          Utilities::MPI::sum(bins, communicator, bins);
-          if (wanted < 0)
-            for (const double mass : bins)
-              wanted = std::max(wanted, 0.) + fraction * mass;
-          // Equal masses often add up to just the wanted part: rounding must not choose the point.
-          unsigned int bin = 0;
-          while (bin + 1 < n_bins && below + bins[bin] < wanted * (1. - 1e-12))
-            below += bins[bin++];
-          const double width = (end - begin) / n_bins;
-          begin += bin * width;
-          end = begin + width;
-        }
-      return 0.5 * (begin + end);
-    };
-
-    std::vector<double> result;
-    for (const double fraction : fractions)
-      result.push_back(find(fraction));
-    return result;
-  }
-
-
   namespace
   {
+    /// One quantity of a set of points: where it begins among a point's properties.
+    template <int dim>
+    struct View
+    {
+      const PointSet<dim> &points;
+      const unsigned int slot;
+    };
+
+    template <int dim>
+    using Views = std::vector<View<dim>>;
+
+    /// Calls visit(active cell index, location, first double of the quantity) for each point of this rank.
+    template <int dim, typename Visit>
+    void for_each_point(const Views<dim> &views, const Visit &visit)
+    {
+      for (const auto &view : views)
+        for (const auto &cell : view.points.cells())
+          for (unsigned int p = 0; p < cell.n_points; ++p)
+            visit(cell.cell, cell.location[p], cell.properties + p * view.points.stride() + view.slot);
+    }
+
+
+    template <int dim>
+    std::vector<double> percentiles(const Views<dim> &masses,
+                                    const BackgroundGrid<dim> &grid,
+                                    const unsigned int axis,
+                                    const std::vector<double> &fractions)
+    {
+      const MPI_Comm communicator = grid.triangulation().get_communicator();
+
+      // Each pass finds the bin in which the wanted mass is reached and looks into it the next time.
+      const auto find = [&](const double fraction) {
+        constexpr unsigned int n_bins = 1000;
+        double begin = grid.lower_corner()[axis], end = grid.upper_corner()[axis], below = 0, wanted = -1;
+        for (unsigned int pass = 0; pass < 5; ++pass)
+          {
+            std::vector<double> bins(n_bins, 0.);
+            for_each_point(masses, [&](const unsigned int, const Point<dim> &x, const double *mass) {
+              const double position = (x[axis] - begin) / (end - begin) * n_bins;
+              if (position >= 0 && position < n_bins)
+                bins[static_cast<unsigned int>(position)] += *mass;
+            });
+            Utilities::MPI::sum(bins, communicator, bins);
+            if (wanted < 0)
+              for (const double mass : bins)
+                wanted = std::max(wanted, 0.) + fraction * mass;
+            // Equal masses often add up to just the wanted part: rounding must not choose the point.
+            unsigned int bin = 0;
+            while (bin + 1 < n_bins && below + bins[bin] < wanted * (1. - 1e-12))
+              below += bins[bin++];
+            const double width = (end - begin) / n_bins;
+            begin += bin * width;
+            end = begin + width;
+          }
+        return 0.5 * (begin + end);
+      };
+
+      std::vector<double> result;
+      for (const double fraction : fractions)
+        result.push_back(find(fraction));
+      return result;
+    }
+
+
     /// Moments of a cell's points about a common origin: 1, x, x x^T (rows of the normal matrix of a linear fit) and
-    /// the same of P.
+    /// the same of the pressure.
     template <int dim>
     struct Moments
     {
@@ -138,98 +160,184 @@ namespace scree
         coefficients[a + 1] = slope[a];
       return coefficients;
     }
+
+
+    /// @param pressure_of P or p, Pa, from the quantity of the views
+    template <int dim, typename Pressure>
+    double oscillation(const Views<dim> &views, const BackgroundGrid<dim> &grid, const Pressure &pressure_of)
+    {
+      const auto &mesh = grid.triangulation();
+      std::vector<Moments<dim>> moments(mesh.n_active_cells());
+      const auto scaled = [&](const Point<dim> &x) { return Point<dim>((x - grid.lower_corner()) / grid.cell_size()); };
+
+      for_each_point(views, [&](const unsigned int cell, const Point<dim> &x, const double *quantity) {
+        moments[cell].add(scaled(x), pressure_of(quantity));
+      });
+
+      using Cell = typename Triangulation<dim>::active_cell_iterator;
+      GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
+          mesh,
+          [&](const Cell &cell) { return std_cxx17::optional<Moments<dim>>(moments[cell->active_cell_index()]); },
+          [&](const Cell &cell, const Moments<dim> &value) { moments[cell->active_cell_index()] = value; });
+
+      // The linear fit around each owned cell that holds points.
+      std::vector<Vector<double>> fits(mesh.n_active_cells());
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned() && moments[cell->active_cell_index()].matrix[0] > 0)
+          {
+            std::vector<Cell> patch{ cell };
+            for (unsigned int a = 0; a < dim; ++a)
+              for (unsigned int i = 0, n = patch.size(); i < n; ++i)
+                for (const unsigned int face : { 2 * a, 2 * a + 1 })
+                  if (const auto near = patch[i]; !near->at_boundary(face))
+                    patch.push_back(near->neighbor(face));
+            Moments<dim> sum;
+            for (const auto &near : patch)
+              sum += moments[near->active_cell_index()];
+            fits[cell->active_cell_index()] = fit(sum);
+          }
+
+      std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
+      for_each_point(views, [&](const unsigned int cell, const Point<dim> &location, const double *quantity) {
+        const double pressure    = pressure_of(quantity);
+        const auto &coefficients = fits[cell];
+        const auto x             = scaled(location);
+        double residual          = pressure - coefficients[0];
+        for (unsigned int a = 0; a < dim; ++a)
+          residual -= coefficients[a + 1] * x[a];
+        sums[0] += 1;
+        sums[1] += pressure;
+        sums[2] += residual * residual;
+      });
+      Utilities::MPI::sum(sums, mesh.get_communicator(), sums);
+      return sums[1] > 0 ? std::sqrt(sums[2] / sums[0]) / (sums[1] / sums[0]) : 0.;
+    }
   } // namespace
+
+
+  template <int dim>
+  std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
+                                       const BackgroundGrid<dim> &grid,
+                                       const unsigned int axis,
+                                       const std::vector<double> &fractions)
+  {
+    Views<dim> masses;
+    for (const auto &phase : phases)
+      masses.push_back({ phase.points, phase.layout.mass });
+    return percentiles(masses, grid, axis, fractions);
+  }
+
+
+  template <int dim>
+  std::vector<double> mass_percentiles(const std::list<WaterPhase<dim>> &water,
+                                       const BackgroundGrid<dim> &grid,
+                                       const unsigned int axis,
+                                       const std::vector<double> &fractions)
+  {
+    Views<dim> masses;
+    for (const auto &one : water)
+      masses.push_back({ one.points(), one.layout.mass });
+    return percentiles(masses, grid, axis, fractions);
+  }
 
 
   template <int dim>
   double stress_oscillation(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid)
   {
-    const auto &mesh = grid.triangulation();
-    std::vector<Moments<dim>> moments(mesh.n_active_cells());
-    const auto scaled = [&](const Point<dim> &x) { return Point<dim>((x - grid.lower_corner()) / grid.cell_size()); };
-
+    Views<dim> stresses;
     for (const auto &phase : phases)
-      for (const auto &cell : phase.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          moments[cell.cell].add(
-              scaled(cell.location[p]),
-              mean_effective_stress(cell.properties + p * phase.points.stride() + phase.layout.stress));
-
-    using Cell = typename Triangulation<dim>::active_cell_iterator;
-    GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
-        mesh,
-        [&](const Cell &cell) { return std_cxx17::optional<Moments<dim>>(moments[cell->active_cell_index()]); },
-        [&](const Cell &cell, const Moments<dim> &value) { moments[cell->active_cell_index()] = value; });
-
-    // The linear fit around each owned cell that holds points.
-    std::vector<Vector<double>> fits(mesh.n_active_cells());
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned() && moments[cell->active_cell_index()].matrix[0] > 0)
-        {
-          std::vector<Cell> patch{ cell };
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int i = 0, n = patch.size(); i < n; ++i)
-              for (const unsigned int face : { 2 * a, 2 * a + 1 })
-                if (const auto near = patch[i]; !near->at_boundary(face))
-                  patch.push_back(near->neighbor(face));
-          Moments<dim> sum;
-          for (const auto &near : patch)
-            sum += moments[near->active_cell_index()];
-          fits[cell->active_cell_index()] = fit(sum);
-        }
-
-    std::vector<double> sums{ 0, 0, 0 }; // points, P, squared residual
-    for (const auto &phase : phases)
-      for (const auto &cell : phase.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          {
-            const double pressure =
-                mean_effective_stress(cell.properties + p * phase.points.stride() + phase.layout.stress);
-            const auto &coefficients = fits[cell.cell];
-            const auto x             = scaled(cell.location[p]);
-            double residual          = pressure - coefficients[0];
-            for (unsigned int a = 0; a < dim; ++a)
-              residual -= coefficients[a + 1] * x[a];
-            sums[0] += 1;
-            sums[1] += pressure;
-            sums[2] += residual * residual;
-          }
-    Utilities::MPI::sum(sums, mesh.get_communicator(), sums);
-    return sums[1] > 0 ? std::sqrt(sums[2] / sums[0]) / (sums[1] / sums[0]) : 0.;
+      stresses.push_back({ phase.points, phase.layout.stress });
+    return oscillation(stresses, grid, [](const double *stress) { return mean_effective_stress(stress); });
   }
 
 
   template <int dim>
-  double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases, const MPI_Comm communicator)
+  double pressure_oscillation(const std::list<WaterPhase<dim>> &water, const BackgroundGrid<dim> &grid)
   {
-    std::vector<double> energies{ 0, 0 };
-    for (const auto &phase : phases)
-      for (const auto &cell : phase.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          {
-            const double *properties = cell.properties + p * phase.points.stride();
-            const double mass        = properties[phase.layout.mass];
-            for (unsigned int a = 0; a < dim; ++a)
-              energies[0] += 0.5 * mass * Utilities::fixed_power<2>(properties[phase.layout.velocity + a]);
-            energies[1] +=
-                mass / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
-          }
-    Utilities::MPI::sum(energies, communicator, energies);
-    return energies[1] > 0 ? energies[0] / energies[1] : std::numeric_limits<double>::infinity();
+    Views<dim> pressures;
+    for (const auto &one : water)
+      pressures.push_back({ one.points(), one.layout.pressure });
+    return oscillation(pressures, grid, [](const double *pressure) { return *pressure; });
   }
 
-  template double kinetic_to_elastic_energy(const std::list<Phase<2>> &, const MPI_Comm);
-  template double kinetic_to_elastic_energy(const std::list<Phase<3>> &, const MPI_Comm);
+
+  template <int dim>
+  double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases,
+                                   const std::list<WaterPhase<dim>> &water,
+                                   const MPI_Comm communicator)
+  {
+    const PointSums<dim> sums(phases, water, Tensor<1, dim>(), communicator);
+    return sums.elastic > 0 ? sums.kinetic / sums.elastic : std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  WaterMeasures measure_water(const std::list<Phase<dim>> &phases,
+                              const std::list<WaterPhase<dim>> &water,
+                              const BackgroundGrid<dim> &grid)
+  {
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const double cell_volume    = Utilities::fixed_power<dim>(grid.cell_size());
+    std::vector<double> sums(5, 0.); // water points, water mass, that outside soil, overfull volume, volume
+    for (const CellContents &cell : contents_of_cells(phases, water, grid))
+      {
+        const double volume = cell.grain_volume + cell.water_volume;
+        sums[0] += cell.n_water_points;
+        sums[1] += cell.water_mass;
+        sums[2] += cell.n_soil_points == 0 ? cell.water_mass : 0.;
+        sums[3] += std::max(0., volume - cell_volume);
+        sums[4] += volume;
+      }
+    Utilities::MPI::sum(sums, communicator, sums);
+
+    std::vector<double> largest(2, -std::numeric_limits<double>::infinity()); // -p, p
+    for (const auto &one : water)
+      for_each_point<dim>({ { one.points(), one.layout.pressure } },
+                          [&](const unsigned int, const Point<dim> &, const double *pressure) {
+                            largest[0] = std::max(largest[0], -*pressure);
+                            largest[1] = std::max(largest[1], *pressure);
+                          });
+    Utilities::MPI::max(largest, communicator, largest);
+
+    WaterMeasures measures;
+    measures.n_points          = sums[0];
+    measures.mass              = sums[1];
+    measures.mass_outside_soil = sums[2];
+    measures.smallest_pressure = sums[0] > 0 ? -largest[0] : 0.;
+    measures.largest_pressure  = sums[0] > 0 ? largest[1] : 0.;
+    measures.volume_error      = sums[4] > 0 ? sums[3] / sums[4] : 0.;
+    return measures;
+  }
+
   template double deviatoric_stress<2>(const double *);
-  template double deviatoric_stress<3>(const double *);
   template std::vector<double> mass_percentiles(const std::list<Phase<2>> &,
                                                 const BackgroundGrid<2> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
+  template std::vector<double> mass_percentiles(const std::list<WaterPhase<2>> &,
+                                                const BackgroundGrid<2> &,
+                                                const unsigned int,
+                                                const std::vector<double> &);
+  template double
+  kinetic_to_elastic_energy(const std::list<Phase<2>> &, const std::list<WaterPhase<2>> &, const MPI_Comm);
+  template double stress_oscillation(const std::list<Phase<2>> &, const BackgroundGrid<2> &);
+  template double pressure_oscillation(const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  template WaterMeasures
+  measure_water(const std::list<Phase<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+
+  template double deviatoric_stress<3>(const double *);
   template std::vector<double> mass_percentiles(const std::list<Phase<3>> &,
                                                 const BackgroundGrid<3> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
-  template double stress_oscillation(const std::list<Phase<2>> &, const BackgroundGrid<2> &);
+  template std::vector<double> mass_percentiles(const std::list<WaterPhase<3>> &,
+                                                const BackgroundGrid<3> &,
+                                                const unsigned int,
+                                                const std::vector<double> &);
+  template double
+  kinetic_to_elastic_energy(const std::list<Phase<3>> &, const std::list<WaterPhase<3>> &, const MPI_Comm);
   template double stress_oscillation(const std::list<Phase<3>> &, const BackgroundGrid<3> &);
+  template double pressure_oscillation(const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  template WaterMeasures
+  measure_water(const std::list<Phase<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
 } // namespace scree

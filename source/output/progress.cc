@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/output/progress.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -52,17 +53,22 @@ namespace scree
   }
 
 
-  void Progress::summarise(const TimerOutput &parts, const double point_updates, const unsigned int n_ranks)
+  void Progress::summarise(const TimerOutput &parts,
+                           const double point_updates,
+                           const unsigned int n_ranks,
+                           const std::string &point)
   {
     if (point_updates <= 0)
       return;
-    const double total = clock.wall_time();
-    const double to_ns = 1e9 * n_ranks / point_updates;
-    const auto seconds = parts.get_summary_data(TimerOutput::total_wall_time);
-    double accounted   = 0;
-    folder.log(format("%-34s %10s %8s %22s", "part", "seconds", "share", "ns per point and step"));
+    const double total            = clock.wall_time();
+    const double to_ns            = 1e9 * n_ranks / point_updates;
+    const auto seconds            = parts.get_summary_data(TimerOutput::total_wall_time);
+    double accounted              = 0;
+    const std::string last_column = "ns per " + point + " and step";
+    const int width               = std::max<int>(22, last_column.size());
+    folder.log(format("%-34s %10s %8s %*s", "part", "seconds", "share", width, last_column.c_str()));
     const auto line = [&](const std::string &name, const double s) {
-      folder.log(format("%-34s %10.2f %6.1f %% %22.1f", name.c_str(), s, 100 * s / total, s * to_ns));
+      folder.log(format("%-34s %10.2f %6.1f %% %*.1f", name.c_str(), s, 100 * s / total, width, s * to_ns));
     };
     for (const auto &[name, s] : seconds)
       {

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iomanip>
 
@@ -25,76 +26,30 @@ namespace scree
   template <int dim>
   RunTotals<dim> RunTotals<dim>::sum_over_ranks(const MPI_Comm communicator) const
   {
-    RunTotals total = *this;
-    const auto sum  = [&](auto &value) { value = Utilities::MPI::sum(value, communicator); };
-    sum(total.balance.wall_impulse);
-    sum(total.balance.body_impulse);
-    sum(total.lost_momentum);
-    for (double *value : { &total.balance.wall_dissipation,
-                           &total.plastic_dissipation,
-                           &total.lost_mass,
-                           &total.lost_energy,
-                           &total.n_lost,
-                           &total.n_updates,
-                           &total.n_substeps,
-                           &total.n_fallbacks,
-                           &total.n_vertices,
-                           &total.n_unresolved })
-      sum(*value);
+    RunTotals total           = *this;
+    StepBalance<dim> &balance = total.balance;
+    std::vector<double *> values{
+      &balance.wall_dissipation, &balance.drag_dissipation,  &balance.load_work, &balance.n_solves,
+      &balance.n_iterations,     &balance.n_preconditioners, &total.lost_mass,   &total.lost_water_mass,
+      &total.lost_energy,        &total.plastic_dissipation, &total.n_lost,      &total.n_updates,
+      &total.n_substeps,         &total.n_fallbacks,         &total.n_vertices,  &total.n_unresolved
+    };
+    for (Tensor<1, dim> *vector : { &balance.wall_impulse,
+                                    &balance.body_impulse,
+                                    &balance.pressure_impulse,
+                                    &balance.load_impulse,
+                                    &total.lost_momentum })
+      for (unsigned int a = 0; a < dim; ++a)
+        values.push_back(&(*vector)[a]);
+
+    std::vector<double> sums; // one message for all
+    for (const double *value : values)
+      sums.push_back(*value);
+    Utilities::MPI::sum(sums, communicator, sums);
+    for (unsigned int i = 0; i < values.size(); ++i)
+      *values[i] = sums[i];
     return total;
   }
-
-
-  namespace
-  {
-    /// Sums over all points of all ranks.
-    template <int dim>
-    struct PointSums
-    {
-      double points = 0, mass = 0, kinetic = 0, potential = 0, elastic = 0, pressure = 0;
-      Tensor<1, dim> momentum;
-      double largest_pressure = 0, height;
-
-      PointSums(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid, const Tensor<1, dim> &gravity)
-          : height(grid.lower_corner()[dim - 1])
-      {
-        for (const auto &phase : phases)
-          for (const auto &cell : phase.points.cells())
-            for (unsigned int p = 0; p < cell.n_points; ++p)
-              add(phase, cell.location[p], cell.properties + p * phase.points.stride(), gravity);
-
-        std::vector<double> sums{ points, mass, kinetic, potential, elastic, pressure };
-        for (unsigned int a = 0; a < dim; ++a)
-          sums.push_back(momentum[a]);
-        const MPI_Comm communicator = grid.triangulation().get_communicator();
-        Utilities::MPI::sum(sums, communicator, sums);
-        points = sums[0], mass = sums[1], kinetic = sums[2], potential = sums[3], elastic = sums[4];
-        pressure = sums[5];
-        for (unsigned int a = 0; a < dim; ++a)
-          momentum[a] = sums[6 + a];
-        largest_pressure = Utilities::MPI::max(largest_pressure, communicator);
-        height           = Utilities::MPI::max(height, communicator);
-      }
-
-    private:
-      void add(const Phase<dim> &phase, const Point<dim> &x, const double *properties, const Tensor<1, dim> &gravity)
-      {
-        const double m = properties[phase.layout.mass];
-        const Tensor<1, dim> v(
-            make_array_view(properties + phase.layout.velocity, properties + phase.layout.velocity + dim));
-        const double P = mean_effective_stress(properties + phase.layout.stress);
-        points += 1;
-        mass += m;
-        momentum += m * v;
-        kinetic += 0.5 * m * v.norm_square();
-        potential -= m * (gravity * (x - Point<dim>()));
-        elastic += m / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
-        pressure += P;
-        largest_pressure = std::max(largest_pressure, P);
-        height           = std::max(height, x[dim - 1]);
-      }
-    };
-  } // namespace
 
 
   template <int dim>
@@ -117,6 +72,7 @@ namespace scree
 
   template <int dim>
   void Statistics<dim>::collect(const std::list<Phase<dim>> &phases,
+                                const std::list<WaterPhase<dim>> &water,
                                 const RunTotals<dim> &local,
                                 const double time,
                                 const unsigned long long step,
@@ -124,10 +80,12 @@ namespace scree
                                 const UpdateReport &last_step)
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const PointSums<dim> now(phases, grid, gravity);
+    const PointSums<dim> now(phases, water, gravity, communicator);
 
-    const RunTotals<dim> totals  = local.sum_over_ranks(communicator);
-    const Tensor<1, dim> impulse = totals.balance.wall_impulse + totals.balance.body_impulse - totals.lost_momentum;
+    const RunTotals<dim> totals     = local.sum_over_ranks(communicator);
+    const StepBalance<dim> &balance = totals.balance;
+    const Tensor<1, dim> impulse    = balance.wall_impulse + balance.body_impulse + balance.pressure_impulse +
+                                   balance.load_impulse - totals.lost_momentum;
 
     const double energy = now.kinetic + now.potential + now.elastic;
     if (!has_start)
@@ -141,8 +99,8 @@ namespace scree
     add("Time (s)", time);
     add("Step", step);
     add("Time step (s)", time_step);
-    add("Points", now.points);
-    add("Mass (kg)", now.mass);
+    add("Points", now.soil_points);
+    add("Mass (kg)", now.soil_mass);
     for (unsigned int a = 0; a < dim; ++a)
       add(std::string("Momentum ") + "xyz"[a] + " (N s)", now.momentum[a]);
     add("Momentum residual (N s)", (now.momentum - start_momentum - impulse).norm());
@@ -150,24 +108,84 @@ namespace scree
     add("Potential energy (J)", now.potential);
     add("Elastic energy (J)", now.elastic);
     add("Plastic dissipation (J)", totals.plastic_dissipation);
-    add("Wall dissipation (J)", totals.balance.wall_dissipation);
+    add("Wall dissipation (J)", balance.wall_dissipation);
     add("Numerical dissipation (J)",
-        start_energy - energy - totals.plastic_dissipation - totals.balance.wall_dissipation - totals.lost_energy);
+        start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.drag_dissipation -
+            totals.lost_energy + balance.load_work);
+    if (!phases.empty())
+      add_soil_columns(phases, now, totals, last_step);
+    add("Points lost", totals.n_lost);
+    add("Mass lost (kg)", totals.lost_mass);
+    if (!water.empty())
+      add_water_columns(phases, water, now, totals, step);
+    add_load_column(balance);
+  }
+
+
+  template <int dim>
+  void Statistics<dim>::add_soil_columns(const std::list<Phase<dim>> &phases,
+                                         const PointSums<dim> &now,
+                                         const RunTotals<dim> &totals,
+                                         const UpdateReport &last_step)
+  {
     const auto front = mass_percentiles(phases, grid, 0, { 0.90, 0.99, 0.995 });
     add("Front 90 % (m)", front[0]);
     add("Front 99 % (m)", front[1]);
     add("Front 99.5 % (m)", front[2]);
-    add("Height (m)", now.height);
+    add("Height (m)", std::max(now.height, grid.lower_corner()[dim - 1]));
     add("Stress oscillation (-)", stress_oscillation(phases, grid));
-    add("Mean P (Pa)", now.points > 0 ? now.pressure / now.points : 0.);
+    add("Mean P (Pa)", now.soil_points > 0 ? now.pressure / now.soil_points : 0.);
     add("Largest P (Pa)", now.largest_pressure);
-    add("Separated points", Utilities::MPI::sum(double(last_step.n_separated), communicator));
+    add("Separated points",
+        Utilities::MPI::sum(double(last_step.n_separated), grid.triangulation().get_communicator()));
     add("Substeps per update", totals.n_updates > 0 ? totals.n_substeps / totals.n_updates : 0.);
     add("Fallbacks", totals.n_fallbacks);
     add("Vertices", totals.n_vertices);
     add("Unresolved", totals.n_unresolved);
-    add("Points lost", totals.n_lost);
-    add("Mass lost (kg)", totals.lost_mass);
+  }
+
+
+  template <int dim>
+  void Statistics<dim>::add_water_columns(const std::list<Phase<dim>> &phases,
+                                          const std::list<WaterPhase<dim>> &water,
+                                          const PointSums<dim> &now,
+                                          const RunTotals<dim> &totals,
+                                          const unsigned long long step)
+  {
+    const WaterMeasures measures = measure_water(phases, water, grid);
+    add("Water points", measures.n_points);
+    add("Water mass (kg)", measures.mass);
+    add("Water outside soil (kg)", measures.mass_outside_soil);
+    add("Water lost (kg)", totals.lost_water_mass);
+    add("Smallest p (Pa)", measures.smallest_pressure);
+    add("Largest p (Pa)", measures.largest_pressure);
+    add("p oscillation (-)", pressure_oscillation(water, grid));
+    add("Volume error (-)", measures.volume_error);
+    const auto front = mass_percentiles(water, grid, 0, { 0.90, 0.99, 0.995 });
+    add("Water front 90 % (m)", front[0]);
+    add("Water front 99 % (m)", front[1]);
+    add("Water front 99.5 % (m)", front[2]);
+    if (!phases.empty())
+      add("Largest porosity (-)", now.largest_porosity);
+    add("Drag dissipation (J)", totals.balance.drag_dissipation);
+
+    const double iterations = totals.balance.n_iterations;
+    add("CG iterations per step",
+        step > step_of_last_row ? (iterations - iterations_at_last_row) / (step - step_of_last_row) : 0.);
+    add("Preconditioners built", totals.balance.n_preconditioners);
+    step_of_last_row       = step;
+    iterations_at_last_row = iterations;
+  }
+
+
+  template <int dim>
+  void Statistics<dim>::add_load_column(const StepBalance<dim> &balance)
+  {
+    has_load = has_load || balance.load_work != 0 || balance.load_impulse.norm_square() > 0;
+    if (!has_load)
+      return;
+    table.set_auto_fill_mode(true); // the rows before the load's first step hold 0
+    add("Load work (J)", balance.load_work);
   }
 
 

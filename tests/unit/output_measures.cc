@@ -4,6 +4,7 @@
 
 #include <scree/material/table.h>
 #include <scree/output/measures.h>
+#include <scree/output/point_sums.h>
 #include <scree/points/seeding.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,6 +20,7 @@ struct Scene
 {
   BackgroundGrid<dim> grid;
   std::list<Phase<dim>> phases;
+  std::list<WaterPhase<dim>> water;
 
   static GridParameters box()
   {
@@ -47,6 +49,42 @@ struct Scene
                             grid.mapping());
         seed(phases.back(), seeding, grid.triangulation(), grid.cell_size());
       }
+  }
+
+  /// Water with 2^dim points in each cell whose middle is in the region; it fills `part` of these cells.
+  void add_water(const std::string &region, const double part)
+  {
+    const Region<dim> where("water", region);
+    if (water.empty())
+      water.emplace_back(1000., false, grid.triangulation(), grid.mapping());
+    auto &set                = water.back();
+    constexpr unsigned int n = 1 << dim;
+    std::vector<double> properties(set.points().stride(), 0.);
+    properties[set.layout.volume] = part * std::pow(grid.cell_size(), dim) / n;
+    properties[set.layout.mass]   = set.density * properties[set.layout.volume];
+    types::particle_index id      = 0; // of one rank only: nobody asks
+    for (const auto &cell : grid.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && where.contains(cell->center()))
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            Point<dim> reference;
+            for (unsigned int a = 0; a < dim; ++a)
+              reference[a] = (i >> a) & 1 ? 0.75 : 0.25;
+            const Point<dim> location = cell->vertex(0) + grid.cell_size() * reference;
+            set.points().handler().insert_particle(location, reference, id++, cell, properties);
+          }
+    set.points().handler().update_cached_numbers();
+    set.points().sort();
+  }
+
+  /// Gives the water points the pressure of their place.
+  template <typename Pressure>
+  void set_water_pressure(const Pressure &pressure)
+  {
+    for (auto &one : water)
+      for (const auto &cell : one.points().cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          cell.properties[p * one.points().stride() + one.layout.pressure] = pressure(cell.location[p]);
   }
 
   /// Gives the points the pressure of their place, and shear and stress deviators that must not matter.
@@ -154,6 +192,116 @@ void test_invariants(std::ostream &out)
   out << dim << "D invariants: OK" << std::endl;
 }
 
+void expect(const double value, const double expected, const double tolerance, const std::string &what)
+{
+  AssertThrow(
+      std::abs(value - expected) <= tolerance,
+      ExcMessage(what + " is " + Utilities::to_string(value) + " instead of " + Utilities::to_string(expected)));
+}
+
+/// Soil in 0 < x < 0.4, which is all grains, and water that reaches from its middle to x = 0.6.
+template <int dim>
+void test_water(std::ostream &out)
+{
+  Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
+  WaterMeasures dry = measure_water(scene.phases, scene.water, scene.grid);
+  expect(dry.mass + dry.largest_pressure + dry.volume_error, 0., 0., "water of a dry scene");
+
+  scene.add_water("x > 0.2 && x < 0.6 && y < 0.3", 0.8);
+  scene.set_water_pressure([](const Point<dim> &x) { return 1000. * (x[0] - x[1]); });
+  const WaterMeasures wet = measure_water(scene.phases, scene.water, scene.grid);
+  const double column     = 0.6 * std::pow(1.2, dim - 2); // m, times a width in x: a volume
+  expect(wet.n_points, std::pow(2., dim) * 0.4 * column / std::pow(0.1, dim), 1e-6, "number of water points");
+  expect(wet.mass, 800. * 0.4 * column, 1e-8, "water mass");
+  expect(wet.mass_outside_soil, 800. * 0.2 * column, 1e-8, "water outside soil");
+  expect(wet.smallest_pressure, 1000. * (0.225 - 0.275), 1e-8, "smallest p");
+  expect(wet.largest_pressure, 1000. * (0.575 + 0.275), 1e-8, "largest p");
+  // Two columns of cells hold all grains and 0.8 of water.
+  const double error = 0.8 * 0.2 / (0.4 + 0.8 * 0.4);
+  expect(wet.volume_error, error, 1e-10, "volume error");
+  expect(mass_percentiles(scene.water, scene.grid, 0, { 0.5 })[0], 0.375, 1e-9, "middle of the water");
+
+  // The second time the free cells overflow, too.
+  scene.add_water("x > 0.2 && x < 0.6 && y < 0.3", 1.2);
+  expect(measure_water(scene.phases, scene.water, scene.grid).volume_error,
+         (2. * 0.2 + 1. * 0.2) / (0.4 + 2. * 0.4),
+         1e-10,
+         "volume error of doubly filled cells");
+  out << dim << "D water: outside soil " << wet.mass_outside_soil / wet.mass << ", volume error " << wet.volume_error
+      << std::endl;
+}
+
+/// Of p as of P; without soil.
+template <int dim>
+void test_pressure_oscillation(std::ostream &out)
+{
+  Scene<dim> scene({});
+  expect(pressure_oscillation(scene.water, scene.grid), 0., 0., "oscillation of no water");
+  scene.add_water("x > -0.1 && y < 0.5", 1.);
+  scene.set_water_pressure([](const Point<dim> &x) { return 5000 - 3000 * x[0] + 2000 * x[1]; });
+  expect(pressure_oscillation(scene.water, scene.grid), 0., 1e-10, "oscillation of a linear p");
+
+  scene.set_water_pressure([](const Point<dim> &x) {
+    long sum = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      sum += std::lround((x[a] + 0.3) / 0.05 - 0.5);
+    return 1. + (sum % 2 ? 1. : -1.);
+  });
+  expect(pressure_oscillation(scene.water, scene.grid), 1., 1e-10, "oscillation of a checkerboard");
+  expect(stress_oscillation(scene.phases, scene.grid), 0., 0., "oscillation of no soil");
+  expect(mass_percentiles(scene.phases, scene.grid, 0, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
+  out << dim << "D oscillation of p: OK" << std::endl;
+}
+
+/// Soil at 2 m/s that carries water at 3 m/s, single-point.
+template <int dim>
+void test_carried_water(std::ostream &out)
+{
+  Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
+  MaterialParameters material;
+  material.law               = "linear elastic";
+  const unsigned int n_water = WaterLayout<dim>(0, true).n_properties();
+  scene.phases.emplace_back("Wet",
+                            1000.,
+                            2000.,
+                            make_material<dim>(material),
+                            PropertyLayout<dim>(0, false, n_water),
+                            scene.grid.triangulation(),
+                            scene.grid.mapping());
+  Phase<dim> &soil = scene.phases.back();
+  SeedingParameters seeding;
+  seeding.region          = "x > 0.5 && x < 0.8 && y < 0.3";
+  seeding.points_per_cell = 2;
+  seed(soil, seeding, scene.grid.triangulation(), scene.grid.cell_size());
+  scene.water.emplace_back(1000., true, soil);
+  const WaterPhase<dim> &water = scene.water.back();
+  for (const auto &cell : soil.points.cells())
+    for (unsigned int p = 0; p < cell.n_points; ++p)
+      {
+        double *properties                        = cell.properties + p * soil.points.stride();
+        properties[soil.layout.velocity]          = 2.;
+        properties[water.layout.velocity]         = 3.;
+        properties[water.layout.volume]           = 0.5 * properties[soil.layout.volume];
+        properties[water.layout.mass]             = 1000. * properties[water.layout.volume];
+        properties[soil.layout.left_cauchy_green] = 1.1;
+      }
+  const WaterMeasures wet = measure_water(scene.phases, scene.water, scene.grid);
+  const double volume     = 0.3 * 0.6 * std::pow(1.2, dim - 2);
+  expect(wet.mass, 500. * volume, 1e-8, "mass of carried water");
+  expect(wet.mass_outside_soil, 0., 0., "carried water outside soil");
+  expect(wet.volume_error, 0., 1e-12, "volume error of full pores");
+
+  const PointSums<dim> sums(scene.phases, scene.water, Tensor<1, dim>(), MPI_COMM_WORLD);
+  expect(sums.momentum[0], (1000. * 2. + 500. * 3.) * volume, 1e-8, "momentum of soil and water");
+  expect(sums.kinetic, 0.5 * (1000. * 4. + 500. * 9.) * volume, 1e-8, "kinetic energy of soil and water");
+  expect(sums.largest_porosity, 0.5, 1e-12, "porosity");
+  expect(kinetic_to_elastic_energy(scene.phases, scene.water, MPI_COMM_WORLD) * sums.elastic / sums.kinetic,
+         1.,
+         1e-12,
+         "ratio of the energies");
+  out << dim << "D carried water: OK" << std::endl;
+}
+
 
 int main(int argc, char *argv[])
 {
@@ -168,4 +316,10 @@ int main(int argc, char *argv[])
   test_oscillation<3>(out);
   test_tie<2>(out);
   test_tie<3>(out);
+  test_water<2>(out);
+  test_water<3>(out);
+  test_pressure_oscillation<2>(out);
+  test_pressure_oscillation<3>(out);
+  test_carried_water<2>(out);
+  test_carried_water<3>(out);
 }

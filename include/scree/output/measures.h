@@ -4,6 +4,7 @@
 
 #include <scree/grid/background_grid.h>
 #include <scree/points/phase.h>
+#include <scree/points/water_phase.h>
 
 #include <list>
 #include <vector>
@@ -27,14 +28,44 @@ namespace scree
                                        const unsigned int axis,
                                        const std::vector<double> &fractions);
 
-  /// Kinetic over elastic energy of all phases; infinite without elastic energy. Collective.
+  /// The same of the mass of the water. Collective.
   template <int dim>
-  double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases, const MPI_Comm communicator);
+  std::vector<double> mass_percentiles(const std::list<WaterPhase<dim>> &water,
+                                       const BackgroundGrid<dim> &grid,
+                                       const unsigned int axis,
+                                       const std::vector<double> &fractions);
+
+  /// Kinetic energy of soil and water over elastic energy of the soil; infinite without elastic energy. Collective.
+  template <int dim>
+  double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases,
+                                   const std::list<WaterPhase<dim>> &water,
+                                   const MPI_Comm communicator);
 
   /// Oscillation of P: the rms, over the points of all phases, of P minus a linear fit of P over the 3^dim cells around
   /// the point's cell, over the mean of P. 0 where the soil bears no stress. Collective.
   template <int dim>
   double stress_oscillation(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid);
+
+  /// The same of the pore pressure at the water points. 0 unless its mean is positive. Collective.
+  template <int dim>
+  double pressure_oscillation(const std::list<WaterPhase<dim>> &water, const BackgroundGrid<dim> &grid);
+
+  /// What the statistics say of the water of all ranks (2D: per m).
+  struct WaterMeasures
+  {
+    double n_points          = 0;
+    double mass              = 0; ///< kg
+    double mass_outside_soil = 0; ///< in cells without soil points, kg
+    double smallest_pressure = 0; ///< p of points, Pa
+    double largest_pressure  = 0; ///< Pa
+    double volume_error      = 0; ///< grains and water beyond their cells' volume, over all grains and water
+  };
+
+  /// Collective.
+  template <int dim>
+  WaterMeasures measure_water(const std::list<Phase<dim>> &phases,
+                              const std::list<WaterPhase<dim>> &water,
+                              const BackgroundGrid<dim> &grid);
 } // namespace scree
 
 #endif

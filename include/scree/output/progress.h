@@ -20,7 +20,11 @@ namespace scree
     /// Writes the table of seconds by part, and ns per point and step.
     /// @param parts timed sections of this rank
     /// @param point_updates points times steps, of all ranks
-    void summarise(const dealii::TimerOutput &parts, const double point_updates, const unsigned int n_ranks);
+    /// @param point what is counted as one: "soil or water point" where there is water
+    void summarise(const dealii::TimerOutput &parts,
+                   const double point_updates,
+                   const unsigned int n_ranks,
+                   const std::string &point = "point");
 
   private:
     RunFolder &folder;

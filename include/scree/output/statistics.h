@@ -3,6 +3,7 @@
 #define scree_output_statistics_h
 
 #include <scree/output/measures.h>
+#include <scree/output/point_sums.h>
 #include <scree/scheme/step_balance.h>
 
 #include <deal.II/base/table_handler.h>
@@ -16,8 +17,9 @@ namespace scree
   struct RunTotals
   {
     StepBalance<dim> balance;
-    dealii::Tensor<1, dim> lost_momentum; ///< of points that left through an open wall, N s
-    double lost_mass           = 0;       ///< kg
+    dealii::Tensor<1, dim> lost_momentum; ///< of soil and water points that left through an open wall, N s
+    double lost_mass           = 0;       ///< of soil, kg
+    double lost_water_mass     = 0;       ///< kg
     double lost_energy         = 0;       ///< kinetic and potential, J
     double plastic_dissipation = 0;       ///< J
 
@@ -33,7 +35,7 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &balance;
-      archive &plastic_dissipation &lost_mass &lost_energy &lost_momentum &n_lost;
+      archive &plastic_dissipation &lost_mass &lost_water_mass &lost_energy &lost_momentum &n_lost;
       archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
     }
   };
@@ -45,8 +47,10 @@ namespace scree
   public:
     Statistics(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity);
 
-    /// Appends a row. Collective.
+    /// Appends a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
+    /// A surface load adds its work from the row on that finds it at work. Collective.
     void collect(const std::list<Phase<dim>> &phases,
+                 const std::list<WaterPhase<dim>> &water,
                  const RunTotals<dim> &totals,
                  const double time,
                  const unsigned long long step,
@@ -63,9 +67,20 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &table &has_start &start_momentum &start_energy &last_row;
+      archive &has_load &step_of_last_row &iterations_at_last_row;
     }
 
   private:
+    void add_soil_columns(const std::list<Phase<dim>> &phases,
+                          const PointSums<dim> &now,
+                          const RunTotals<dim> &totals,
+                          const UpdateReport &last_step);
+    void add_water_columns(const std::list<Phase<dim>> &phases,
+                           const std::list<WaterPhase<dim>> &water,
+                           const PointSums<dim> &now,
+                           const RunTotals<dim> &totals,
+                           const unsigned long long step);
+    void add_load_column(const StepBalance<dim> &balance);
     void add(const std::string &column, const double value);
 
     const BackgroundGrid<dim> &grid;
@@ -73,7 +88,10 @@ namespace scree
     dealii::TableHandler table;
     bool has_start = false;
     dealii::Tensor<1, dim> start_momentum;
-    double start_energy = 0;
+    double start_energy                 = 0;
+    bool has_load                       = false;
+    unsigned long long step_of_last_row = 0;
+    double iterations_at_last_row       = 0;
     std::vector<std::pair<std::string, double>> last_row;
   };
 } // namespace scree

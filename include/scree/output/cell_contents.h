@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_cell_contents_h
+#define scree_output_cell_contents_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/points/phase.h>
+#include <scree/points/water_phase.h>
+
+#include <list>
+#include <vector>
+
+namespace scree
+{
+  /// Porosity of a soil point: 1 - m/(rho_s V).
+  template <int dim>
+  double porosity(const Phase<dim> &phase, const double *properties)
+  {
+    return 1. - properties[phase.layout.mass] / (phase.grain_density * properties[phase.layout.volume]);
+  }
+
+  /// Sums over the points of one cell (2D: per m).
+  struct CellContents
+  {
+    unsigned int n_soil_points = 0, n_water_points = 0;
+    double soil_mass     = 0; ///< kg
+    double soil_volume   = 0; ///< with pores, m^3
+    double grain_volume  = 0; ///< m^3
+    double soil_pressure = 0; ///< volume times P, J
+    double water_mass    = 0; ///< kg
+    double water_volume  = 0; ///< m^3
+
+    bool is_empty() const
+    {
+      return n_soil_points == 0 && n_water_points == 0;
+    }
+
+    /// Of the soil; 1 without soil.
+    double porosity() const
+    {
+      return soil_volume > 0 ? 1. - grain_volume / soil_volume : 1.;
+    }
+
+    /// Water volume over pore volume, at most 1; without soil the whole cell, m^3, is pore.
+    double saturation(const double cell_volume) const;
+  };
+
+  /// What the cells of this rank hold, by active cell index; other ranks' cells are empty.
+  template <int dim>
+  std::vector<CellContents> contents_of_cells(const std::list<Phase<dim>> &phases,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid);
+} // namespace scree
+
+#endif

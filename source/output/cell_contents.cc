@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/output/cell_contents.h>
+
+#include <scree/output/measures.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  double CellContents::saturation(const double cell_volume) const
+  {
+    const double pores = n_soil_points > 0 ? soil_volume - grain_volume : cell_volume;
+    if (pores <= 0) // soil crushed to its grains: what water there is overflows
+      return water_volume > 0 ? 1. : 0.;
+    return std::min(1., water_volume / pores);
+  }
+
+
+  template <int dim>
+  std::vector<CellContents> contents_of_cells(const std::list<Phase<dim>> &phases,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid)
+  {
+    std::vector<CellContents> contents(grid.triangulation().n_active_cells());
+    for (const auto &phase : phases)
+      for (const auto &cell : phase.points.cells())
+        {
+          CellContents &sums = contents[cell.cell];
+          sums.n_soil_points += cell.n_points;
+          for (unsigned int p = 0; p < cell.n_points; ++p)
+            {
+              const double *properties = cell.properties + p * phase.points.stride();
+              const double volume      = properties[phase.layout.volume];
+              sums.soil_mass += properties[phase.layout.mass];
+              sums.soil_volume += volume;
+              sums.grain_volume += properties[phase.layout.mass] / phase.grain_density;
+              sums.soil_pressure += volume * mean_effective_stress(properties + phase.layout.stress);
+            }
+        }
+    for (const auto &one : water)
+      for (const auto &cell : one.points().cells())
+        {
+          CellContents &sums = contents[cell.cell];
+          sums.n_water_points += cell.n_points;
+          for (unsigned int p = 0; p < cell.n_points; ++p)
+            {
+              const double *properties = cell.properties + p * one.points().stride();
+              sums.water_mass += properties[one.layout.mass];
+              sums.water_volume += properties[one.layout.volume];
+            }
+        }
+    return contents;
+  }
+
+  template std::vector<CellContents>
+  contents_of_cells(const std::list<Phase<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  template std::vector<CellContents>
+  contents_of_cells(const std::list<Phase<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+} // namespace scree

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/output/graphics.h>
+#include <scree/output/measures.h>
+#include <scree/output/patch_output.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A new point of the output; put() fills its rows one after the other.
+    template <int dim>
+    class Rows
+    {
+    public:
+      Rows(PatchOutput<0, dim> &output, const Point<dim> &location)
+          : patch(output.patches.emplace_back())
+      {
+        patch.vertices[0] = location;
+        patch.patch_index = output.patches.size() - 1;
+        patch.data.reinit(output.names.size(), 1);
+      }
+
+      void put(const double value)
+      {
+        patch.data(row++, 0) = value;
+      }
+      void put(const Tensor<1, dim> &vector)
+      {
+        for (unsigned int a = 0; a < dim; ++a)
+          put(vector[a]);
+      }
+      void set(const unsigned int any_row, const double value)
+      {
+        patch.data(any_row, 0) = value;
+      }
+
+    private:
+      typename PatchOutput<0, dim>::Patch &patch;
+      unsigned int row = 0;
+    };
+
+    template <int dim>
+    Tensor<1, dim> vector_of(const double *components)
+    {
+      return Tensor<1, dim>(make_array_view(components, components + dim));
+    }
+
+    template <int dim>
+    void put_state(Rows<dim> &rows, const Phase<dim> &phase, const double *properties, const unsigned int body)
+    {
+      const double *stress = properties + phase.layout.stress;
+      rows.put(vector_of<dim>(properties + phase.layout.velocity));
+      // plane strain: no out-of-plane shear
+      const double xy = stress[3], xz = dim == 3 ? stress[dim + 1] : 0., yz = dim == 3 ? stress[dim + 2] : 0.;
+      for (const double value : { stress[0], xy, xz, xy, stress[1], yz, xz, yz, stress[2] })
+        rows.put(value);
+      const double P = mean_effective_stress(stress), q = deviatoric_stress<dim>(stress);
+      rows.put(P);
+      rows.put(q);
+      rows.put(P > 0 ? q / P : 0.);
+      rows.put(properties[phase.layout.mass]);
+      rows.put(properties[phase.layout.volume]);
+      rows.put(body);
+    }
+
+    /// The law's internal variables and derived fields of all bodies: each name has one row, whichever body's it is.
+    template <int dim>
+    class LawFields
+    {
+    public:
+      LawFields(const std::list<Phase<dim>> &phases, PatchOutput<0, dim> &output)
+          : names(output.names)
+          , first_row(names.size())
+      {
+        for (const auto &phase : phases)
+          for (const auto &fields : { phase.material->internal_variable_names(), phase.material->output_names() })
+            for (const auto &field : fields)
+              if (std::find(names.begin() + first_row, names.end(), field) == names.end())
+                output.add_name(field);
+      }
+
+      /// Prepares put() for the points of a body.
+      void begin(const Phase<dim> &phase)
+      {
+        internal = rows_of(phase.material->internal_variable_names());
+        derived  = rows_of(phase.material->output_names());
+        values.resize(derived.size());
+      }
+
+      void put(Rows<dim> &rows, const Phase<dim> &phase, const double *properties)
+      {
+        const double *internals = properties + phase.layout.internal_variables;
+        phase.material->output(properties + phase.layout.left_cauchy_green,
+                               properties + phase.layout.stress,
+                               internals,
+                               properties[phase.layout.volume] * phase.density / properties[phase.layout.mass],
+                               values.data());
+        for (unsigned int i = 0; i < internal.size(); ++i)
+          rows.set(internal[i], internals[i]);
+        for (unsigned int i = 0; i < derived.size(); ++i)
+          rows.set(derived[i], values[i]);
+      }
+
+    private:
+      std::vector<unsigned int> rows_of(const std::vector<std::string> &fields) const
+      {
+        std::vector<unsigned int> rows;
+        for (const auto &field : fields)
+          rows.push_back(std::find(names.begin() + first_row, names.end(), field) - names.begin());
+        return rows;
+      }
+
+      const std::vector<std::string> &names;
+      const unsigned int first_row;
+      std::vector<unsigned int> internal, derived; // rows
+      std::vector<double> values;
+    };
+  } // namespace
+
+
+  template <int dim>
+  void Graphics<dim>::write_points(const std::list<Phase<dim>> &phases,
+                                   const NodalField<dim> &field,
+                                   const double time,
+                                   const WaterView<dim> *view)
+  {
+    PatchOutput<0, dim> output;
+    output.add_vector("velocity");
+    output.add_tensor("stress");
+    for (const std::string name :
+         { "mean_effective_stress", "deviatoric_stress", "stress_ratio", "mass", "volume", "body" })
+      output.add_name(name);
+    if (view)
+      {
+        output.add_name("porosity");
+        output.add_name("pore_pressure");
+        output.add_vector("seepage_velocity");
+      }
+    LawFields<dim> law_fields(phases, output);
+
+    unsigned int body = 0;
+    for (const auto &phase : phases)
+      {
+        law_fields.begin(phase);
+        for (const auto &cell : phase.points.cells())
+          {
+            std::optional<CellPressure<dim>> pressure;
+            if (view)
+              pressure.emplace(view->pressure_at_corner, cell.cell);
+            for (unsigned int p = 0; p < cell.n_points; ++p)
+              {
+                const double *properties = cell.properties + p * phase.points.stride();
+                Rows<dim> rows(output, cell.location[p]);
+                put_state(rows, phase, properties, body);
+                if (view)
+                  {
+                    const Point<dim> &x = cell.reference_location[p];
+                    const double n      = porosity(phase, properties);
+                    rows.put(n);
+                    rows.put(pressure->at(x));
+                    rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
+                  }
+                law_fields.put(rows, phase, properties);
+              }
+          }
+        ++body;
+      }
+    record("points",
+           point_files,
+           time,
+           output.write(folder, "points", point_files.size(), grid.triangulation().get_communicator()));
+  }
+
+
+  template <int dim>
+  void Graphics<dim>::write_water(const NodalField<dim> &soil_field,
+                                  const double time,
+                                  const WaterView<dim> &view,
+                                  const Cells &contents)
+  {
+    PatchOutput<0, dim> output;
+    output.add_vector("velocity");
+    for (const std::string name : { "pressure", "mass", "volume", "porosity", "inside_soil" })
+      output.add_name(name);
+    output.add_vector("seepage_velocity");
+
+    for (const auto &water : view.water)
+      for (const auto &cell : water.points().cells())
+        {
+          const bool inside_soil = contents[cell.cell].n_soil_points > 0;
+          const double n         = contents[cell.cell].porosity();
+          for (unsigned int p = 0; p < cell.n_points; ++p)
+            {
+              const double *properties = cell.properties + p * water.points().stride();
+              Rows<dim> rows(output, cell.location[p]);
+              rows.put(vector_of<dim>(properties + water.layout.velocity));
+              rows.put(properties[water.layout.pressure]);
+              rows.put(properties[water.layout.mass]);
+              rows.put(properties[water.layout.volume]);
+              rows.put(n);
+              rows.put(inside_soil);
+              rows.put(inside_soil ? n * relative_velocity_at(
+                                             cell.reference_location[p], grid, cell.cell, soil_field, view.field)
+                                   : Tensor<1, dim>());
+            }
+        }
+    record("water",
+           water_files,
+           time,
+           output.write(folder, "water", water_files.size(), grid.triangulation().get_communicator()));
+  }
+
+  template void
+  Graphics<2>::write_points(const std::list<Phase<2>> &, const NodalField<2> &, const double, const WaterView<2> *);
+  template void
+  Graphics<3>::write_points(const std::list<Phase<3>> &, const NodalField<3> &, const double, const WaterView<3> *);
+  template void Graphics<2>::write_water(const NodalField<2> &,
+                                         const double,
+                                         const WaterView<2> &,
+                                         const std::vector<CellContents> &);
+  template void Graphics<3>::write_water(const NodalField<3> &,
+                                         const double,
+                                         const WaterView<3> &,
+                                         const std::vector<CellContents> &);
+} // namespace scree

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/output/point_sums.h>
+
+#include <scree/output/cell_contents.h>
+#include <scree/output/measures.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  PointSums<dim>::PointSums(const std::list<Phase<dim>> &phases,
+                            const std::list<WaterPhase<dim>> &water,
+                            const Tensor<1, dim> &gravity,
+                            const MPI_Comm communicator)
+      : height(std::numeric_limits<double>::lowest())
+  {
+    for (const auto &phase : phases)
+      for (const auto &cell : phase.points.cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          add(phase, cell.location[p], cell.properties + p * phase.points.stride(), gravity);
+    for (const auto &one : water)
+      for (const auto &cell : one.points().cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          {
+            const double *properties = cell.properties + p * one.points().stride();
+            add_motion(properties[one.layout.mass], properties + one.layout.velocity, cell.location[p], gravity);
+          }
+
+    std::vector<double> sums{ soil_points, soil_mass, kinetic, potential, elastic, pressure };
+    for (unsigned int a = 0; a < dim; ++a)
+      sums.push_back(momentum[a]);
+    Utilities::MPI::sum(sums, communicator, sums);
+    soil_points = sums[0], soil_mass = sums[1], kinetic = sums[2], potential = sums[3], elastic = sums[4];
+    pressure = sums[5];
+    for (unsigned int a = 0; a < dim; ++a)
+      momentum[a] = sums[6 + a];
+
+    std::vector<double> largest{ largest_pressure, height, largest_porosity };
+    Utilities::MPI::max(largest, communicator, largest);
+    largest_pressure = largest[0], height = largest[1], largest_porosity = largest[2];
+  }
+
+
+  template <int dim>
+  void PointSums<dim>::add(const Phase<dim> &phase,
+                           const Point<dim> &x,
+                           const double *properties,
+                           const Tensor<1, dim> &gravity)
+  {
+    const double mass = properties[phase.layout.mass];
+    const double P    = mean_effective_stress(properties + phase.layout.stress);
+    soil_points += 1;
+    soil_mass += mass;
+    add_motion(mass, properties + phase.layout.velocity, x, gravity);
+    elastic += mass / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
+    pressure += P;
+    largest_pressure = std::max(largest_pressure, P);
+    height           = std::max(height, x[dim - 1]);
+    largest_porosity = std::max(largest_porosity, porosity(phase, properties));
+  }
+
+
+  template <int dim>
+  void PointSums<dim>::add_motion(const double mass,
+                                  const double *velocity,
+                                  const Point<dim> &x,
+                                  const Tensor<1, dim> &gravity)
+  {
+    const Tensor<1, dim> v(make_array_view(velocity, velocity + dim));
+    momentum += mass * v;
+    kinetic += 0.5 * mass * v.norm_square();
+    potential -= mass * (gravity * (x - Point<dim>()));
+  }
+
+  template struct PointSums<2>;
+  template struct PointSums<3>;
+} // namespace scree
