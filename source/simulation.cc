@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/simulation.h>
+#include <scree/transfer/load_transfer.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -65,7 +66,10 @@ namespace scree
         progress.report(clock.time(), clock.step(), last_time_step);
       }
     const double updates = Utilities::MPI::sum(totals.n_updates - updates_before, communicator);
-    progress.summarise(timer, updates, Utilities::MPI::n_mpi_processes(communicator));
+    progress.summarise(timer,
+                       updates,
+                       Utilities::MPI::n_mpi_processes(communicator),
+                       parameters.has_water ? "soil or water point" : "point");
     folder.log("Results are in " + parameters.output_directory +
                (parameters.output.graphics == "none" ? "." : " (open solution/points.pvd in ParaView)."));
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
@@ -222,27 +226,47 @@ namespace scree
   template <int dim>
   void Simulation<dim>::account_for_lost_points()
   {
+    const auto leave = [&](const std::string &name,
+                           const LostPoint<dim> &point,
+                           const std::pair<std::string, bool> &face_and_whether_open,
+                           const unsigned int velocity_slot,
+                           const unsigned int mass_slot,
+                           double &lost_mass) {
+      const auto &[face, is_open] = face_and_whether_open;
+      AssertThrow(is_open,
+                  ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
+                             coordinates(point.location) + ") m, t = " + Utilities::to_string(clock.time()) +
+                             " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
+                             "Boundaries."));
+      const double mass = point.properties[mass_slot];
+      const Tensor<1, dim> velocity(
+          make_array_view(point.properties.begin() + velocity_slot, point.properties.begin() + velocity_slot + dim));
+      lost_mass += mass;
+      totals.lost_momentum += mass * velocity;
+      totals.lost_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (point.location - Point<dim>()));
+    };
+    for (auto &part : water)
+      for (const LostPoint<dim> &point : part.points().lost())
+        leave("the water",
+              point,
+              part.carrier() == nullptr ? water_walls->face_crossed(point.location)
+                                        : walls.face_crossed(point.location),
+              part.layout.velocity,
+              part.layout.mass,
+              totals.lost_water_mass);
     for (auto &phase : phases)
-      {
-        for (const LostPoint<dim> &point : phase.points.lost())
-          {
-            const auto [face, is_open] = walls.face_crossed(point.location);
-            AssertThrow(is_open,
-                        ExcMessage("A point of " + phase.name + " left the box through the closed wall '" + face +
-                                   "' at (" + coordinates(point.location) +
-                                   ") m, t = " + Utilities::to_string(clock.time()) +
-                                   " s. Remedies: a smaller 'Courant number', or 'open' in subsection Boundaries."));
-            const double mass = point.properties[phase.layout.mass];
-            const Tensor<1, dim> velocity(make_array_view(point.properties.begin() + phase.layout.velocity,
-                                                          point.properties.begin() + phase.layout.velocity + dim));
-            ++totals.n_lost;
-            totals.lost_mass += mass;
-            totals.lost_momentum += mass * velocity;
-            totals.lost_energy +=
-                mass * (0.5 * velocity.norm_square() - scheme.gravity() * (point.location - Point<dim>()));
-          }
-        phase.points.lost().clear();
-      }
+      for (const LostPoint<dim> &point : phase.points.lost())
+        {
+          leave(phase.name,
+                point,
+                walls.face_crossed(point.location),
+                phase.layout.velocity,
+                phase.layout.mass,
+                totals.lost_mass);
+          ++totals.n_lost;
+        }
+    for (PointSet<dim> *points : point_sets())
+      points->lost().clear();
   }
 
 
@@ -252,25 +276,28 @@ namespace scree
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     if (n_ranks == 1)
       return;
+    const auto sets = point_sets();
     double n_points = 0;
-    for (const auto &phase : phases)
-      n_points += phase.points.handler().n_locally_owned_particles();
-    const auto load                       = Utilities::MPI::min_max_avg(n_points, communicator);
+    for (const PointSet<dim> *points : sets)
+      n_points += points->handler().n_locally_owned_particles();
+    const auto of_ranks                   = Utilities::MPI::min_max_avg(n_points, communicator);
     constexpr double worthwhile_imbalance = 1.1;
-    if (load.max < worthwhile_imbalance * load.avg)
+    if (of_ranks.max < worthwhile_imbalance * of_ranks.avg)
       return;
 
     TimerOutput::Scope part(timer, "balance load");
-    for (auto &phase : phases)
-      phase.points.handler().prepare_for_coarsening_and_refinement();
+    for (PointSet<dim> *points : sets)
+      points->handler().prepare_for_coarsening_and_refinement();
     grid.triangulation().repartition();
-    for (auto &phase : phases)
+    for (PointSet<dim> *points : sets)
       {
-        phase.points.handler().unpack_after_coarsening_and_refinement();
-        phase.points.sort();
+        points->handler().unpack_after_coarsening_and_refinement();
+        points->sort();
       }
     grid.distribute_nodes();
     field.reinit();
+    if (semi_implicit)
+      semi_implicit->reinit();
   }
 
 
@@ -292,6 +319,23 @@ namespace scree
 
 
   template <int dim>
+  void Simulation<dim>::write_picture(const double time)
+  {
+    if (!semi_implicit)
+      {
+        graphics.write(phases, field, time);
+        return;
+      }
+    const WaterView<dim> view{ water,
+                               semi_implicit->water_field(),
+                               [&](const unsigned int cell, const unsigned int corner) {
+                                 return semi_implicit->corner_pressure(cell)[corner];
+                               } };
+    graphics.write(phases, field, time, &view);
+  }
+
+
+  template <int dim>
   void Simulation<dim>::report()
   {
     const double time          = clock.time();
@@ -300,12 +344,12 @@ namespace scree
 
     if (at_start_or_end || reached(time, next_row))
       {
-        statistics.collect(phases, {}, totals, time, clock.step(), last_time_step, last_step);
+        statistics.collect(phases, water, totals, time, clock.step(), last_time_step, last_step);
         if (folder.is_writer())
           statistics.write(folder.file("statistics"));
       }
     if (at_start_or_end || reached(time, next_picture))
-      graphics.write(phases, field, time);
+      write_picture(time);
     if (reached(time, next_checkpoint))
       write_checkpoint();
     make_appointments();

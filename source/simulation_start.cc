@@ -3,6 +3,7 @@
 #include <scree/input/input_error.h>
 #include <scree/output/checkpoint.h>
 #include <scree/points/seeding.h>
+#include <scree/points/water_seeding.h>
 #include <scree/simulation.h>
 
 #include <algorithm>
@@ -24,10 +25,11 @@ namespace scree
       , walls(grid, parameters.boundaries)
       , field(grid)
       , transfer(grid, parameters.transfer, parameters.stabilisation)
-      , scheme(grid, walls, parameters.gravity, parameters.body_force)
+      , forcing(grid, parameters.gravity, parameters.body_force)
+      , scheme(grid, walls, forcing)
       , clock(parameters.time_step)
       , graphics(grid, parameters.output, parameters.output_directory)
-      , statistics(grid, scheme.gravity())
+      , statistics(grid, forcing.gravity())
   {
     folder.write("original.prm", parameters.original());
     std::ostringstream all_entries;
@@ -45,11 +47,15 @@ namespace scree
   template <int dim>
   void Simulation<dim>::make_phases()
   {
+    // The one place that knows whose points carry the water.
+    const bool affine   = parameters.transfer.carries_affine_field();
+    const bool is_mixed = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
     for (const BodyParameters &body : parameters.bodies)
       {
         auto material = make_material<dim>(body.material);
         const PropertyLayout<dim> layout(material->internal_variable_names().size(),
-                                         parameters.transfer.carries_affine_field());
+                                         affine,
+                                         is_mixed ? WaterLayout<dim>(0, affine).n_properties() : 0);
         phases.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -57,13 +63,26 @@ namespace scree
                             layout,
                             grid.triangulation(),
                             grid.mapping());
+        if (is_mixed)
+          water.emplace_back(parameters.water.density, affine, phases.back());
       }
+    if (parameters.has_water && !is_mixed)
+      water.emplace_back(parameters.water.density, affine, grid.triangulation(), grid.mapping());
+    if (parameters.has_water)
+      {
+        water_walls   = std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries);
+        semi_implicit = std::make_unique<SemiImplicitScheme<dim>>(
+            grid, walls, *water_walls, forcing, parameters.transfer, parameters.water, parameters.pressure);
+      }
+    if (parameters.surface_load.is_set())
+      load = std::make_unique<SurfaceLoad<dim>>(grid, parameters.surface_load);
+
     // Cost sits where the points are; an empty cell costs a little.
     grid.triangulation().signals.weight.connect([this](const auto &cell, const auto) {
       unsigned int weight = 1;
       if (cell->is_active() && cell->is_locally_owned())
-        for (const auto &phase : phases)
-          weight += 20 * phase.points.handler().n_particles_in_cell(cell);
+        for (const PointSet<dim> *points : point_sets())
+          weight += 20 * points->handler().n_particles_in_cell(cell);
       return weight;
     });
   }
@@ -72,20 +91,35 @@ namespace scree
   template <int dim>
   void Simulation<dim>::initialise()
   {
-    auto body = parameters.bodies.begin();
-    for (auto &phase : phases)
-      seed(phase, (body++)->seeding, grid.triangulation(), grid.cell_size());
-    set_initial_stress();
+    fill_with_points();
+    set_initial_state();
     folder.remove_old_results(); // not before the input has proved good
     balance_load();
     measure_speeds();
     if (parameters.settling.maximum_time > 0)
       settle();
+    if (semi_implicit)
+      semi_implicit->read_pressure(phases, water);
   }
 
 
   template <int dim>
-  void Simulation<dim>::set_initial_stress()
+  void Simulation<dim>::fill_with_points()
+  {
+    auto body = parameters.bodies.begin();
+    for (auto &phase : phases)
+      seed(phase, (body++)->seeding, grid.triangulation(), grid.cell_size());
+    const auto soil = parameters.soil_regions();
+    for (auto &part : water)
+      if (part.carrier() == nullptr)
+        seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
+      else
+        fill_pores(part);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::set_initial_state()
   {
     std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
     auto body = parameters.bodies.begin();
@@ -104,7 +138,7 @@ namespace scree
               layers.push_back(
                   { Region<dim>(entry_name(layer.name, "Region"), layer.seeding.region), layer.bulk_density() });
             overburden =
-                std::make_unique<Overburden<dim>>(grid, std::move(layers), scheme.gravity(), grid.cell_size() / 4);
+                std::make_unique<Overburden<dim>>(grid, std::move(layers), forcing.gravity(), grid.cell_size() / 4);
           }
         set_k0_stress(phase, *overburden, state.k0);
       }
@@ -115,6 +149,12 @@ namespace scree
   void Simulation<dim>::measure_speeds()
   {
     std::vector<double> largest{ 0., 0. };
+    const auto keep_largest = [&](const double *velocity) {
+      double square = 0;
+      for (unsigned int a = 0; a < dim; ++a)
+        square += velocity[a] * velocity[a];
+      largest[1] = std::max(largest[1], std::sqrt(square));
+    };
     for (const auto &phase : phases)
       for (const auto &cell : phase.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
@@ -122,12 +162,13 @@ namespace scree
             const double *properties = cell.properties + p * phase.points.stride();
             const double bulk =
                 phase.material->initial_bulk_modulus(mean_effective_stress(properties + phase.layout.stress));
-            double square = 0;
-            for (unsigned int a = 0; a < dim; ++a)
-              square += properties[phase.layout.velocity + a] * properties[phase.layout.velocity + a];
             largest[0] = std::max(largest[0], phase.wave_speed(bulk));
-            largest[1] = std::max(largest[1], std::sqrt(square));
+            keep_largest(properties + phase.layout.velocity);
           }
+    for (const auto &part : water)
+      for (const auto &cell : part.points().cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          keep_largest(cell.properties + p * part.points().stride() + part.layout.velocity);
     largest       = largest_of_ranks(largest);
     wave_speed    = largest[0];
     largest_speed = largest[1];
@@ -145,19 +186,18 @@ namespace scree
         for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
           held.push_back(gate.contains(grid.node_position(node)));
       }
-    scheme.start_settling(settling.damping_rate, held);
+    forcing.start_settling(settling.damping_rate, held);
 
     Clock settling_clock(parameters.time_step);
     constexpr unsigned int steps_between_checks = 50;
     double ratio                                = std::numeric_limits<double>::infinity();
     while (settling_clock.time() < settling.maximum_time && ratio >= settling.kinetic_energy)
       {
-        const double step = settling_clock.next_step(
-            settling_clock.stable_step(grid.cell_size(), wave_speed, largest_speed), settling.maximum_time);
+        const double step = settling_clock.next_step(stable_step(), settling.maximum_time);
         advance(step);
         settling_clock.advance(step, settling.maximum_time);
         if (settling_clock.step() % steps_between_checks == 0 || settling_clock.time() >= settling.maximum_time)
-          ratio = kinetic_to_elastic_energy(phases, {}, communicator);
+          ratio = kinetic_to_elastic_energy(phases, water, communicator);
       }
     folder.log(
         "Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
@@ -166,16 +206,27 @@ namespace scree
                                          : ", above the wanted " + Utilities::to_string(settling.kinetic_energy) +
                                                ": not yet at rest. Released all the same."));
 
-    scheme.release();
-    for (const auto &phase : phases)
-      for (const auto &cell : phase.points.cells())
+    forcing.release();
+    const auto stop = [&](const PointSet<dim> &points, const unsigned int velocity, const unsigned int affine) {
+      for (const auto &cell : points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
-          std::fill_n(cell.properties + p * phase.points.stride() + phase.layout.velocity, dim, 0.);
+          {
+            double *properties = cell.properties + p * points.stride();
+            std::fill_n(properties + velocity, dim, 0.);
+            if (parameters.transfer.carries_affine_field())
+              std::fill_n(properties + affine, dim * dim, 0.);
+          }
+    };
+    for (const auto &phase : phases)
+      stop(phase.points, phase.layout.velocity, phase.layout.affine);
+    for (const auto &part : water)
+      stop(part.points(), part.layout.velocity, part.layout.affine);
     // Balances begin at the release; what was lost stays lost.
     const RunTotals<dim> settled = totals;
     totals                       = RunTotals<dim>();
     totals.n_lost                = settled.n_lost;
     totals.lost_mass             = settled.lost_mass;
+    totals.lost_water_mass       = settled.lost_water_mass;
     measure_speeds();
   }
 
@@ -197,10 +248,7 @@ namespace scree
   {
     const RunTotals<dim> own = totals;
     totals                   = totals.sum_over_ranks(communicator);
-    std::vector<PointSet<dim> *> sets;
-    for (auto &phase : phases)
-      sets.push_back(&phase.points);
-    save_checkpoint(parameters.output_directory, grid, sets, [&](auto &archive) { serialize_state(archive); });
+    save_checkpoint(parameters.output_directory, grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
     totals = own;
   }
 
@@ -208,13 +256,15 @@ namespace scree
   template <int dim>
   void Simulation<dim>::resume()
   {
-    std::vector<PointSet<dim> *> sets;
-    for (auto &phase : phases)
-      sets.push_back(&phase.points);
-    load_checkpoint(parameters.output_directory, grid, sets, [&](auto &archive) { serialize_state(archive); });
+    load_checkpoint(parameters.output_directory, grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
     if (!folder.is_writer())
       totals = RunTotals<dim>(); // The writer holds the sums.
     field.reinit();
+    if (semi_implicit)
+      {
+        semi_implicit->reinit();
+        semi_implicit->read_pressure(phases, water);
+      }
     make_appointments();
     folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) +
                ".");

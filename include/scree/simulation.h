@@ -68,14 +68,13 @@ namespace scree
     /// All sets of points, in a fixed order.
     std::vector<PointSet<dim> *> point_sets();
 
-    double n_points_of_rank() const;
-
     /// Wave speed and largest speed of the points as they are, for the first step.
     void measure_speeds();
 
     void make_appointments();
     double next_appointment() const;
     void report();
+    void write_picture(const double time);
     void account_for_lost_points();
     void balance_load();
 

@@ -110,10 +110,8 @@ namespace scree
           double *properties    = cell.properties + p * soil.points.stride();
           const double porosity = 1. - properties[layout.mass] / (soil.grain_density * properties[layout.volume]);
           if (porosity > fluidisation_porosity)
-            soil.material->initialise(no_stress,
-                                      properties + layout.left_cauchy_green,
-                                      properties + layout.stress,
-                                      scratch.data());
+            soil.material->initialise(
+                no_stress, properties + layout.left_cauchy_green, properties + layout.stress, scratch.data());
         }
   }
 

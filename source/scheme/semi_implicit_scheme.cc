@@ -73,6 +73,7 @@ namespace scree
       vector->reinit(corners.partitioner());
     contacts.assign(rubs ? grid.n_owned_nodes() : 0, 0);
     reactions.assign(contacts.size(), Tensor<1, dim>());
+    has_grid_pressure = false;
   }
 
 
@@ -116,14 +117,15 @@ namespace scree
   template <int dim>
   void SemiImplicitScheme<dim>::find_pressure()
   {
-    if (previous_pressure == PreviousPressure::grid)
+    const bool keeps = previous_pressure == PreviousPressure::grid && has_grid_pressure;
+    if (keeps)
       kept_pressure.swap(pressure);
     surface.locate(mixture, pressure);
-    if (previous_pressure == PreviousPressure::grid || previous_pressure == PreviousPressure::dropped)
+    if (keeps || previous_pressure == PreviousPressure::dropped)
       for (const unsigned int corner : surface.wet_corners())
         if (surface.kind(corner) == CornerKind::unknown)
-          pressure.local_element(corner) =
-              previous_pressure == PreviousPressure::grid ? kept_pressure.local_element(corner) : 0.;
+          pressure.local_element(corner) = keeps ? kept_pressure.local_element(corner) : 0.;
+    has_grid_pressure = true;
     pressure.update_ghost_values();
     surface.extrapolate(mixture, pressure);
   }

@@ -256,7 +256,7 @@ namespace scree
   template <int n, TransferMethod method>
   double WaterTransfer<dim>::move_water(WaterPhase<dim> &water,
                                         const NodalField<dim> &field,
-                                        const CornerPressure<dim> &corner_pressure,
+                                        const PressureOfCell<dim> &corner_pressure,
                                         const double time_step) const
   {
     const double width     = grid.cell_size();
@@ -369,7 +369,7 @@ namespace scree
   template <int dim>
   double WaterTransfer<dim>::to_points(WaterPhase<dim> &water,
                                        const NodalField<dim> &field,
-                                       const CornerPressure<dim> &pressure,
+                                       const PressureOfCell<dim> &pressure,
                                        const double time_step) const
   {
     const auto dispatch = [&](auto n) {

@@ -115,6 +115,7 @@ namespace scree
     PressureSolver<dim> solver;
     CornerVector pressure, kept_pressure, change, source, crowding;
 
+    bool has_grid_pressure = false; // of the last step, in the current partition
     std::vector<std::uint8_t> contacts;            // components in which a friction wall stops the soil, by node
     std::vector<dealii::Tensor<1, dim>> reactions; // impulses of friction walls so far, N s
   };

@@ -29,7 +29,7 @@ namespace scree
 
   /// The pressure at a cell's corners, Pa, in deal.II's order.
   template <int dim>
-  using CornerPressure = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
+  using PressureOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
 
   /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
   template <int dim>
@@ -53,7 +53,7 @@ namespace scree
     /// is not.
     double to_points(WaterPhase<dim> &water,
                      const NodalField<dim> &field,
-                     const CornerPressure<dim> &pressure,
+                     const PressureOfCell<dim> &pressure,
                      const double time_step) const;
 
     /// Hydraulic conductivity, m/s, of soil at a porosity.
@@ -69,7 +69,7 @@ namespace scree
     template <int n, TransferMethod method>
     double move_water(WaterPhase<dim> &water,
                       const NodalField<dim> &field,
-                      const CornerPressure<dim> &pressure,
+                      const PressureOfCell<dim> &pressure,
                       const double time_step) const;
 
     const BackgroundGrid<dim> &grid;
