@@ -10,21 +10,18 @@ the same parameters is not repeated (--again repeats it); one that stopped with 
 
 import argparse
 import csv
-import os
 import pathlib
 import re
-import shutil
-import subprocess
 import sys
 from typing import NamedTuple, Optional
 
 import numpy as np
 
 import render
-import variants
+import runs
 from render import plt
+from runs import ROOT
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 TITLES = {"none": "no stabilisation", "standard": "F-bar", "modified": "modified F-bar"}
 FIELD = "mean_effective_stress"
 
@@ -40,44 +37,13 @@ class Variant(NamedTuple):
 
 def run_variant(base, f_bar, arguments):
     """Runs one variant unless it is there; returns it with its points."""
-    folder = arguments.results / f"{base.stem}_{f_bar}"
-    prm = folder.with_suffix(".prm")
-    exit_code = folder.with_suffix(".exit_code")
-    before = prm.read_text(encoding="utf-8") if prm.exists() else None
-    prm.parent.mkdir(parents=True, exist_ok=True)
-    variants.write_variant(base, prm, {"Stabilisation/F-bar": f_bar, "End time": f"{arguments.time:g}",
-                                       "Output directory": folder})
-    if arguments.again or not exit_code.exists() or prm.read_text(encoding="utf-8") != before:
-        exit_code.unlink(missing_ok=True)
-        shutil.rmtree(folder, ignore_errors=True)
-        exit_code.write_text(str(_run_scree(prm, folder.with_suffix(".log"), arguments)), encoding="utf-8")
-
-    stopped_at = None
-    if exit_code.read_text(encoding="utf-8") != "0":
-        stopped_at = np.nan
-        if (folder / "statistics").exists():
-            times = render.column(render.read_statistics(folder), "^time")
-            stopped_at = times[-1] if times is not None and len(times) else np.nan
+    folder, exit_code = runs.run_variant(base, f"{base.stem}_{f_bar}",
+                                         {"Stabilisation/F-bar": f_bar, "End time": f"{arguments.time:g}"}, arguments)
     try:
         points = render.read_points(folder, arguments.time)
     except (OSError, ValueError):
         points = None
-    return Variant(base.stem, f_bar, folder, stopped_at, points)
-
-
-def _run_scree(prm, log, arguments):
-    """Exit code of scree; 124 after the time limit."""
-    environment = dict(os.environ, OMPI_MCA_rmaps_base_oversubscribe="1", DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    if os.geteuid() == 0:
-        environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    print(f"Running {prm}", flush=True)
-    command = ["timeout", f"{arguments.time_limit:g}", "mpirun", "-np", "2", arguments.program, prm]
-    with open(log, "w", encoding="utf-8") as output:
-        code = subprocess.run(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT,
-                              check=False).returncode
-    if code != 0:
-        print(f"  ended with {code}; its output is in {log}")
-    return code
+    return Variant(base.stem, f_bar, folder, runs.stopped_at(folder, exit_code), points)
 
 
 def numbers(variant, time):
@@ -151,17 +117,16 @@ def main():
     parser.add_argument("--time", type=float, default=1., help="time of the comparison and end of the runs, s")
     parser.add_argument("--cases", type=pathlib.Path, nargs="+", help="one row each",
                         default=[ROOT / "prm" / "slope_dense.prm", ROOT / "prm" / "slope_loose.prm"])
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "scree")
-    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results" / "stabilisation")
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "doc" / "figures" / "stabilisation.png")
-    parser.add_argument("--time-limit", type=float, default=7200., help="longest time of a run, s of the clock on the wall")
-    parser.add_argument("--again", action="store_true", help="repeat runs that are there already")
+    runs.add_arguments(parser, "stabilisation")
     arguments = parser.parse_args()
-    arguments.results = arguments.results.resolve()
-    arguments.program = arguments.program.resolve()
-    for needed in [arguments.program, *arguments.cases]:
-        if not needed.exists():
-            sys.exit(f"compare_stabilisation.py: {needed} is not there.")
+    try:
+        runs.resolve(arguments)
+    except FileNotFoundError as error:
+        sys.exit(f"compare_stabilisation.py: {error}")
+    for case in arguments.cases:
+        if not case.exists():
+            sys.exit(f"compare_stabilisation.py: {case} is not there.")
 
     rows = [[run_variant(case.resolve(), f_bar, arguments) for f_bar in TITLES] for case in arguments.cases]
     draw(rows, arguments.time, arguments.output)

@@ -44,6 +44,10 @@ FIELDS = {
     "state_parameter": Field("state parameter", "", 1, "RdBu_r"),
     "plastic_shear_strain": Field("plastic shear strain", "", 1, "magma"),
     "mass": Field("mass", "kg", 1),
+    "porosity": Field("porosity", "", 1),
+    "pore_pressure": Field("pore pressure", "kPa", 1e-3),
+    "seepage_velocity": Field("seepage velocity", "m/s", 1),
+    "pressure": Field("pore pressure", "kPa", 1e-3),
 }
 
 
@@ -69,14 +73,17 @@ class Box(NamedTuple):
 # Reading --------------------------------------------------------------------------------------------------------------
 
 
-def read_times(run):
+def read_times(run, collection="points"):
     """The times of the pictures of a run folder, s, in ascending order."""
-    return np.array(sorted(_pictures(run)))
+    return np.array(sorted(_pictures(run, collection)))
 
 
-def read_points(run, time=None):
-    """The points of the picture next to `time`, s; of the last one without `time`."""
-    pictures = _pictures(run)
+def read_points(run, time=None, collection="points"):
+    """The points of the picture next to `time`, s; of the last one without `time`.
+
+    `collection`: "points" for the soil's points, "water" for those of the water.
+    """
+    pictures = _pictures(run, collection)
     chosen = max(pictures) if time is None else min(pictures, key=lambda candidate: abs(candidate - time))
     pieces = [piece for piece in map(_read_piece, _pieces(pictures[chosen])) if piece]
     if not pieces:
@@ -119,9 +126,9 @@ def column(statistics, pattern):
     return next((values for name, values in statistics.items() if re.search(pattern, name, re.IGNORECASE)), None)
 
 
-def _pictures(run):
-    """{time: file} of solution/points.pvd."""
-    pvd = pathlib.Path(run) / "solution" / "points.pvd"
+def _pictures(run, collection):
+    """{time: file} of a .pvd in the folder solution."""
+    pvd = pathlib.Path(run) / "solution" / f"{collection}.pvd"
     if not pvd.exists():
         raise FileNotFoundError(f"{pvd} is not there: is {run} a run folder, and has the run written a picture?")
     sets = xml.etree.ElementTree.parse(pvd).getroot().iter("DataSet")

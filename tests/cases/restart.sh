@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# restart.sh SCREE LAUNCHER: a run that goes on from its checkpoint ends as if it had not stopped, on as many ranks (points keep
-# their order: 1e-12) and on more or fewer (sums have another order: 1e-9).
-# The newest checkpoint of column_short is at 0.09 s; the end is no checkpoint.
+# restart.sh SCREE LAUNCHER CASE SAME OTHER: a run that goes on from its checkpoint ends as if it had not stopped, to the tolerance
+# SAME on as many ranks (points keep their order), and to OTHER on more or fewer (sums have another order).
+# The newest checkpoint of the cases is at 0.09 s; the end is no checkpoint.
 set -e
 cases=$(dirname -- "$0")
 scree=$1
 launcher=$2 # several words
-case=$cases/column_short.prm
+case=$cases/$3.prm
 
 # stop_and_go RANKS RANKS_AFTER TOLERANCE
 stop_and_go()
@@ -25,6 +25,6 @@ stop_and_go()
   cd ..
 }
 
-stop_and_go 1 1 1e-12
-stop_and_go 2 1 1e-9
-stop_and_go 1 2 1e-9
+stop_and_go 1 1 "$4"
+stop_and_go 2 1 "$5"
+stop_and_go 1 2 "$5"

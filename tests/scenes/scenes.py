@@ -6,71 +6,7 @@ Each bound names its source. Motion is chaotic at the level of single points, so
 third digit; the bounds are wider than that and far narrower than any of the known failures.
 """
 
-import os
-import subprocess
-import sys
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "doc"))
-from variants import write_variant  # noqa: E402
-
-failures = []
-
-
-def read_statistics(file):
-    columns, rows = [], []
-    for line in open(file, encoding="utf-8"):
-        if line.startswith("#"):
-            columns.append(line.split(":", 1)[1].strip())
-        elif line.strip():
-            rows.append([float(word) for word in line.split()])
-    return {column: [row[i] for row in rows] for i, column in enumerate(columns)}
-
-
-def run(scree, case, name, entries, may_stop=False):
-    """Statistics of a variant of prm/`case`.prm, as {column: values}."""
-    target = name + ".prm"
-    write_variant(os.path.join(ROOT, "prm", case + ".prm"),
-                  target,
-                  {"Output directory": name, "Output/Graphics": "none", "Output/Screen": "nothing",
-                   "Output/Statistics interval": "0.02", "Output/Checkpoint interval": "0", **entries})
-    result = subprocess.run([scree, target], capture_output=True, text=True)
-    if result.returncode != 0 and not may_stop:
-        sys.exit(name + " stopped: " + result.stderr)
-    return read_statistics(os.path.join(name, "statistics"))
-
-
-def at(table, column, time):
-    """The value of the row nearest to `time`."""
-    index = min(range(len(table["Time (s)"])), key=lambda i: abs(table["Time (s)"][i] - time))
-    return table[column][index]
-
-
-def mean_oscillation(table):
-    """Time mean of the stress oscillation, without the state at rest before the release."""
-    values = table["Stress oscillation (-)"][1:]
-    return sum(values) / len(values)
-
-
-def check(what, value, lowest, highest):
-    good = lowest <= value <= highest
-    print("%-62s %12.5g  in [%g, %g]%s" % (what, value, lowest, highest, "" if good else "  <-- FAILED"))
-    if not good:
-        failures.append(what)
-
-
-def check_balances(name, table):
-    """Mass and momentum to rounding; no energy from nothing; no point lost, no return unresolved."""
-    mass, momentum = table["Mass (kg)"], table["Momentum residual (N s)"]
-    dissipation = table["Numerical dissipation (J)"]
-    released = table["Potential energy (J)"][0] - min(table["Potential energy (J)"])
-    check(name + ": relative change of mass", max(abs(m / mass[0] - 1) for m in mass), 0, 1e-12)
-    check(name + ": momentum residual over weight times time",
-          max(momentum) / (mass[0] * 9.81 * table["Time (s)"][-1]), 0, 1e-11)
-    check(name + ": largest gain of energy over released energy",
-          max(max(dissipation[:i + 1]) - d for i, d in enumerate(dissipation)) / released, 0, 0.005)
-    check(name + ": unresolved returns", table["Unresolved"][-1], 0, 0)
-    check(name + ": points lost", table["Points lost"][-1], 0, 0)
+from scene_tools import at, check, check_balances, main, mean_oscillation, run
 
 
 def columns(scree):
@@ -115,5 +51,4 @@ def collapse(scree):
 
 
 if __name__ == "__main__":
-    globals()[sys.argv[2]](os.path.abspath(sys.argv[1]))
-    sys.exit("failed: " + ", ".join(failures) if failures else 0)
+    main(globals())

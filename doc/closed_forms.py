@@ -1,0 +1,381 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Exact and reference solutions that the cases with water are compared with. SI units, pressures compression positive.
+
+/usr/bin/python3 doc/closed_forms.py     checks the formulas against each other and in their limits
+
+- consolidation at small strain: Terzaghi 1943; the same with the inertia of soil and water
+- consolidation at large strain of soil that is elastic in logarithmic strain: exact end state, course in time by
+  finite differences
+- hydrostatic pressure; discharge through a dam with vertical faces
+
+Needs numpy.
+"""
+
+import math
+import sys
+from typing import NamedTuple
+
+import numpy as np
+
+GRAVITY = 9.81  # m/s^2
+
+
+def oedometric_modulus(young_modulus, poisson_ratio):
+    """K + 4/3 G = E (1 - nu)/((1 + nu)(1 - 2 nu)), Pa."""
+    return young_modulus * (1 - poisson_ratio) / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))
+
+
+# Small strain ---------------------------------------------------------------------------------------------------------
+
+
+class Terzaghi(NamedTuple):
+    """A column of height H, drained at its top, fixed and impermeable at its base, loaded by q at its top from t = 0 on."""
+    height: float                # H, m
+    load: float                  # q, Pa
+    modulus: float               # oedometric, Pa
+    conductivity: float          # k, m/s
+    water_density: float = 1000  # kg/m^3
+    gravity: float = GRAVITY     # that of the conductivity, m/s^2
+
+    @property
+    def consolidation_coefficient(self):
+        """c_v = k E_oed/(rho_w g), m^2/s."""
+        return self.conductivity * self.modulus / (self.water_density * self.gravity)
+
+    def time(self, time_factor):
+        """t = T_v H^2/c_v, s."""
+        return time_factor * self.height**2 / self.consolidation_coefficient
+
+
+def _odd(n_terms):
+    return 2. * np.arange(n_terms) + 1.
+
+
+def terzaghi_pressure(depth, time_factor, n_terms=4000):
+    """p/q at depth/H below the drained top (number or array): sum over odd m of 4/(m pi) sin(m pi z/(2H)) exp(-m^2 pi^2 T_v/4)."""
+    m = _odd(n_terms)
+    amplitude = 4 / (m * math.pi) * np.exp(-(m * math.pi)**2 * time_factor / 4)
+    m, amplitude = m[amplitude > 0], amplitude[amplitude > 0]
+    return np.sin(np.multiply.outer(np.asarray(depth, dtype=float), m * math.pi / 2)) @ amplitude
+
+
+def terzaghi_degree(time_factor, n_terms=4000):
+    """Degree of consolidation U = 1 - sum over odd m of 8/(m pi)^2 exp(-m^2 pi^2 T_v/4); settlement = U q H/E_oed."""
+    m = _odd(n_terms)
+    return 1 - np.sum(8 / (m * math.pi)**2 * np.exp(-(m * math.pi)**2 * time_factor / 4))
+
+
+def self_weight_pressure(depth, time_factor, n_terms=4000):
+    """Excess pressure over (buoyant weight of the column) when the weight is the load: p = gamma' z at t = 0, H = 1."""
+    m = _odd(n_terms)
+    amplitude = 8 / (m * math.pi)**2 * np.sin(m * math.pi / 2) * np.exp(-(m * math.pi)**2 * time_factor / 4)
+    return np.sin(np.multiply.outer(np.asarray(depth, dtype=float), m * math.pi / 2)) @ amplitude
+
+
+def consolidation_with_inertia(column, grain_density, porosity, depth, time, n_terms=400):
+    """(p/q at the depths in m, U) of a Terzaghi column whose soil and water have inertia; incompressible constituents.
+
+    In one dimension over an impermeable base (1-n) v_s + n v_w = 0. Eliminating v_w and p from the two momentum balances
+    leaves the telegraph equation of the soil's displacement u,
+        rho* u_tt + (rho_w g/k) u_t = E_oed u_zz,    rho* = (1-n) rho_s + rho_w (1-n)^2/n,
+        p_z = rho_w (1-n)/n u_tt + (rho_w g/k) u_t,
+    with -E_oed u_z = q at z = 0 and u = 0 at z = H: a sum over cos(m pi z/(2H)), m odd, each with two decay rates. It
+    tells how far inertia, which Terzaghi leaves out, is from the code's answer: of order c_v rho* k/(H^2 rho_w g).
+    """
+    m = _odd(n_terms)
+    wave_number = m * math.pi / (2 * column.height)
+    ratio = (1 - porosity) / porosity
+    mass = (1 - porosity) * grain_density + column.water_density * (1 - porosity) * ratio
+    drag = column.water_density * column.gravity / column.conductivity
+    damping, stiffness = drag / mass, column.modulus / mass * wave_number**2
+    root = np.sqrt(damping**2 / 4 - stiffness.astype(complex))
+    # The slow rate without cancellation, from the product of both.
+    fast = -damping / 2 - root
+    slow = stiffness / fast
+    # f(0) = 1, f'(0) = 0
+    slow_part, fast_part = fast / (fast - slow), -slow / (fast - slow)
+    decay = [np.real(slow_part * slow**n * np.exp(slow * time) + fast_part * fast**n * np.exp(fast * time)) for n in range(3)]
+    part = 8 / (m * math.pi)**2
+    per_mode = -part * column.height / column.modulus / wave_number * (column.water_density * ratio * decay[2] + drag * decay[1])
+    pressure = np.sin(np.multiply.outer(np.asarray(depth, dtype=float), wave_number)) @ per_mode
+    return pressure, 1 - np.sum(part * decay[0])
+
+
+# Large strain ---------------------------------------------------------------------------------------------------------
+
+
+class Mud(NamedTuple):
+    """A layer that consolidates in one dimension at any strain, under its weight below water and a load on its top.
+
+    Soil elastic in logarithmic strain (Hencky): Kirchhoff stress tau = M ln J along the vertical, so that the effective
+    stress, compression positive, is s(J) = -M ln J/J. Incompressible grains and water, constant conductivity k.
+    """
+    height: float                # H_0 without stress, m
+    modulus: float               # M = K + 4/3 G, Pa
+    porosity: float              # n_0 without stress
+    conductivity: float          # k, m/s
+    grain_density: float = 2650  # kg/m^3
+    water_density: float = 1000  # kg/m^3
+    gravity: float = GRAVITY     # m/s^2
+    load: float = 0              # effective, on the top, Pa
+
+    @property
+    def buoyant_weight(self):
+        """(1 - n_0)(rho_s - rho_w) g per initial volume, N/m^3: soil keeps its solids, so this holds at any strain."""
+        return (1 - self.porosity) * (self.grain_density - self.water_density) * self.gravity
+
+    def time(self, time_factor):
+        """t = T_v H_0^2 rho_w g/(k M), s."""
+        return time_factor * self.height**2 * self.water_density * self.gravity / (self.conductivity * self.modulus)
+
+    def stress(self, volume_ratio):
+        """s(J), Pa."""
+        return -self.modulus * np.log(volume_ratio) / volume_ratio
+
+
+def lambert_w(x):
+    """The w >= 0 with w exp(w) = x, for x >= 0 (number or array), by Newton's method."""
+    x = np.asarray(x, dtype=float)
+    w = np.log1p(x)
+    for _ in range(50):
+        step = (w - x * np.exp(-w)) / (1 + w)
+        w = w - step
+        if np.all(np.abs(step) <= 1e-15 * (1 + w)):
+            break
+    return w
+
+
+def volume_ratio_of_stress(stress, modulus):
+    """J with -M ln J/J = stress: y = -ln J solves y exp(y) = stress/M. One root, since s(J) falls for all J < 1."""
+    return np.exp(-lambert_w(np.asarray(stress, dtype=float) / modulus))
+
+
+def final_volume_ratio(mud, material_height):
+    """J at the end of consolidation at the height Z that the material had without stress, m; exact.
+
+    Water is hydrostatic again, so that the effective stress bears the buoyant weight above, gamma' (H_0 - Z), and the load.
+    """
+    above = mud.buoyant_weight * (mud.height - np.asarray(material_height, dtype=float)) + mud.load
+    return volume_ratio_of_stress(above, mud.modulus)
+
+
+def _gauss(lower, upper, n=40):
+    points, weights = np.polynomial.legendre.leggauss(n)
+    half = (np.asarray(upper, dtype=float) - lower) / 2
+    return lower + np.multiply.outer(half, points + 1), np.multiply.outer(half, weights)
+
+
+def final_height(mud, material_height):
+    """Height y, m, that the material of height Z (number or array) has at the end: integral of J from 0 to Z."""
+    points, weights = _gauss(0., material_height)
+    return np.sum(weights * final_volume_ratio(mud, points), axis=-1)
+
+
+def final_settlement(mud):
+    """How far the top is at the end below its initial height, m."""
+    return mud.height - float(final_height(mud, mud.height))
+
+
+class MudState(NamedTuple):
+    """The layer at one time, over its material height Z: of the cells' middles, m."""
+    time: float
+    material_height: np.ndarray
+    volume_ratio: np.ndarray     # J
+    height: np.ndarray           # y, m
+    stress: np.ndarray           # effective, compression positive, Pa
+    excess_pressure: np.ndarray  # over the hydrostatic one, Pa
+    settlement: float            # of the top, m
+
+
+def _rate(mud, ratio, flux_top_stress):
+    """dJ/dt of all cells and its (tridiagonal) derivative by J."""
+    n = len(ratio)
+    spacing = mud.height / n
+    mobility = mud.conductivity / (mud.water_density * mud.gravity)
+    stress = mud.stress(ratio)
+    slope = -mud.modulus * (1 - np.log(ratio)) / ratio**2
+    top_ratio = volume_ratio_of_stress(flux_top_stress, mud.modulus)
+
+    # velocity of the soil, upwards, at the faces: -(k/(rho_w g J)) (ds/dZ + gamma'); the base is impermeable
+    inner = (ratio[:-1] + ratio[1:]) / 2
+    gradient = (stress[1:] - stress[:-1]) / spacing + mud.buoyant_weight
+    top_gradient = (flux_top_stress - stress[-1]) / (spacing / 2) + mud.buoyant_weight
+    velocity = np.zeros(n + 1)
+    velocity[1:-1] = -mobility / inner * gradient
+    velocity[-1] = -mobility / top_ratio * top_gradient
+
+    by_lower = mobility * (slope[:-1] / spacing / inner + gradient / inner**2 / 2)
+    by_upper = mobility * (-slope[1:] / spacing / inner + gradient / inner**2 / 2)
+    derivative = np.zeros((n, n))
+    i = np.arange(n - 1)
+    derivative[i, i] += by_lower
+    derivative[i, i + 1] += by_upper
+    derivative[i + 1, i] -= by_lower
+    derivative[i + 1, i + 1] -= by_upper
+    derivative[-1, -1] += mobility / top_ratio * slope[-1] / (spacing / 2)
+    return np.diff(velocity) / spacing, derivative / spacing
+
+
+def consolidate(mud, times, n_cells=200, n_steps=400):
+    """The states at `times` (ascending, s) of a layer without effective stress at t = 0: a finite volume solution.
+
+    In the material coordinate Z (the height without stress) solids do not move and dx = J dZ. With
+        v_s = (k/(rho_w g)) dp_e/dx                  Darcy, and (1-n) v_s + n v_w = 0 over an impermeable base
+        dp_e/dZ = -ds/dZ - gamma'                    equilibrium of the mixture; (1-n) J = 1 - n_0
+        dJ/dt = dv_s/dZ
+    follows Gibson, England & Hussey's (1967) equation for k that does not depend on n:
+        dJ/dt = d/dZ [ -(k/(rho_w g J)) (ds/dZ + gamma') ],  s = -M ln J/J,
+    with no flux at Z = 0 and s = load at Z = H_0. Cells of equal Z, fluxes at their faces, second order; in time the
+    L-stable two-stage SDIRK rule of order 2 with steps that grow as the square of their number, since the start is a
+    sudden load. Water and soil have no inertia here.
+    """
+    gamma = 1 - 1 / math.sqrt(2)
+    grid = times[-1] * (np.arange(n_steps + 1) / n_steps)**2
+    grid = np.unique(np.concatenate([grid, np.asarray(times, dtype=float)]))
+    spacing = mud.height / n_cells
+    material_height = (np.arange(n_cells) + 0.5) * spacing
+    ratio = np.ones(n_cells)
+    states = []
+
+    def stage(start, step):
+        """The rate K with K = rate(start + step K)."""
+        value = start.copy()
+        for _ in range(50):
+            rate, derivative = _rate(mud, value, mud.load)
+            residual = value - start - step * rate
+            change = np.linalg.solve(np.eye(n_cells) - step * derivative, residual)
+            scale = min(1., 0.5 * np.min(value / np.maximum(np.abs(change), 1e-300)))
+            value = value - scale * change
+            if np.max(np.abs(change)) < 1e-13:
+                return (value - start) / step
+        raise ArithmeticError("The finite differences of consolidation do not converge; take more steps.")
+
+    wanted = list(np.asarray(times, dtype=float))
+    for before, now in zip(grid, grid[1:]):
+        step = now - before
+        first = stage(ratio, gamma * step)
+        second = stage(ratio + (1 - gamma) * step * first, gamma * step)
+        ratio = ratio + step * ((1 - gamma) * first + gamma * second)
+        if wanted and now == wanted[0]:
+            wanted.pop(0)
+            stress = mud.stress(ratio)
+            above = mud.buoyant_weight * (mud.height - material_height) + mud.load
+            height = spacing * (np.cumsum(ratio) - ratio / 2)
+            states.append(MudState(now, material_height, ratio.copy(), height, stress, above - stress,
+                                   mud.height - spacing * float(np.sum(ratio))))
+    return states
+
+
+# At rest and in steady flow -------------------------------------------------------------------------------------------
+
+
+def hydrostatic_pressure(height, surface, density=1000, gravity=GRAVITY):
+    """rho g (surface - y) below the surface, 0 above, Pa; heights in m."""
+    return density * gravity * np.maximum(surface - np.asarray(height, dtype=float), 0)
+
+
+def dupuit_discharge(conductivity, upstream, downstream, length):
+    """k (h_1^2 - h_2^2)/(2 L): discharge through a dam with vertical faces, mean over its length, m^2/s.
+
+    Dupuit's formula is exact for this mean at any time and for any shape of the free surface y = f(x), seepage face
+    included (Charny 1951), if the flow obeys Darcy and reservoirs are hydrostatic: with the head phi = p/(rho_w g) + y,
+        integral of phi_x over the wetted dam = [integral of phi dy from 0 to f - f^2/2] between both faces
+    since phi = y on y = f(x); the brackets are h_1^2/2 and h_2^2/2, with phi = y on the seepage face.
+    """
+    return conductivity * (upstream**2 - downstream**2) / (2 * length)
+
+
+def dupuit_surface(x, upstream, downstream, length):
+    """Dupuit's parabola sqrt(h_1^2 - (h_1^2 - h_2^2) x/L), m: near the free surface, but without its seepage face."""
+    return np.sqrt(upstream**2 - (upstream**2 - downstream**2) * np.asarray(x, dtype=float) / length)
+
+
+# Self-test ------------------------------------------------------------------------------------------------------------
+
+
+def _check(failures, what, error, bound):
+    good = error <= bound
+    print(f"{what:<86} {error:9.2e}  below {bound:g}{'' if good else '  <-- FAILED'}")
+    if not good:
+        failures.append(what)
+
+
+def _self_test():
+    failures = []
+    depth = np.linspace(0.025, 0.975, 20)
+
+    _check(failures, "Terzaghi: U at T_v = 0.1, 0.5, 1 against the tables (.357, .764, .931)",
+           max(abs(terzaghi_degree(t) - u) for t, u in ((0.1, .357), (0.5, .764), (1, .931))), 6e-4)
+    _check(failures, "Terzaghi: U = 1 - mean p/q at T_v = 0.1",
+           abs(terzaghi_degree(0.1) - 1 + np.sum(_gauss(0., 1.)[1] * terzaghi_pressure(_gauss(0., 1.)[0], 0.1))), 1e-12)
+    _check(failures, "Terzaghi: U = sqrt(4 T_v/pi) at T_v = 0.01", abs(terzaghi_degree(0.01) - math.sqrt(0.04 / math.pi)), 1e-6)
+    _check(failures, "Terzaghi: p = q (1 - erfc(z/(2 sqrt(c_v t)))) at T_v = 0.01",
+           max(abs(p - math.erf(z / 0.2)) for z, p in zip(depth, terzaghi_pressure(depth, 0.01))), 1e-6)
+    _check(failures, "self-weight at small strain: p = gamma' z at T_v = 0",
+           np.max(np.abs(self_weight_pressure(depth, 0.) - depth)), 1e-3)
+
+    column = Terzaghi(1., 1e3, oedometric_modulus(1e7, .2), 1e-3)
+    tight = column._replace(conductivity=1e-5)
+    for time_factor in (0.1, 0.5, 1):
+        pressure, degree = consolidation_with_inertia(tight, 2650, 0.4, depth, tight.time(time_factor))
+        _check(failures, f"consolidation with inertia: Terzaghi for k = 1e-5 m/s, T_v = {time_factor}",
+               max(np.max(np.abs(pressure - terzaghi_pressure(depth, time_factor))), abs(degree - terzaghi_degree(time_factor))), 1e-6)
+    inertia = [consolidation_with_inertia(column, 2650, 0.4, depth, column.time(t))[0] - terzaghi_pressure(depth, t)
+               for t in (0.1, 0.5, 1)]
+    _check(failures, "consolidation with inertia: prm/terzaghi.prm, k = 1e-3 m/s: largest distance to Terzaghi",
+           max(np.max(np.abs(difference)) for difference in inertia), 2e-3)
+
+    _check(failures, "Hencky: s(J(s)) = s for s/M from 1e-9 to 10",
+           max(abs(Mud(1, 1, .5, 1).stress(volume_ratio_of_stress(s, 1.)) / s - 1) for s in (1e-9, 1e-3, .3, 1, 10)), 1e-6)
+    # A load of 1e-5 M without weight is Terzaghi's column; weight of 1e-5 M is the triangle.
+    stiff = Mud(1., 1e7, .4, 1e-3, load=100., grain_density=1000.)
+    heavy = Mud(1., 1e9, .4, 1e-3)
+    for mud, exact, name in ((stiff, terzaghi_pressure, "load"), (heavy, self_weight_pressure, "weight")):
+        factors = [0.1, 0.5, 1]
+        weight = mud.buoyant_weight * mud.height + mud.load
+        for time_factor, state in zip(factors, consolidate(mud, [mud.time(t) for t in factors])):
+            error = state.excess_pressure / weight - exact(1 - state.material_height / mud.height, time_factor)
+            _check(failures, f"large strain, tiny {name}: p of the small-strain series, T_v = {time_factor}",
+                   np.max(np.abs(error)), 1e-3)
+            if name == "load":
+                settlement = terzaghi_degree(time_factor) * mud.load * mud.height / mud.modulus
+                _check(failures, f"large strain, tiny load: settlement of Terzaghi, T_v = {time_factor}",
+                       abs(state.settlement / settlement - 1), 1e-3)
+
+    mud = Mud(1., oedometric_modulus(2e4, .2), .5, 1e-2)
+    settlement = final_settlement(mud)
+    coarse, fine = (consolidate(mud, [mud.time(t) for t in (0.25, 1, 20)], *n) for n in ((50, 200), (200, 400)))
+    _check(failures, "prm/large_strain_consolidation.prm: settlement at T_v = 20 is the exact final one",
+           abs(fine[-1].settlement / settlement - 1), 1e-4)
+    end = fine[-1]
+    _check(failures, "the same: J at T_v = 20", np.max(np.abs(end.volume_ratio - final_volume_ratio(mud, end.material_height))), 1e-4)
+    _check(failures, "the same: y at T_v = 20", np.max(np.abs(end.height - final_height(mud, end.material_height))), 1e-4)
+    _check(failures, "the same: stress at the base is the buoyant weight",
+           abs(mud.stress(float(final_volume_ratio(mud, 0.))) / mud.buoyant_weight / mud.height - 1), 1e-12)
+    _check(failures, "the same: settlement at T_v = 0.25 and 1 with 50 and 200 cells, relative difference",
+           max(abs(a.settlement / b.settlement - 1) for a, b in zip(coarse, fine)), 1e-3)
+    start = consolidate(mud, [mud.time(1e-4)])[0]
+    rate = mud.conductivity * mud.buoyant_weight / (mud.water_density * mud.gravity)
+    _check(failures, "the same: first settlement is that of free fall of grains through water, k gamma'/(rho_w g) t",
+           abs(start.settlement / (rate * start.time) - 1), 0.02)
+
+    n = 4000
+    x = (np.arange(n) + .5) / n
+    surface = dupuit_surface(x, 1., .4, 1.)
+    # With a uniform head along each vertical the local discharge -k f f' is the same everywhere.
+    discharge = -1e-2 * surface * np.gradient(surface, x)
+    _check(failures, "Dupuit: discharge of the parabola is k (h_1^2 - h_2^2)/(2 L) everywhere",
+           np.max(np.abs(discharge[1:-1] / dupuit_discharge(1e-2, 1., .4, 1.) - 1)), 1e-6)
+    _check(failures, "hydrostatics: 1 m of water", abs(float(hydrostatic_pressure(0.25, 1.25)) - 9810), 1e-9)
+
+    print(f"\nprm/large_strain_consolidation.prm: final settlement {settlement:.6f} m, "
+          f"J at the base {float(final_volume_ratio(mud, 0.)):.5f}; " + ", ".join(f"U({t}) = {s.settlement / settlement:.4f}" for t, s in zip((.25, 1), fine)))
+    print("prm/terzaghi.prm: inertia moves p/q by at most " +
+          ", ".join(f"{np.max(np.abs(d)):.1e}" for d in inertia) + " at T_v = 0.1, 0.5, 1")
+    return failures
+
+
+if __name__ == "__main__":
+    failed = _self_test()
+    sys.exit("failed: " + ", ".join(failed) if failed else 0)
