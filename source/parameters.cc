@@ -64,7 +64,8 @@ namespace scree
         file.check(all, "scree --print-parameters lists all of them.", [&](const std::string &subsection) {
           return unlisted_body(subsection);
         });
-        check_unread();
+        if (!has_water)
+          check_dry();
         declare(handler);
         if (has_water)
           declare_water(handler);
@@ -182,6 +183,8 @@ namespace scree
       body.check(gravity);
     if (has_water)
       check_water();
+    if (bodies.empty())
+      check_without_soil();
   }
 
 
@@ -204,35 +207,32 @@ namespace scree
   }
 
 
-  void Parameters::check_unread() const
+  void Parameters::check_dry() const
   {
-    const auto require_unset = [&](const std::string &subsection, const std::string &entry, const std::string &why) {
-      require_entry(!file.sets(subsection, entry),
+    require_entry(
+        !bodies.empty(), "", "Bodies", "none", "the scene is empty. Name a body of soil, or add a subsection Water.");
+    const std::string subsection = "Boundaries/Water";
+    for (const auto &face : BoundaryParameters::face_names(3))
+      require_entry(!file.sets(subsection, face),
                     subsection,
-                    entry,
-                    file.value(subsection, entry, ""),
-                    "nothing reads it, as " + why);
-    };
-    const std::string no_soil = "there is no soil: entry \"Bodies\" is none. Remove it";
-    if (!has_water)
-      {
-        require_entry(!bodies.empty(),
-                      "",
-                      "Bodies",
-                      "none",
-                      "the scene is empty. Name a body of soil, or add a subsection Water.");
-        for (const auto &face : BoundaryParameters::face_names(3))
-          require_unset("Boundaries/Water", face, "the file has no subsection Water. Add one, or remove the entry.");
-      }
-    if (bodies.empty())
-      {
-        for (const auto &face : BoundaryParameters::face_names(3))
-          require_unset("Boundaries", face, no_soil + ", or move it to subsection Water of subsection Boundaries.");
-        for (const std::string entry : { "Lower corner", "Upper corner", "Traction" })
-          require_unset("Surface load", entry, no_soil + '.');
-        for (const std::string entry : { "Maximum time", "Damping rate", "Kinetic energy", "Gate" })
-          require_unset("Settling", entry, no_soil + '.');
-      }
+                    face,
+                    file.value(subsection, face, ""),
+                    "nothing reads it, as the file has no subsection Water. Add one, or remove the entry.");
+  }
+
+
+  void Parameters::check_without_soil() const
+  {
+    const std::string no_soil = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it";
+    const auto walls = boundaries.texts(3), defaults = BoundaryParameters().texts(3);
+    for (unsigned int f = 0; f < walls.size(); ++f)
+      require_entry(walls[f] == defaults[f],
+                    "Boundaries",
+                    BoundaryParameters::face_names(3)[f],
+                    walls[f],
+                    no_soil + ", or move it to subsection Water of subsection Boundaries.");
+    require_entry(!surface_load.is_set(), "Surface load", "Traction", surface_load.traction, no_soil + '.');
+    require_entry(settling.maximum_time == 0, "Settling", "Maximum time", settling.maximum_time, no_soil + '.');
   }
 
 

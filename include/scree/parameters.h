@@ -89,7 +89,8 @@ namespace scree
     void declare_water(dealii::ParameterHandler &prm);
     void check() const;
     void check_water() const;
-    void check_unread() const;
+    void check_dry() const;
+    void check_without_soil() const;
 
     /// The remedy for a subsection that is not declared but looks like that of a body; empty if it does not.
     std::string unlisted_body(const std::string &subsection) const;

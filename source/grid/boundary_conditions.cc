@@ -78,16 +78,20 @@ namespace scree
   }
 
 
+  std::vector<std::string> BoundaryParameters::texts(const unsigned int dim) const
+  {
+    if (dim == 2)
+      return { left, right, bottom, top };
+    return { left, right, front, back, bottom, top };
+  }
+
+
   std::vector<Wall> BoundaryParameters::walls(const unsigned int dim) const
   {
-    std::vector<Wall> result{ wall_from_text("Left", left), wall_from_text("Right", right) };
-    if (dim == 3)
-      {
-        result.push_back(wall_from_text("Front", front));
-        result.push_back(wall_from_text("Back", back));
-      }
-    result.push_back(wall_from_text("Bottom", bottom));
-    result.push_back(wall_from_text("Top", top));
+    const auto names = face_names(dim), entries = texts(dim);
+    std::vector<Wall> result;
+    for (unsigned int f = 0; f < names.size(); ++f)
+      result.push_back(wall_from_text(names[f], entries[f]));
     return result;
   }
 

@@ -77,14 +77,12 @@ namespace scree
 
   std::vector<WaterWall> WaterBoundaryParameters::walls(const unsigned int dim) const
   {
-    std::vector<WaterWall> result{ wall_from_text("Left", left), wall_from_text("Right", right) };
-    if (dim == 3)
-      {
-        result.push_back(wall_from_text("Front", front));
-        result.push_back(wall_from_text("Back", back));
-      }
-    result.push_back(wall_from_text("Bottom", bottom));
-    result.push_back(wall_from_text("Top", top));
+    const auto names   = BoundaryParameters::face_names(dim);
+    const auto entries = dim == 2 ? std::vector<std::string>{ left, right, bottom, top }
+                                  : std::vector<std::string>{ left, right, front, back, bottom, top };
+    std::vector<WaterWall> result;
+    for (unsigned int f = 0; f < names.size(); ++f)
+      result.push_back(wall_from_text(names[f], entries[f]));
     return result;
   }
 

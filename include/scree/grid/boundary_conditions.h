@@ -41,6 +41,9 @@ namespace scree
     /// Names of the faces in deal.II's numbering: lower and upper face of each axis.
     static std::vector<std::string> face_names(const unsigned int dim);
 
+    /// The entries in the same order.
+    std::vector<std::string> texts(const unsigned int dim) const;
+
     /// The walls in the same order.
     std::vector<Wall> walls(const unsigned int dim) const;
   };

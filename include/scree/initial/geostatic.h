@@ -21,7 +21,7 @@ namespace scree
     struct Layer
     {
       Region<dim> region;
-      double density; ///< kg/m^3
+      double density; ///< kg/m^3; below 0 for what buoyancy lifts
     };
 
     /// @param gravity m/s^2; must lie along an axis (throws otherwise)
@@ -37,6 +37,14 @@ namespace scree
     MPI_Comm communicator() const
     {
       return grid.triangulation().get_communicator();
+    }
+
+    /// m/s^2
+    dealii::Tensor<1, dim> gravity_vector() const
+    {
+      dealii::Tensor<1, dim> result;
+      result[axis] = -up * gravity;
+      return result;
     }
 
     /// The axis of gravity.

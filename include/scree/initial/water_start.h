@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_initial_water_start_h
+#define scree_initial_water_start_h
+
+#include <scree/initial/geostatic.h>
+#include <scree/points/seeding.h>
+#include <scree/points/water_parameters.h>
+#include <scree/points/water_phase.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// The layers whose weight is the effective vertical stress of the soil: each body with its dry bulk density, and,
+  /// where it is under water, less that of the water its grains displace, (1 - n) rho_w: total stress less hydrostatic
+  /// pressure.
+  /// @param water null: a dry scene; with "Initial pressure = none" nothing lifts the soil either
+  template <int dim>
+  std::vector<typename Overburden<dim>::Layer> effective_weight_layers(const std::vector<SoilRegion> &soil,
+                                                                       const WaterParameters *water);
+
+  /// The layers whose weight is the hydrostatic pressure: the water's region with its density, in soil and outside.
+  template <int dim>
+  std::vector<typename Overburden<dim>::Layer> water_layers(const WaterParameters &water,
+                                                            const std::vector<SoilRegion> &soil);
+
+  /// Gives the points of water the weight of the water above them as pressure, Pa, and density times gravity as its
+  /// gradient, Pa/m.
+  template <int dim>
+  void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden);
+} // namespace scree
+
+#endif

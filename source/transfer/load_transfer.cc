@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/cell_basis.h>
+#include <scree/transfer/load_transfer.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Calls `visit(i, phi_i)` for the nodes of a cell, `x` in reference coordinates.
+    template <int dim, int n, typename Visit>
+    void visit_basis(const Point<dim> &x, const OpenKnots open, const Visit &visit)
+    {
+      const CellBasis<dim, n> basis(x, open);
+      for (unsigned int i = 0; i < basis.n_nodes; ++i)
+        {
+          double value = 1;
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+            value *= basis.value[a][rest % n];
+          visit(i, value);
+        }
+    }
+
+    template <int dim, typename Visit>
+    void visit_nodes(const BackgroundGrid<dim> &grid, const unsigned int cell, const Point<dim> &x, const Visit &visit)
+    {
+      const unsigned int *nodes = grid.nodes(cell);
+      const auto visit_node     = [&](const unsigned int i, const double value) { visit(nodes[i], value); };
+      if (grid.n_nodes_1d() == 2)
+        visit_basis<dim, 2>(x, grid.open_knots(cell), visit_node);
+      else
+        visit_basis<dim, 3>(x, grid.open_knots(cell), visit_node);
+    }
+
+    /// Calls `visit(cell, p, force)` for the markers.
+    template <int dim, typename Visit>
+    void visit_markers(const SurfaceLoad<dim> &load, const double time, const Visit &visit)
+    {
+      for (const auto &cell : load.points().cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          visit(cell,
+                p,
+                cell.properties[p * load.points().stride() + SurfaceLoad<dim>::area] *
+                    load.traction(cell.location[p], time));
+    }
+  } // namespace
+
+
+  template <int dim>
+  Tensor<1, dim>
+  add_load(const SurfaceLoad<dim> &load, const double time, const BackgroundGrid<dim> &grid, NodalField<dim> &field)
+  {
+    Tensor<1, dim> sum;
+    visit_markers(load, time, [&](const auto &cell, const unsigned int p, const Tensor<1, dim> &force) {
+      if (p == 0)
+        field.activate_cell(cell.cell);
+      visit_nodes(grid, cell.cell, cell.reference_location[p], [&](const unsigned int node, const double value) {
+        for (unsigned int c = 0; c < dim; ++c)
+          field[node][NodalField<dim>::force + c] += value * force[c];
+      });
+      sum += force;
+    });
+    return sum;
+  }
+
+
+  template <int dim>
+  double move_load(SurfaceLoad<dim> &load,
+                   const double time,
+                   const BackgroundGrid<dim> &grid,
+                   const NodalField<dim> &field,
+                   const double time_step)
+  {
+    double work = 0;
+    visit_markers(load, time, [&](const auto &cell, const unsigned int p, const Tensor<1, dim> &force) {
+      Tensor<1, dim> velocity, mean;
+      double weight = 0;
+      visit_nodes(grid, cell.cell, cell.reference_location[p], [&](const unsigned int node, const double value) {
+        const double *values = field[node];
+        if (values[NodalField<dim>::mass] <= 0.)
+          return; // Nothing was solved there.
+        weight += value;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            velocity[c] += value * values[NodalField<dim>::velocity + c];
+            mean[c] +=
+                value * (values[NodalField<dim>::velocity + c] - 0.5 * values[NodalField<dim>::velocity_change + c]);
+          }
+      });
+      work += time_step * (force * mean);
+      // A marker a little above the last soil moves with what soil is near.
+      if (weight > 0.)
+        cell.location[p] += time_step / weight * velocity;
+    });
+    return work;
+  }
+
+  template Tensor<1, 2> add_load(const SurfaceLoad<2> &, const double, const BackgroundGrid<2> &, NodalField<2> &);
+  template Tensor<1, 3> add_load(const SurfaceLoad<3> &, const double, const BackgroundGrid<3> &, NodalField<3> &);
+  template double
+  move_load(SurfaceLoad<2> &, const double, const BackgroundGrid<2> &, const NodalField<2> &, const double);
+  template double
+  move_load(SurfaceLoad<3> &, const double, const BackgroundGrid<3> &, const NodalField<3> &, const double);
+} // namespace scree
