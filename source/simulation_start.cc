@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
+#include <scree/initial/water_start.h>
 #include <scree/input/input_error.h>
 #include <scree/output/checkpoint.h>
 #include <scree/points/seeding.h>
@@ -121,6 +122,7 @@ namespace scree
   template <int dim>
   void Simulation<dim>::set_initial_state()
   {
+    const auto soil = parameters.soil_regions();
     std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
     auto body = parameters.bodies.begin();
     for (auto &phase : phases)
@@ -132,15 +134,19 @@ namespace scree
             continue;
           }
         if (!overburden)
-          {
-            std::vector<typename Overburden<dim>::Layer> layers;
-            for (const auto &layer : parameters.bodies)
-              layers.push_back(
-                  { Region<dim>(entry_name(layer.name, "Region"), layer.seeding.region), layer.bulk_density() });
-            overburden =
-                std::make_unique<Overburden<dim>>(grid, std::move(layers), forcing.gravity(), grid.cell_size() / 4);
-          }
+          overburden = std::make_unique<Overburden<dim>>(
+              grid,
+              effective_weight_layers<dim>(soil, parameters.has_water ? &parameters.water : nullptr),
+              forcing.gravity(),
+              grid.cell_size() / 4);
         set_k0_stress(phase, *overburden, state.k0);
+      }
+    if (parameters.has_water && parameters.water.initial_pressure == "hydrostatic" && forcing.gravity().norm() > 0)
+      {
+        Overburden<dim> water_above(
+            grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);
+        for (auto &part : water)
+          set_hydrostatic_pressure(part, water_above);
       }
   }
 

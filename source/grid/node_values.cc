@@ -76,11 +76,10 @@ namespace scree
     values.update_ghost_values();
   }
 
-  template class NodeValues<2, 2>; // mixture at the pressure's nodes
-  template class NodeValues<3, 2>;
-  template class NodeValues<2, 3>;
+  template class NodeValues<2, 3>; // pores; surroundings of a corner beside the water's surface
   template class NodeValues<3, 3>;
-  template class NodeValues<2, 4>; // pressure forces on soil and water
+  template class NodeValues<2, 4>; // fill of the corners; pressure forces on soil and water
+  template class NodeValues<3, 4>;
   template class NodeValues<3, 6>;
   template class NodeValues<2, 5>; // NodalField
   template class NodeValues<3, 7>;

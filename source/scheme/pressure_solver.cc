@@ -235,8 +235,8 @@ namespace scree
       }
     pattern.compress();
 
-    TrilinosWrappers::SparseMatrix matrix_of_cells;
-    matrix_of_cells.reinit(pattern);
+    preconditioner.reset();
+    stored_matrix.reinit(pattern);
     for (const Cell &cell : cells)
       {
         globalise(cell);
@@ -244,19 +244,19 @@ namespace scree
         for (unsigned int v = 0; v < n_corners; ++v)
           for (unsigned int w = 0; w < n_corners; ++w)
             if (is_unknown[cell.numbers[v]] && is_unknown[cell.numbers[w]])
-              matrix_of_cells.add(global[v], global[w], own[v][w]);
+              stored_matrix.add(global[v], global[w], own[v][w]);
       }
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       {
         const auto row = partitioner->local_to_global(i);
-        matrix_of_cells.add(row, row, is_unknown[i] ? diagonal[i] : 1.);
+        stored_matrix.add(row, row, is_unknown[i] ? diagonal[i] : 1.);
       }
-    matrix_of_cells.compress(VectorOperation::add);
+    stored_matrix.compress(VectorOperation::add);
 
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic  = true;
     preconditioner = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    preconditioner->initialize(matrix_of_cells, data);
+    preconditioner->initialize(stored_matrix, data);
   }
 
 

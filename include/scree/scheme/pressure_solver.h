@@ -5,6 +5,7 @@
 #include <scree/scheme/free_surface.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <functional>
 #include <memory>
@@ -88,6 +89,7 @@ namespace scree
     std::vector<double> diagonal; // what surface corners and storage add, by owned number
     CornerVector source, solution, scratch;
 
+    dealii::TrilinosWrappers::SparseMatrix stored_matrix; // the preconditioner refers to it
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
     unsigned int iterations_when_new = 0;
     bool is_worn                     = true;
