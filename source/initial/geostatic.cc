@@ -43,9 +43,9 @@ namespace scree
           y[axis]      = up * height;
           return layer.region.contains(y);
         };
-        const auto boundary_between = [&](double a, double b) {
-          const bool inside_at_a = inside(a);
-          while (b - a > 1e-9 * (top - bottom))
+        // A sample may fall on the surface: what was found there must not be asked for again, with other rounding.
+        const auto boundary_between = [&](double a, double b, const bool inside_at_a) {
+          while (b - a > 1e-12 * (top - bottom))
             (inside(0.5 * (a + b)) == inside_at_a ? a : b) = 0.5 * (a + b);
           return 0.5 * (a + b);
         };
@@ -60,7 +60,7 @@ namespace scree
             const bool is_in    = inside(height);
             if (is_in != was_in)
               {
-                const double boundary = boundary_between(height - step, height);
+                const double boundary = boundary_between(height - step, height, was_in);
                 if (was_in)
                   pieces.push_back({ begin, boundary, layer.density * gravity });
                 begin  = boundary;

