@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace scree
 {
@@ -14,6 +15,12 @@ namespace scree
   namespace
   {
     constexpr unsigned int markers_per_cell = 4; // along each axis of the patch
+
+    template <int dim>
+    std::string point_text(const Point<dim> &x)
+    {
+      return number_text(std::vector<double>(x.begin_raw(), x.end_raw()));
+    }
 
     /// The markers' places on one axis of a cell and the width each stands for, m.
     std::vector<std::pair<double, double>>
@@ -110,14 +117,15 @@ namespace scree
                   subsection,
                   "Upper corner",
                   number_text(upper_corner),
-                  "it has " + std::to_string(n_equal) + " coordinates of \"Lower corner\" = " +
-                      number_text(lower_corner) + ". A flat patch has exactly one.");
+                  "it shares " + std::to_string(n_equal) + " coordinates with \"Lower corner\" = " +
+                      number_text(lower_corner) + ". Those of a flat patch across an axis share exactly one.");
   }
 
 
   template <int dim>
   SurfaceLoad<dim>::SurfaceLoad(const BackgroundGrid<dim> &grid, const SurfaceLoadParameters &parameters)
-      : markers(grid.triangulation(), grid.mapping(), 1)
+      : corner(parameters.lower_corner)
+      , markers(grid.triangulation(), grid.mapping(), 1)
       , function(
             parse_expression<dim>(entry_name("Surface load", "Traction"), parameters.traction, dim, /*with_time*/ true))
   {
@@ -173,6 +181,24 @@ namespace scree
     for (unsigned int a = 0; a < dim; ++a)
       result[a] = function->value(x, a);
     return result;
+  }
+
+  template <int dim>
+  void SurfaceLoad<dim>::require_soil(const std::list<Phase<dim>> &bodies, const MPI_Comm communicator) const
+  {
+    std::set<unsigned int> cells_with_soil;
+    for (const auto &body : bodies)
+      for (const auto &cell : body.points.cells())
+        cells_with_soil.insert(cell.cell);
+    std::string fault;
+    for (const auto &cell : markers.cells())
+      if (fault.empty() && cells_with_soil.count(cell.cell) == 0)
+        fault = entry_message("Surface load",
+                              "Lower corner",
+                              number_text(corner),
+                              "the patch must lie on soil, and around " + point_text(cell.location[0]) +
+                                  " there is none. Move it to the surface of a body.");
+    throw_on_all_ranks(fault, communicator);
   }
 
   template class SurfaceLoad<2>;

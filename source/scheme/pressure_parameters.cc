@@ -18,7 +18,7 @@ namespace scree
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
                       "A solve that has not converged by then ends the run.",
-                      Patterns::Integer(1));
+                      Patterns::Integer(1, 100000));
     prm.add_parameter("Splitting",
                       splitting,
                       "drag in correction: pressure and drag are solved together; classical: the drag acts in the "

@@ -2,6 +2,8 @@
 #include <scree/grid/cell_basis.h>
 #include <scree/transfer/load_transfer.h>
 
+#include <algorithm>
+
 namespace scree
 {
   using namespace dealii;
@@ -92,6 +94,9 @@ namespace scree
       // A marker a little above the last soil moves with what soil is near.
       if (weight > 0.)
         cell.location[p] += time_step / weight * velocity;
+      // Soil under a load at the face of the box may swell; the load must not vanish with its marker.
+      for (unsigned int a = 0; a < dim; ++a)
+        cell.location[p][a] = std::clamp(cell.location[p][a], grid.lower_corner()[a], grid.upper_corner()[a]);
     });
     return work;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Walls: what each does to the velocity of a node, a block that slides on friction, and points that leave.
+// Walls: what each does to the velocity of a node, of soil and of water; a block that slides on friction; points that
+// leave.
+// that leave.
 
 #include <scree/simulation.h>
 
@@ -57,6 +59,45 @@ void test_nodes(std::ostream &out)
   expect("friction 45", v(3, 2), top, v(1, 0));
   expect("friction 45", v(3, -2), top, v(3, -2));
   out << "nodes: OK" << std::endl;
+}
+
+/// Components that walls hold, pressures that they prescribe, and points that leave, for water and soil.
+void test_water(std::ostream &out)
+{
+  GridParameters box;
+  box.lower_corner = { -0.2, -0.2, -0.2 };
+  box.upper_corner = { 0.8, 0.8, 0.8 };
+  const BackgroundGrid<3> grid(box, MPI_COMM_WORLD);
+  WaterBoundaryParameters wet;
+  wet.left  = "no slip";
+  wet.right = "drained 3e3";
+  wet.check(3);
+  const WaterBoundaryConditions<3> water(grid, wet);
+  const std::uint8_t left = 1, right = 2, front = 4, top = 32;
+  AssertThrow(water.fixed_components(left) == 7 && water.fixed_components(front) == 2 &&
+                  water.fixed_components(right | front) == 2 && water.fixed_components(top) == 0,
+              ExcMessage("The water's walls hold the wrong components."));
+  AssertThrow(water.prescribes_pressure(top | left) && !water.prescribes_pressure(left | front) &&
+                  water.is_drained(1) && !water.is_drained(0),
+              ExcMessage("The wrong walls are drained."));
+  AssertThrow(water.pressure(right) == 3000 && water.pressure(top) == 0 && water.pressure(right | top) == 1500 &&
+                  water.pressure(left) == 0,
+              ExcMessage("The drained walls have a wrong pressure."));
+  AssertThrow(water.face_crossed(Point<3>(0, 0, 0.9)) == std::make_pair(std::string("Top"), true) &&
+                  water.face_crossed(Point<3>(0, -0.3, 0.801)) == std::make_pair(std::string("Front"), false),
+              ExcMessage("A point left through another face."));
+
+  BoundaryParameters dry;
+  dry.left = "fixed";
+  dry.back = "friction 30";
+  const BoundaryConditions<3> soil(grid, dry);
+  const std::uint8_t back = 8;
+  AssertThrow(soil.fixed_components(left | back) == 7 && soil.fixed_components(right | top) == 1 &&
+                  soil.fixed_components(back | top) == 0,
+              ExcMessage("The soil's walls hold the wrong components."));
+  AssertThrow(soil.has_friction(back | left) && soil.friction_faces(back | left) == back && !soil.has_friction(left),
+              ExcMessage("The wrong walls have friction."));
+  out << "water: OK" << std::endl;
 }
 
 /// A block of elastic soil, 0.4 m x 0.2 m, on the bottom of a wide box.
@@ -175,6 +216,7 @@ int main(int argc, char *argv[])
   std::ostream silent(nullptr);
   std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
   test_nodes(out);
+  test_water(out);
   test_friction(out);
   test_open(out);
   test_fixed(out);

@@ -3,11 +3,12 @@
 #define scree_points_surface_load_h
 
 #include <scree/grid/background_grid.h>
-#include <scree/points/point_set.h>
+#include <scree/points/phase.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_handler.h>
 
+#include <list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ namespace scree
     /// coordinate, so that the load on top of a body finds the body's cells. Collective.
     SurfaceLoad(const BackgroundGrid<dim> &grid, const SurfaceLoadParameters &parameters);
 
+    /// Throws EntryError if a marker's cell holds no soil, whose nodes could not take its load. Collective.
+    void require_soil(const std::list<Phase<dim>> &bodies, const MPI_Comm communicator) const;
+
     /// Force per initial area, Pa, at a place and a time, s.
     dealii::Tensor<1, dim> traction(const dealii::Point<dim> &x, const double time) const;
 
@@ -58,6 +62,7 @@ namespace scree
     }
 
   private:
+    const std::vector<double> corner; // as the entry says
     PointSet<dim> markers;
     std::unique_ptr<dealii::FunctionParser<dim>> function;
   };

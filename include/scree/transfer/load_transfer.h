@@ -13,8 +13,9 @@ namespace scree
   dealii::Tensor<1, dim>
   add_load(const SurfaceLoad<dim> &load, const double time, const BackgroundGrid<dim> &grid, NodalField<dim> &field);
 
-  /// Moves the markers with the soil, after the solve of the step that began at `time`. The markers are not sorted yet.
-  /// Returns the load's work over the step, J (2D: per m): that of add_load()'s force with the nodes' mean velocity.
+  /// Moves the markers with the soil, at most to the faces of the box, after the solve of the step that began at
+  /// `time`. The markers are not sorted yet. Returns the load's work over the step, J (2D: per m): that of add_load()'s
+  /// force with the nodes' mean velocity.
   template <int dim>
   double move_load(SurfaceLoad<dim> &load,
                    const double time,
