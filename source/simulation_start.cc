@@ -116,6 +116,8 @@ namespace scree
         seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
       else
         fill_pores(part);
+    if (load)
+      load->require_soil(phases, communicator);
   }
 
 

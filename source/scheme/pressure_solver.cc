@@ -90,6 +90,10 @@ namespace scree
         marks.local_element(corners.nodes(cell)[v]) += 1.;
     marks.compress(VectorOperation::add);
 
+    // Trilinos needs a row of every rank.
+    AssertThrow(corners.n_owned() > 0, ExcMessage("A rank has no cells of its own. Remedy: fewer ranks."));
+    if (std::none_of(marks.begin(), marks.begin() + corners.n_owned(), [](const double mark) { return mark > 0.; }))
+      marks.local_element(0) = 1.;
     const unsigned int n_owned =
         std::count_if(marks.begin(), marks.begin() + corners.n_owned(), [](const double mark) { return mark > 0.; });
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
