@@ -193,6 +193,13 @@ namespace scree
     water.check(gravity, bodies.size());
     pressure.check(bodies.size());
     water_boundaries.check(dimension);
+    require_entry(water.viscosity == 0 || transfer.method == "TPIC",
+                  "Water",
+                  "Viscosity",
+                  water.viscosity,
+                  "viscous stress needs the velocity gradient that only TPIC carries, but subsection Transfer has "
+                  "\"Method = " +
+                      transfer.method + "\". Write \"Method = TPIC\" there, or remove the entry.");
     for (const SoilRegion &body : soil_regions())
       {
         if (water.region == "same")

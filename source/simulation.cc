@@ -65,7 +65,7 @@ namespace scree
         report();
         progress.report(clock.time(), clock.step(), last_time_step);
       }
-    const double updates = Utilities::MPI::sum(totals.n_updates - updates_before, communicator);
+    const double updates = Utilities::MPI::sum(totals.n_updates - updates_before + water_updates, communicator);
     progress.summarise(timer,
                        updates,
                        Utilities::MPI::n_mpi_processes(communicator),
@@ -82,7 +82,7 @@ namespace scree
   {
     constexpr unsigned int steps_between_balances = 100;
     if (clock.step() % steps_between_balances == steps_between_balances - 1)
-      balance_load();
+      share_out_cells();
 
     solve_nodes(time_step);
 
@@ -175,9 +175,9 @@ namespace scree
         for (auto &part_of_water : water)
           {
             keep_largest(semi_implicit->to_points(part_of_water, time_step));
-            semi_implicit->correct_volume(part_of_water, time_step);
-            if (part_of_water.carrier() == nullptr)
-              totals.n_updates += part_of_water.points().handler().n_locally_owned_particles();
+            semi_implicit->correct_volume(part_of_water, time_step, totals.balance);
+            if (const PointSet<dim> *own = part_of_water.own_points())
+              water_updates += own->handler().n_locally_owned_particles();
           }
       }
     totals.add(last_step);
@@ -187,13 +187,8 @@ namespace scree
   template <int dim>
   double Simulation<dim>::stable_step() const
   {
-    double step = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
-    // Viscous stress is explicit.
-    if (parameters.has_water && parameters.water.viscosity > 0)
-      step = std::min(step,
-                      0.25 / dim * grid.cell_size() * grid.cell_size() * parameters.water.density /
-                          parameters.water.viscosity);
-    return step;
+    const double step = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
+    return semi_implicit ? std::min(step, semi_implicit->largest_step()) : step;
   }
 
 
@@ -204,8 +199,8 @@ namespace scree
     for (auto &phase : phases)
       sets.push_back(&phase.points);
     for (auto &part : water)
-      if (part.carrier() == nullptr)
-        sets.push_back(&part.points());
+      if (PointSet<dim> *own = part.own_points())
+        sets.push_back(own);
     if (load)
       sets.push_back(&load->points());
     return sets;
@@ -249,8 +244,8 @@ namespace scree
       for (const LostPoint<dim> &point : part.points().lost())
         leave("the water",
               point,
-              part.carrier() == nullptr ? water_walls->face_crossed(point.location)
-                                        : walls.face_crossed(point.location),
+              part.own_points() != nullptr ? water_walls->face_crossed(point.location)
+                                           : walls.face_crossed(point.location),
               part.layout.velocity,
               part.layout.mass,
               totals.lost_water_mass);
@@ -271,7 +266,7 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::balance_load()
+  void Simulation<dim>::share_out_cells()
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     if (n_ranks == 1)

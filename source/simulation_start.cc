@@ -49,14 +49,14 @@ namespace scree
   void Simulation<dim>::make_phases()
   {
     // The one place that knows whose points carry the water.
-    const bool affine   = parameters.transfer.carries_affine_field();
-    const bool is_mixed = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
+    const bool affine      = parameters.transfer.carries_affine_field();
+    const bool water_rides = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
     for (const BodyParameters &body : parameters.bodies)
       {
         auto material = make_material<dim>(body.material);
         const PropertyLayout<dim> layout(material->internal_variable_names().size(),
                                          affine,
-                                         is_mixed ? WaterLayout<dim>(0, affine).n_properties() : 0);
+                                         water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0);
         phases.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -64,10 +64,10 @@ namespace scree
                             layout,
                             grid.triangulation(),
                             grid.mapping());
-        if (is_mixed)
+        if (water_rides)
           water.emplace_back(parameters.water.density, affine, phases.back());
       }
-    if (parameters.has_water && !is_mixed)
+    if (parameters.has_water && !water_rides)
       water.emplace_back(parameters.water.density, affine, grid.triangulation(), grid.mapping());
     if (parameters.has_water)
       {
@@ -95,10 +95,11 @@ namespace scree
     fill_with_points();
     set_initial_state();
     folder.remove_old_results(); // not before the input has proved good
-    balance_load();
+    share_out_cells();
     measure_speeds();
     if (parameters.settling.maximum_time > 0)
       settle();
+    field.clear(); // what the settling left
     if (semi_implicit)
       semi_implicit->read_pressure(phases, water);
   }
@@ -112,10 +113,7 @@ namespace scree
       seed(phase, (body++)->seeding, grid.triangulation(), grid.cell_size());
     const auto soil = parameters.soil_regions();
     for (auto &part : water)
-      if (part.carrier() == nullptr)
-        seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
-      else
-        fill_pores(part);
+      seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
     if (load)
       load->require_soil(phases, communicator);
   }

@@ -10,7 +10,7 @@
 #include <scree/material/table.h>
 #include <scree/output/output_parameters.h>
 #include <scree/points/seeding.h>
-#include <scree/points/surface_load.h>
+#include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
 #include <scree/scheme/explicit_scheme.h>
 #include <scree/scheme/pressure_parameters.h>

@@ -76,7 +76,7 @@ namespace scree
     void report();
     void write_picture(const double time);
     void account_for_lost_points();
-    void balance_load();
+    void share_out_cells();
 
     /// Largest over ranks; what is not a number counts as infinite.
     std::vector<double> largest_of_ranks(std::vector<double> values) const;
@@ -109,6 +109,7 @@ namespace scree
     Statistics<dim> statistics;
 
     RunTotals<dim> totals;
+    double water_updates = 0;                                   // points times steps, of this rank
     UpdateReport last_step;                                     // of this rank
     double wave_speed     = 0;                                  // largest of all ranks, m/s
     double largest_speed  = 0;                                  // of points, of all ranks, m/s

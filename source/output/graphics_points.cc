@@ -160,7 +160,7 @@ namespace scree
                 if (view)
                   {
                     const Point<dim> &x = cell.reference_location[p];
-                    const double n      = porosity(phase, properties);
+                    const double n      = phase.porosity(properties);
                     rows.put(n);
                     rows.put(pressure->at(x));
                     rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));

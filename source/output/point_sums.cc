@@ -62,7 +62,7 @@ namespace scree
     pressure += P;
     largest_pressure = std::max(largest_pressure, P);
     height           = std::max(height, x[dim - 1]);
-    largest_porosity = std::max(largest_porosity, porosity(phase, properties));
+    largest_porosity = std::max(largest_porosity, phase.porosity(properties));
   }
 
 

@@ -28,12 +28,14 @@ namespace scree
   {
     RunTotals total           = *this;
     StepBalance<dim> &balance = total.balance;
-    std::vector<double *> values{
-      &balance.wall_dissipation, &balance.drag_dissipation,  &balance.load_work, &balance.n_solves,
-      &balance.n_iterations,     &balance.n_preconditioners, &total.lost_mass,   &total.lost_water_mass,
-      &total.lost_energy,        &total.plastic_dissipation, &total.n_lost,      &total.n_updates,
-      &total.n_substeps,         &total.n_fallbacks,         &total.n_vertices,  &total.n_unresolved
-    };
+    std::vector<double *> values{ &balance.wall_dissipation,  &balance.drag_dissipation,
+                                  &balance.load_work,         &balance.n_iterations,
+                                  &balance.n_preconditioners, &total.lost_mass,
+                                  &total.lost_water_mass,     &total.lost_energy,
+                                  &total.plastic_dissipation, &total.n_lost,
+                                  &total.n_updates,           &total.n_substeps,
+                                  &total.n_fallbacks,         &total.n_vertices,
+                                  &total.n_unresolved };
     for (Tensor<1, dim> *vector : { &balance.wall_impulse,
                                     &balance.body_impulse,
                                     &balance.pressure_impulse,

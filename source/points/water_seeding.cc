@@ -39,6 +39,82 @@ namespace scree
   }
 
 
+  namespace
+  {
+    template <int dim>
+    void seed_own_points(WaterPhase<dim> &water,
+                         const WaterParameters &parameters,
+                         const std::vector<SoilRegion> &soil,
+                         const Triangulation<dim> &triangulation,
+                         const double cell_size)
+    {
+      const auto parts = water_parts(parameters, soil);
+      std::vector<Region<dim>> regions;
+      for (const WaterPart &part : parts)
+        regions.emplace_back(entry_name("Water", "Region"), part.region);
+      const auto velocity =
+          parameters.initial_velocity.empty()
+              ? nullptr
+              : parse_expression<dim>(entry_name("Water", "Initial velocity"), parameters.initial_velocity, dim);
+
+      std::vector<double> filled(parts.size(), 0.); // of each part, m^3
+      const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
+        CubePart<dim> sum{ 0., 0., lower };
+        Tensor<1, dim> moment; // of the water about the lower corner, m^4
+        for (unsigned int i = 0; i < parts.size(); ++i)
+          {
+            const auto [volume, centroid] = regions[i].part_of_cube(lower, width);
+            filled[i] += volume;
+            sum.filled += volume;
+            sum.volume += parts[i].porosity * volume;
+            moment += parts[i].porosity * volume * (centroid - lower);
+          }
+        if (sum.volume > 0)
+          sum.location = lower + moment / sum.volume;
+        return sum;
+      };
+      const MPI_Comm communicator = triangulation.get_communicator();
+      const auto seeds = lattice_seeds<dim>(triangulation, cell_size, parameters.points_per_cell, part_of_cube);
+
+      Utilities::MPI::sum(filled, communicator, filled);
+      require_entry(std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
+                    "Water",
+                    "Region",
+                    parameters.region,
+                    "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
+      for (unsigned int i = 0; i < parts.size(); ++i)
+        if (parts[i].soil && filled[i] > 0)
+          require_pores(*parts[i].soil);
+
+      const auto &layout = water.layout;
+      insert_points<dim>(
+          water.points(), seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
+            if (velocity)
+              for (unsigned int a = 0; a < dim; ++a)
+                properties[layout.velocity + a] = velocity->value(one.location, a);
+            properties[layout.mass]   = water.density * one.volume;
+            properties[layout.volume] = one.volume;
+          });
+    }
+
+
+    template <int dim>
+    void fill_pores(WaterPhase<dim> &water)
+    {
+      const Phase<dim> &soil = *water.carrier();
+      for (const auto &cell : water.points().cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          {
+            double *properties              = cell.properties + p * water.points().stride();
+            const double volume             = soil.pore_volume(properties);
+            properties[water.layout.volume] = volume;
+            properties[water.layout.mass]   = water.density * volume;
+            std::copy_n(properties + soil.layout.velocity, dim, properties + water.layout.velocity);
+          }
+    }
+  } // namespace
+
+
   template <int dim>
   void seed_water(WaterPhase<dim> &water,
                   const WaterParameters &parameters,
@@ -46,70 +122,10 @@ namespace scree
                   const Triangulation<dim> &triangulation,
                   const double cell_size)
   {
-    const auto parts = water_parts(parameters, soil);
-    std::vector<Region<dim>> regions;
-    for (const WaterPart &part : parts)
-      regions.emplace_back(entry_name("Water", "Region"), part.region);
-    const auto velocity =
-        parameters.initial_velocity.empty()
-            ? nullptr
-            : parse_expression<dim>(entry_name("Water", "Initial velocity"), parameters.initial_velocity, dim);
-
-    std::vector<double> filled(parts.size(), 0.); // of each part, m^3
-    const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
-      CubePart<dim> sum{ 0., 0., lower };
-      Tensor<1, dim> moment; // of the water about the lower corner, m^4
-      for (unsigned int i = 0; i < parts.size(); ++i)
-        {
-          const auto [volume, centroid] = regions[i].part_of_cube(lower, width);
-          filled[i] += volume;
-          sum.filled += volume;
-          sum.volume += parts[i].porosity * volume;
-          moment += parts[i].porosity * volume * (centroid - lower);
-        }
-      if (sum.volume > 0)
-        sum.location = lower + moment / sum.volume;
-      return sum;
-    };
-    const MPI_Comm communicator = triangulation.get_communicator();
-    const auto seeds = lattice_seeds<dim>(triangulation, cell_size, parameters.points_per_cell, part_of_cube);
-
-    Utilities::MPI::sum(filled, communicator, filled);
-    require_entry(std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
-                  "Water",
-                  "Region",
-                  parameters.region,
-                  "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
-    for (unsigned int i = 0; i < parts.size(); ++i)
-      if (parts[i].soil && filled[i] > 0)
-        require_pores(*parts[i].soil);
-
-    const auto &layout = water.layout;
-    insert_points<dim>(
-        water.points(), seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
-          if (velocity)
-            for (unsigned int a = 0; a < dim; ++a)
-              properties[layout.velocity + a] = velocity->value(one.location, a);
-          properties[layout.mass]   = water.density * one.volume;
-          properties[layout.volume] = one.volume;
-        });
-  }
-
-
-  template <int dim>
-  void fill_pores(WaterPhase<dim> &water)
-  {
-    Assert(water.carrier(), ExcMessage("Water with points of its own does not ride."));
-    const Phase<dim> &soil = *water.carrier();
-    for (const auto &cell : water.points().cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          double *properties  = cell.properties + p * water.points().stride();
-          const double volume = properties[soil.layout.volume] - properties[soil.layout.mass] / soil.grain_density;
-          properties[water.layout.volume] = volume;
-          properties[water.layout.mass]   = water.density * volume;
-          std::copy_n(properties + soil.layout.velocity, dim, properties + water.layout.velocity);
-        }
+    if (water.carrier() != nullptr)
+      fill_pores(water);
+    else
+      seed_own_points(water, parameters, soil, triangulation, cell_size);
   }
 
   template void seed_water(WaterPhase<2> &,
@@ -122,6 +138,4 @@ namespace scree
                            const std::vector<SoilRegion> &,
                            const Triangulation<3> &,
                            const double);
-  template void fill_pores(WaterPhase<2> &);
-  template void fill_pores(WaterPhase<3> &);
 } // namespace scree

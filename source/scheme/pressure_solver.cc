@@ -70,28 +70,33 @@ namespace scree
     if (Utilities::MPI::min(int(serves), communicator) == 1)
       return;
 
-    // The corners of wet cells, and those of all cells that share one of them.
+    // The corners of wet cells, and those of the cells around them, `margin` cells deep.
+    constexpr unsigned int margin = 2;
     CornerVector marks(corners.partitioner());
+    std::vector<unsigned int> numbered_cells;
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0)
-        for (unsigned int v = 0; v < n_corners; ++v)
-          marks.local_element(corners.nodes(cell.cell)[v]) = 1.;
-    marks.compress(VectorOperation::add);
-    marks.update_ghost_values();
-    std::vector<unsigned int> margin;
-    for (const auto &cell : grid.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && !all_corners(cell->active_cell_index(), [&](const unsigned int corner) {
-            return marks.local_element(corner) == 0.;
-          }))
-        margin.push_back(cell->active_cell_index());
-    marks.zero_out_ghost_values();
-    for (const unsigned int cell : margin)
-      for (unsigned int v = 0; v < n_corners; ++v)
-        marks.local_element(corners.nodes(cell)[v]) += 1.;
-    marks.compress(VectorOperation::add);
+        numbered_cells.push_back(cell.cell);
+    for (unsigned int layer = 0; layer <= margin; ++layer)
+      {
+        for (const unsigned int cell : numbered_cells)
+          for (unsigned int v = 0; v < n_corners; ++v)
+            marks.local_element(corners.nodes(cell)[v]) += 1.;
+        marks.compress(VectorOperation::add);
+        if (layer == margin)
+          break;
+        marks.update_ghost_values();
+        numbered_cells.clear();
+        for (const auto &cell : grid.triangulation().active_cell_iterators())
+          if (cell->is_locally_owned() && !all_corners(cell->active_cell_index(), [&](const unsigned int corner) {
+                return marks.local_element(corner) == 0.;
+              }))
+            numbered_cells.push_back(cell->active_cell_index());
+        marks.zero_out_ghost_values();
+      }
 
     // Trilinos needs a row of every rank.
-    AssertThrow(corners.n_owned() > 0, ExcMessage("A rank has no cells of its own. Remedy: fewer ranks."));
+    AssertThrow(corners.n_owned() > 0, ExcMessage("A rank has no node of its own. Remedy: fewer ranks."));
     if (std::none_of(marks.begin(), marks.begin() + corners.n_owned(), [](const double mark) { return mark > 0.; }))
       marks.local_element(0) = 1.;
     const unsigned int n_owned =
@@ -104,7 +109,7 @@ namespace scree
     marks.update_ghost_values();
 
     IndexSet ghosts(owned.size());
-    for (const unsigned int cell : margin)
+    for (const unsigned int cell : numbered_cells)
       for (unsigned int v = 0; v < n_corners; ++v)
         if (const unsigned int corner = corners.nodes(cell)[v]; corner >= corners.n_owned())
           ghosts.add_index(static_cast<types::global_dof_index>(marks.local_element(corner)));
@@ -120,7 +125,7 @@ namespace scree
     for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
       if (marks.local_element(corner) >= 0.)
         take(corner);
-    for (const unsigned int cell : margin)
+    for (const unsigned int cell : numbered_cells)
       for (unsigned int v = 0; v < n_corners; ++v)
         take(corners.nodes(cell)[v]);
 
@@ -149,6 +154,7 @@ namespace scree
 
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     const double scale       = time_step * cell_volume / (grid.cell_size() * grid.cell_size());
+    bool is_anchored         = false; // something beside differences of pressure matters
     scratch                  = 0.;
     cells.clear();
     for (const MixtureCell<dim> &mixed : mixture.cells())
@@ -163,6 +169,7 @@ namespace scree
           for (unsigned int v = 0; v < n_corners; ++v)
             {
               cell.numbers[v] = number_of_corner[all[v]];
+              is_anchored     = is_anchored || surface.kind(all[v]) != CornerKind::unknown || storage(all[v]) > 0.;
               if (surface.kind(all[v]) != CornerKind::unknown)
                 continue;
               is_unknown[cell.numbers[v]] = true;
@@ -175,6 +182,13 @@ namespace scree
     scratch.compress(VectorOperation::add);
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       diagonal[i] += scratch.local_element(i);
+    const std::vector<int> own{ int(!cells.empty()), int(is_anchored) };
+    std::vector<int> any(2);
+    Utilities::MPI::max(own, grid.triangulation().get_communicator(), any);
+    AssertThrow(any[0] == 0 || any[1] == 1,
+                ExcMessage("Water fills the box, and all its walls are closed: nothing sets the level of its pressure. "
+                           "Remedies: a drained wall in subsection Boundaries/Water, a 'Bulk modulus' in subsection "
+                           "Water, or a box that is higher than the water."));
   }
 
 
@@ -285,6 +299,7 @@ namespace scree
       {
         make_preconditioner();
         report.made_preconditioner = true;
+        is_worn                    = false;
       }
     SolverControl control(maximum_iterations, std::max(rounding, relative_tolerance * source.l2_norm()));
     if (control.tolerance() > 0.) // else nothing flows
@@ -303,13 +318,22 @@ namespace scree
                                  "Water/Pressure."));
         }
     report.n_iterations = control.tolerance() > 0. ? control.last_step() : 0;
-    if (is_worn)
-      iterations_when_new = report.n_iterations;
-    is_worn = report.n_iterations > iterations_when_new + std::max(3u, iterations_when_new / 2);
 
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       change.local_element(corner_of_number[i]) = is_unknown[i] ? solution.local_element(i) : 0.;
     return report;
+  }
+
+  template <int dim>
+  void PressureSolver<dim>::judge_preconditioner(const SolveReport &report)
+  {
+    if (report.made_preconditioner)
+      {
+        iterations_when_new = report.n_iterations;
+        surplus_iterations  = 0;
+      }
+    surplus_iterations += std::max(int(report.n_iterations) - int(iterations_when_new), 0);
+    is_worn = surplus_iterations > iterations_worth_a_preconditioner;
   }
 
   template class PressureSolver<2>;

@@ -41,9 +41,10 @@ namespace scree
 
 
   template <int dim>
-  void SemiImplicitScheme<dim>::correct_volume(WaterPhase<dim> &water, const double time_step)
+  void
+  SemiImplicitScheme<dim>::correct_volume(WaterPhase<dim> &water, const double time_step, StepBalance<dim> &balance)
   {
-    if (volume_correction == 0. || water.carrier() != nullptr)
+    if (volume_correction == 0. || water.own_points() == nullptr)
       return;
     // A flow that takes a part of the surplus out of each corner: L chi = beta (F - 1) integral psi / dt.
     source = 0.;
@@ -51,7 +52,7 @@ namespace scree
       if (surface.kind(corner) == CornerKind::unknown && surface.is_free_water(corner))
         source.local_element(corner) =
             volume_correction * (surface.fill(corner) - 1.) * surface.hat_volume(corner) / time_step;
-    solver.solve(source, pressure, crowding);
+    count(solver.solve(source, pressure, crowding), balance);
     crowding.update_ghost_values();
     surface.extrapolate(mixture, crowding);
 
@@ -76,10 +77,9 @@ namespace scree
         const bool in_soil = pores[node][PoreField<dim>::grain_fraction] > 0.;
         for (unsigned int c = 0; c < dim; ++c)
           {
-            double &shift = correction[node][dim + c];
-            const bool fixed =
-                grid.node_faces(node) != 0 && (water_walls.fixed_components(grid.node_faces(node)) >> c) & 1;
-            shift = mass > 0. && !in_soil && !fixed ? std::clamp(shift / mass, -most, most) : 0.;
+            double &shift    = correction[node][dim + c];
+            const bool fixed = forcing.is_held(node) || (water_walls.fixed_components(grid.node_faces(node)) >> c) & 1;
+            shift            = mass > 0. && !in_soil && !fixed ? std::clamp(shift / mass, -most, most) : 0.;
           }
       }
     correction.update_ghosts();
@@ -97,6 +97,15 @@ namespace scree
 
 
   template <int dim>
+  double SemiImplicitScheme<dim>::largest_step() const
+  {
+    if (viscosity == 0.)
+      return std::numeric_limits<double>::infinity();
+    return 0.25 / dim * grid.cell_size() * grid.cell_size() * water_density / viscosity;
+  }
+
+
+  template <int dim>
   void SemiImplicitScheme<dim>::fluidise(Phase<dim> &soil) const
   {
     if (fluidisation_porosity >= 1.)
@@ -107,9 +116,8 @@ namespace scree
     for (const CellPoints<dim> &cell : soil.points.cells())
       for (unsigned int p = 0; p < cell.n_points; ++p)
         {
-          double *properties    = cell.properties + p * soil.points.stride();
-          const double porosity = 1. - properties[layout.mass] / (soil.grain_density * properties[layout.volume]);
-          if (porosity > fluidisation_porosity)
+          double *properties = cell.properties + p * soil.points.stride();
+          if (soil.porosity(properties) > fluidisation_porosity)
             soil.material->initialise(
                 no_stress, properties + layout.left_cauchy_green, properties + layout.stress, scratch.data());
         }
@@ -117,8 +125,10 @@ namespace scree
 
   template double SemiImplicitScheme<2>::to_points(WaterPhase<2> &, const double);
   template double SemiImplicitScheme<3>::to_points(WaterPhase<3> &, const double);
-  template void SemiImplicitScheme<2>::correct_volume(WaterPhase<2> &, const double);
-  template void SemiImplicitScheme<3>::correct_volume(WaterPhase<3> &, const double);
+  template void SemiImplicitScheme<2>::correct_volume(WaterPhase<2> &, const double, StepBalance<2> &);
+  template void SemiImplicitScheme<3>::correct_volume(WaterPhase<3> &, const double, StepBalance<3> &);
+  template double SemiImplicitScheme<2>::largest_step() const;
+  template double SemiImplicitScheme<3>::largest_step() const;
   template void SemiImplicitScheme<2>::fluidise(Phase<2> &) const;
   template void SemiImplicitScheme<3>::fluidise(Phase<3> &) const;
 } // namespace scree

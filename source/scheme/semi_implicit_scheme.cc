@@ -19,9 +19,7 @@ namespace scree
       , walls(walls)
       , water_walls(water_walls)
       , forcing(forcing)
-      , rubs(std::any_of(walls.walls().begin(),
-                         walls.walls().end(),
-                         [](const Wall &wall) { return wall.type == WallType::friction; }))
+      , friction(grid, walls)
       , splitting(parameters.splitting_kind())
       , previous_pressure(parameters.previous_pressure_kind())
       , projection(parameters.projection)
@@ -29,6 +27,7 @@ namespace scree
       , bulk_modulus(water.bulk_modulus)
       , volume_correction(water.volume_correction)
       , fluidisation_porosity(water.fluidisation_porosity)
+      , viscosity(water.viscosity)
       , corners(numbered(grid))
       , transfer(grid, transfer_parameters, water, previous_pressure == PreviousPressure::average ? 0. : 1.)
       , mixture(grid)
@@ -71,8 +70,7 @@ namespace scree
   {
     for (CornerVector *vector : { &pressure, &kept_pressure, &change, &source, &crowding })
       vector->reinit(corners.partitioner());
-    contacts.assign(rubs ? grid.n_owned_nodes() : 0, 0);
-    reactions.assign(contacts.size(), Tensor<1, dim>());
+    friction.reinit();
     has_grid_pressure = false;
   }
 
@@ -119,7 +117,7 @@ namespace scree
   {
     const bool keeps = previous_pressure == PreviousPressure::grid && has_grid_pressure;
     if (keeps)
-      kept_pressure.swap(pressure);
+      kept_pressure = pressure;
     surface.locate(mixture, pressure);
     if (keeps || previous_pressure == PreviousPressure::dropped)
       for (const unsigned int corner : surface.wet_corners())
@@ -138,6 +136,7 @@ namespace scree
     gather(soil, water);
     complete_pores();
     find_pressure();
+    water_nodes.clear(); // sums, not velocities
   }
 
 
@@ -186,7 +185,7 @@ namespace scree
       pair.fixed_soil = pair.fixed_water = (1 << dim) - 1;
     else if (const auto faces = grid.node_faces(node); faces != 0)
       {
-        pair.fixed_soil  = walls.fixed_components(faces) | (contacts.empty() ? 0 : contacts[node]);
+        pair.fixed_soil  = walls.fixed_components(faces) | friction.stopped_components(node);
         pair.fixed_water = water_walls.fixed_components(faces);
       }
     return pair;
@@ -198,7 +197,7 @@ namespace scree
   {
     StepBalance<dim> balance;
     const double decay = forcing.decay(time_step);
-    std::fill(contacts.begin(), contacts.end(), 0);
+    friction.clear();
     for (const unsigned int node : pores.active_nodes())
       {
         double *pore    = pores[node];
@@ -242,11 +241,9 @@ namespace scree
         DragPair<dim> pair = pair_at(node, soil);
         Tensor<1, dim> soil_after, water_after;
         pair.solve(soil_impulse, water_impulse, soil_after, water_after);
-        if (!contacts.empty() && walls.has_friction(grid.node_faces(node)) && soil_mass > 0.)
+        if (soil_mass > 0. && friction.find_contact(node, soil_after))
           {
-            // A friction wall stops the soil that moves into it; it slips along the wall until the step's end.
-            contacts[node] = contact_components(soil_after, grid.node_faces(node));
-            pair           = pair_at(node, soil);
+            pair = pair_at(node, soil);
             pair.solve(soil_impulse, water_impulse, soil_after, water_after);
           }
         if (pair.fixed_soil != 0 || pair.fixed_water != 0)
@@ -257,8 +254,7 @@ namespace scree
             // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
             balance.wall_dissipation -=
                 0.5 * (soil_wall * (soil_before + soil_after) + water_wall * (water_before + water_after));
-            if (!contacts.empty())
-              reactions[node] = soil_wall;
+            friction.add_reaction(node, soil_wall);
           }
         if (soil_mass <= 0.)
           soil_after = soil_before = water_after;
@@ -318,14 +314,20 @@ namespace scree
     }
     TimerOutput::Scope part(timer, "pressure: solve");
     const SolveReport report = solver.solve(source, pressure, change);
-    if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) == 0)
-      {
-        balance.n_solves += 1;
-        balance.n_iterations += report.n_iterations;
-        balance.n_preconditioners += report.made_preconditioner;
-      }
+    solver.judge_preconditioner(report);
+    count(report, balance);
     change.update_ghost_values();
     surface.extrapolate(mixture, change);
+  }
+
+
+  template <int dim>
+  void SemiImplicitScheme<dim>::count(const SolveReport &report, StepBalance<dim> &balance) const
+  {
+    if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) != 0)
+      return; // All ranks took part; one tells.
+    balance.n_iterations += report.n_iterations;
+    balance.n_preconditioners += report.made_preconditioner;
   }
 
 
@@ -369,8 +371,11 @@ namespace scree
             balance.wall_impulse += soil_wall + water_wall;
             // Before the correction the nodes were at rest there, so that only the start's velocity counts.
             balance.wall_dissipation -= 0.5 * (soil_wall * soil_before + water_wall * water_before);
-            if (!contacts.empty() && contacts[node] != 0)
-              rub(node, soil, reactions[node] + soil_wall, soil_change, balance);
+            friction.add_reaction(node, soil_wall);
+            Tensor<1, dim> soil_after = soil_change;
+            for (unsigned int c = 0; c < dim; ++c)
+              soil_after[c] += of_soil[NodalField<dim>::velocity + c];
+            soil_change += friction.slow_down(node, pair.soil_mass, soil_before, soil_after, balance);
           }
         if (pair.soil_mass <= 0.)
           soil_change = water_change;
@@ -391,50 +396,6 @@ namespace scree
       if (surface.kind(corner) != CornerKind::dry)
         pressure.local_element(corner) += change.local_element(corner);
     pressure.update_ghost_values();
-  }
-
-
-  template <int dim>
-  std::uint8_t SemiImplicitScheme<dim>::contact_components(const Tensor<1, dim> &velocity,
-                                                           const std::uint8_t faces) const
-  {
-    std::uint8_t components   = 0;
-    const std::uint8_t rubbed = walls.friction_faces(faces);
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if (((rubbed >> f) & 1) && (f % 2 == 0 ? 1. : -1.) * velocity[f / 2] < 0.)
-        components |= 1 << (f / 2);
-    return components;
-  }
-
-
-  template <int dim>
-  void SemiImplicitScheme<dim>::rub(const unsigned int node,
-                                    const NodalField<dim> &soil,
-                                    const Tensor<1, dim> &reaction,
-                                    Tensor<1, dim> &soil_change,
-                                    StepBalance<dim> &balance) const
-  {
-    const std::uint8_t rubbed = walls.friction_faces(grid.node_faces(node));
-    double bound              = 0; // Coulomb's, of the tangential impulse, N s
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if ((rubbed >> f) & 1)
-        bound += walls.walls()[f].friction_coefficient * std::max(0., (f % 2 == 0 ? 1. : -1.) * reaction[f / 2]);
-
-    const double *values = soil[node];
-    const double mass    = values[NodalField<dim>::mass];
-    Tensor<1, dim> before, velocity;
-    for (unsigned int c = 0; c < dim; ++c)
-      {
-        velocity[c] = values[NodalField<dim>::velocity + c] + soil_change[c];
-        before[c]   = values[NodalField<dim>::velocity + c] - values[NodalField<dim>::velocity_change + c];
-      }
-    const double speed = velocity.norm();
-    if (speed == 0. || bound == 0.)
-      return;
-    const Tensor<1, dim> loss = std::min(1., bound / (mass * speed)) * velocity;
-    soil_change -= loss;
-    balance.wall_impulse -= mass * loss;
-    balance.wall_dissipation += 0.5 * mass * loss * (before + velocity - loss);
   }
 
 

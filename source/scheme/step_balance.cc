@@ -13,7 +13,6 @@ namespace scree
     wall_dissipation += other.wall_dissipation;
     drag_dissipation += other.drag_dissipation;
     load_work += other.load_work;
-    n_solves += other.n_solves;
     n_iterations += other.n_iterations;
     n_preconditioners += other.n_preconditioners;
     return *this;

@@ -92,7 +92,7 @@ namespace scree
   {
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const auto &layout            = soil.layout;
-    const double initial_porosity = 1. - soil.density / soil.grain_density;
+    const double initial_porosity = std::max(1. - soil.density / soil.grain_density, smallest_porosity);
     for (const CellPoints<dim> &cell : soil.points.cells())
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
@@ -160,6 +160,9 @@ namespace scree
         NodeRow *moments                   = mixture.water_moments(record);
         MixtureCell<dim> sums              = mixture.cells()[record];
         NodeRow momentum_sums[n_rows][dim] = {}, force_sums[n_rows][dim] = {};
+        NodeRow volume_before[n_rows]; // of water that rides on another body's points in this cell
+        for (unsigned int r = 0; r < n_rows; ++r)
+          volume_before[r] = moments[r * Mixture<dim>::n_moments];
 
         const double *properties = cell.properties;
         for (unsigned int p = 0; p < cell.n_points; ++p, properties += water.points().stride())
@@ -233,15 +236,15 @@ namespace scree
           }
         mixture.cells()[record] = sums;
 
-        // The density of water is one for all points: mass follows from the volume's moments.
-        const double density = sums.water_volume > 0 ? sums.water_mass / sums.water_volume : 0.;
         field.activate_cell(cell.cell);
         const unsigned int *nodes = grid.nodes(cell.cell);
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int i = 0; i < n; ++i)
             {
               double *node = field[nodes[r * n + i]];
-              node[NodalField<dim>::mass] += density * moments[r * Mixture<dim>::n_moments][i];
+              // The density of water is one for all points: mass follows from the volume's moments.
+              node[NodalField<dim>::mass] +=
+                  water.density * (moments[r * Mixture<dim>::n_moments][i] - volume_before[r][i]);
               for (unsigned int c = 0; c < dim; ++c)
                 {
                   node[NodalField<dim>::momentum + c] += momentum_sums[r][c][i];
@@ -324,9 +327,7 @@ namespace scree
 
             if (soil != nullptr)
               {
-                const double pores =
-                    properties[soil->layout.volume] - properties[soil->layout.mass] / soil->grain_density;
-                properties[layout.volume] = std::max(pores, 0.);
+                properties[layout.volume] = std::max(soil->pore_volume(properties), 0.);
                 properties[layout.mass]   = water.density * properties[layout.volume];
               }
           }

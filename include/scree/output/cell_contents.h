@@ -11,13 +11,6 @@
 
 namespace scree
 {
-  /// Porosity of a soil point: 1 - m/(rho_s V).
-  template <int dim>
-  double porosity(const Phase<dim> &phase, const double *properties)
-  {
-    return 1. - properties[phase.layout.mass] / (phase.grain_density * properties[phase.layout.volume]);
-  }
-
   /// Sums over the points of one cell (2D: per m).
   struct CellContents
   {

@@ -45,6 +45,18 @@ namespace scree
       return std::sqrt((bulk_modulus + 4. / 3. * material->shear_modulus()) / density);
     }
 
+    /// Volume of a point's pores, m^3 (2D: per m): not positive where grains overlap.
+    double pore_volume(const double *properties) const
+    {
+      return properties[layout.volume] - properties[layout.mass] / grain_density;
+    }
+
+    /// Volume of pores over total volume of a point.
+    double porosity(const double *properties) const
+    {
+      return pore_volume(properties) / properties[layout.volume];
+    }
+
     /// The slots of a cell's points that the law reads and writes.
     MaterialPoints<dim> material_points(const CellPoints<dim> &cell) const
     {

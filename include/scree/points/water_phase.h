@@ -53,8 +53,8 @@ namespace scree
                const dealii::Mapping<dim> &mapping)
         : density(density)
         , layout(0, with_affine)
-        , own_points(std::make_unique<PointSet<dim>>(triangulation, mapping, layout.n_properties()))
-        , set(own_points.get())
+        , own_set(std::make_unique<PointSet<dim>>(triangulation, mapping, layout.n_properties()))
+        , set(own_set.get())
         , soil(nullptr)
     {
     }
@@ -80,6 +80,12 @@ namespace scree
       return *set;
     }
 
+    /// The water's own points; null if it rides on those of a body of soil.
+    PointSet<dim> *own_points()
+    {
+      return own_set.get();
+    }
+
     /// The body of soil whose points carry the water; null if it has its own.
     const Phase<dim> *carrier() const
     {
@@ -87,7 +93,7 @@ namespace scree
     }
 
   private:
-    std::unique_ptr<PointSet<dim>> own_points;
+    std::unique_ptr<PointSet<dim>> own_set;
     PointSet<dim> *set;
     const Phase<dim> *soil;
   };

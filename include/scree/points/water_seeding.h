@@ -24,8 +24,9 @@ namespace scree
   /// Throws EntryError unless a body in the water has pores.
   void require_pores(const SoilRegion &soil);
 
-  /// Fills the water's region with points of its own, on a lattice as seed() does. A point's volume is that of the
-  /// water itself: porosity times the part of its cube in soil, plus the part outside; its mass is density times
+  /// Fills the pores of the points that carry the water: its volume is theirs less the grains', its velocity theirs.
+  /// Water with points of its own: fills its region with them, on a lattice as seed() does. A point's volume is that of
+  /// the water itself: porosity times the part of its cube in soil, plus the part outside; its mass is density times
   /// volume. They get the velocity of the entry; pressure is 0. Collective; throws EntryError if the region holds no
   /// volume, or covers a body without pores.
   template <int dim>
@@ -34,10 +35,6 @@ namespace scree
                   const std::vector<SoilRegion> &soil,
                   const dealii::Triangulation<dim> &triangulation,
                   const double cell_size);
-
-  /// Fills the pores of the points that carry the water: its volume is theirs less the grains', its velocity theirs.
-  template <int dim>
-  void fill_pores(WaterPhase<dim> &water);
 } // namespace scree
 
 #endif

@@ -38,7 +38,7 @@ namespace scree
     void reinit();
 
     /// Sets the matrix. Collective.
-    /// @param storage what the diagonal of an owned corner gains: of compressible water, m^3/(Pa s)
+    /// @param storage what the diagonal of a corner gains: of compressible water, m^3/(Pa s)
     /// @param projection tau of the pressure projection over the step, 1/(Pa s); 0: none
     void assemble(const Mixture<dim> &mixture,
                   const FreeSurfaceLocator<dim> &surface,
@@ -50,6 +50,9 @@ namespace scree
     /// owned unknown corners. Starts from what `change` holds. What `pressure` drives sets the size below which a
     /// residual is rounding. Collective; throws if the solver does not converge.
     SolveReport solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change);
+
+    /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
+    void judge_preconditioner(const SolveReport &report);
 
   private:
     static constexpr unsigned int n_corners = 1 << dim;
@@ -91,8 +94,9 @@ namespace scree
 
     dealii::TrilinosWrappers::SparseMatrix stored_matrix; // the preconditioner refers to it
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
-    unsigned int iterations_when_new = 0;
-    bool is_worn                     = true;
+    static constexpr unsigned int iterations_worth_a_preconditioner = 40; // what making it costs, measured
+    unsigned int iterations_when_new = 0, surplus_iterations = 0;
+    bool is_worn = true;
   };
 } // namespace scree
 

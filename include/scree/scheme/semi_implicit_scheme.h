@@ -7,7 +7,7 @@
 #include <scree/scheme/forcing.h>
 #include <scree/scheme/mixture_divergence.h>
 #include <scree/scheme/pressure_solver.h>
-#include <scree/scheme/step_balance.h>
+#include <scree/scheme/wall_friction.h>
 
 #include <deal.II/base/timer.h>
 
@@ -50,10 +50,13 @@ namespace scree
 
     /// Moves points of free water from where they crowd to where they are few: positions only, by a tenth of a cell at
     /// most. Does nothing without entry Volume correction. Collective.
-    void correct_volume(WaterPhase<dim> &water, const double time_step);
+    void correct_volume(WaterPhase<dim> &water, const double time_step, StepBalance<dim> &balance);
 
     /// Takes the stress from soil that is looser than entry Fluidisation porosity.
     void fluidise(Phase<dim> &soil) const;
+
+    /// Largest step of the water's explicit part, its viscous stress, s; infinite without.
+    double largest_step() const;
 
     const NodalField<dim> &water_field() const
     {
@@ -81,15 +84,8 @@ namespace scree
 
     DragPair<dim> pair_at(const unsigned int node, const NodalField<dim> &soil) const;
 
-    /// The components of velocity that friction walls stop, bit c for component c.
-    std::uint8_t contact_components(const dealii::Tensor<1, dim> &velocity, const std::uint8_t faces) const;
-
-    /// Slows the soil at a friction wall: the tangential impulse is bounded by the normal one.
-    void rub(const unsigned int node,
-             const NodalField<dim> &soil,
-             const dealii::Tensor<1, dim> &reaction,
-             dealii::Tensor<1, dim> &soil_change,
-             StepBalance<dim> &balance) const;
+    /// Adds a solve to the counts of the run.
+    void count(const SolveReport &report, StepBalance<dim> &balance) const;
 
     static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
     void reinit_vectors();
@@ -99,10 +95,10 @@ namespace scree
     const BoundaryConditions<dim> &walls;
     const WaterBoundaryConditions<dim> &water_walls;
     const Forcing<dim> &forcing;
-    const bool rubs; // a wall has friction
+    WallFriction<dim> friction;
     const Splitting splitting;
     const PreviousPressure previous_pressure;
-    const double projection, water_density, bulk_modulus, volume_correction, fluidisation_porosity;
+    const double projection, water_density, bulk_modulus, volume_correction, fluidisation_porosity, viscosity;
 
     NodeNumbering<dim> corners;
     WaterTransfer<dim> transfer;
@@ -116,8 +112,6 @@ namespace scree
     CornerVector pressure, kept_pressure, change, source, crowding;
 
     bool has_grid_pressure = false; // of the last step, in the current partition
-    std::vector<std::uint8_t> contacts;            // components in which a friction wall stops the soil, by node
-    std::vector<dealii::Tensor<1, dim>> reactions; // impulses of friction walls so far, N s
   };
 } // namespace scree
 

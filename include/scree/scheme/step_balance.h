@@ -21,7 +21,7 @@ namespace scree
     double load_work        = 0;         ///< of the surface load, J
 
     // Counts, on the writing rank only; doubles hold them exactly and travel like the rest.
-    double n_solves = 0, n_iterations = 0, n_preconditioners = 0;
+    double n_iterations = 0, n_preconditioners = 0;
 
     StepBalance &operator+=(const StepBalance &other);
 
@@ -30,7 +30,7 @@ namespace scree
     {
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse;
       archive &wall_dissipation &drag_dissipation &load_work;
-      archive &n_solves &n_iterations &n_preconditioners;
+      archive &n_iterations &n_preconditioners;
     }
   };
 } // namespace scree

@@ -3,7 +3,7 @@
 #define scree_transfer_load_transfer_h
 
 #include <scree/grid/nodal_field.h>
-#include <scree/points/surface_load.h>
+#include <scree/transfer/surface_load.h>
 
 namespace scree
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_points_surface_load_h
-#define scree_points_surface_load_h
+#ifndef scree_transfer_surface_load_h
+#define scree_transfer_surface_load_h
 
 #include <scree/grid/background_grid.h>
 #include <scree/points/phase.h>

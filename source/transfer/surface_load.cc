@@ -2,7 +2,7 @@
 #include <scree/input/input_error.h>
 #include <scree/points/lattice.h>
 #include <scree/points/region.h>
-#include <scree/points/surface_load.h>
+#include <scree/transfer/surface_load.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Soil and water in one grid, for every basis, on one rank and on two: the moments give the pressure's force that a
+// walk over the points gives; a linear pressure comes back from points that lie anyhow; the mixture's divergence is
+// exact for linear motion, and a mixture that moves as one draws nothing, wherever its surface is; the solver finds the
+// pressure whose flux it is given.
+
+#include <scree/material/table.h>
+#include <scree/points/seeding.h>
+#include <scree/points/water_seeding.h>
+#include <scree/scheme/mixture_divergence.h>
+#include <scree/scheme/pressure_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iostream>
+
+using namespace dealii;
+using namespace scree;
+
+namespace
+{
+  double largest(const double value)
+  {
+    return Utilities::MPI::max(value, MPI_COMM_WORLD);
+  }
+
+  /// A number that depends on the place only, and so is the same on all ranks.
+  template <int dim>
+  double pattern(const Point<dim> &x)
+  {
+    double phase = 1.;
+    for (unsigned int a = 0; a < dim; ++a)
+      phase = 17. * std::sin(phase + 7. * x[a] * (a + 1));
+    return std::sin(phase);
+  }
+
+  template <int dim>
+  double linear(const Point<dim> &x)
+  {
+    return 5. - 3. * x[0] + 2. * x[1] - (dim == 3 ? x[2] : 0.);
+  }
+} // namespace
+
+template <int dim, int n>
+void test(const std::string &basis, std::ostream &out)
+{
+  GridParameters grid_parameters;
+  grid_parameters.basis = basis;
+  grid_parameters.lower_corner.assign(dim, 0.);
+  grid_parameters.upper_corner.assign(dim, 0.6);
+  const BackgroundGrid<dim> grid(grid_parameters, MPI_COMM_WORLD);
+  NodeNumbering<dim> corners(Basis::linear);
+  corners.distribute(grid.triangulation(), grid.cell_size());
+
+  // Soil stands in water; the surface of the water lies inside the cells.
+  MaterialParameters material;
+  material.law = "linear elastic";
+  SeedingParameters seeding;
+  seeding.region           = "x < 0.33";
+  seeding.points_per_cell  = 2;
+  seeding.initial_porosity = 0.4;
+  Phase<dim> soil("Soil",
+                  1500.,
+                  2500.,
+                  make_material<dim>(material),
+                  PropertyLayout<dim>(0, false),
+                  grid.triangulation(),
+                  grid.mapping());
+  seed(soil, seeding, grid.triangulation(), grid.cell_size());
+  WaterParameters water_parameters;
+  water_parameters.region          = "y < 0.44";
+  water_parameters.points_per_cell = 3;
+  WaterPhase<dim> water(1000., false, grid.triangulation(), grid.mapping());
+  seed_water(water, water_parameters, { { "Soil", "x < 0.33", 0.4, 1500. } }, grid.triangulation(), grid.cell_size());
+
+  const auto shake = [&](PointSet<dim> &points) {
+    for (const auto &cell : points.cells())
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        {
+          const Point<dim> x = cell.location[p];
+          for (unsigned int a = 0; a < dim; ++a)
+            cell.location[p][a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
+        }
+    points.sort();
+  };
+  shake(soil.points);
+  shake(water.points());
+  for (const auto &cell : water.points().cells())
+    for (unsigned int p = 0; p < cell.n_points; ++p)
+      {
+        double *properties                = cell.properties + p * water.points().stride();
+        properties[water.layout.pressure] = linear(cell.location[p]);
+        double *gradient                  = properties + water.layout.pressure_gradient;
+        gradient[0]                       = -3.;
+        gradient[1]                       = 2.;
+        if (dim == 3)
+          gradient[2] = -1.;
+      }
+
+  TransferParameters transfer_parameters;
+  const WaterTransfer<dim> transfer(grid, transfer_parameters, water_parameters, 1.);
+  Mixture<dim> mixture(grid);
+  PoreField<dim> pores(grid);
+  NodalField<dim> soil_field(grid), water_field(grid);
+  transfer.soil_to_grid(soil, mixture, pores);
+  transfer.to_grid(water, mixture, water_field);
+  mixture.finish();
+
+  // 1. A multilinear pressure in every cell: moments against points.
+  NodeValues<dim, 2 * dim> moments(grid.numbering()), points(grid.numbering());
+  const auto pressure_of_cell = [&](const unsigned int cell) {
+    std::array<double, (1 << dim)> values;
+    for (unsigned int v = 0; v < values.size(); ++v)
+      values[v] = pattern(corners.position(corners.nodes(cell)[v]));
+    return values;
+  };
+  std::map<unsigned int, double> saturation;
+  for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+    {
+      const auto &cell      = mixture.cells()[record];
+      saturation[cell.cell] = cell.saturation;
+      moments.activate_cell(cell.cell);
+      points.activate_cell(cell.cell);
+      mixture.add_pressure_gradient(
+          record, multilinear_of<dim>(pressure_of_cell(cell.cell)), 1., moments, 0, moments, dim);
+    }
+  const auto walk = [&](const PointSet<dim> &set, const unsigned int first, const auto &volume_of) {
+    for (const auto &cell : set.cells())
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        {
+          const auto values   = pressure_of_cell(cell.cell);
+          const Point<dim> &x = cell.reference_location[p];
+          Tensor<1, dim> slope;
+          for (unsigned int v = 0; v < values.size(); ++v)
+            for (unsigned int a = 0; a < dim; ++a)
+              {
+                double factor = values[v] * ((v >> a) & 1 ? 1. : -1.) / grid.cell_size();
+                for (unsigned int b = 0; b < dim; ++b)
+                  if (b != a)
+                    factor *= (v >> b) & 1 ? x[b] : 1. - x[b];
+                slope[a] += factor;
+              }
+          const double volume = volume_of(cell.cell, cell.properties + p * set.stride());
+          const CellBasis<dim, n> shape(x, grid.open_knots(cell.cell));
+          for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
+            {
+              double value = 1.;
+              for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+                value *= shape.value[a][rest % n];
+              for (unsigned int a = 0; a < dim; ++a)
+                points[grid.nodes(cell.cell)[i]][first + a] += volume * value * slope[a];
+            }
+        }
+  };
+  walk(soil.points, 0, [&](const unsigned int cell, const double *properties) {
+    return saturation[cell] * properties[soil.layout.mass] / soil.grain_density;
+  });
+  walk(water.points(), dim, [&](const unsigned int, const double *properties) {
+    return properties[water.layout.volume];
+  });
+  moments.add_contributions();
+  points.add_contributions();
+  double difference = 0, size = 0;
+  for (const unsigned int node : moments.active_nodes())
+    for (unsigned int c = 0; c < 2 * dim; ++c)
+      {
+        difference = std::max(difference, std::abs(moments[node][c] - points[node][c]));
+        size       = std::max(size, std::abs(points[node][c]));
+      }
+  out << "  moments and points: " << (largest(difference) < 1e-12 * largest(size) ? "same force" : "DIFFERENT FORCES")
+      << std::endl;
+
+  // 2. A linear pressure.
+  WaterBoundaryParameters wall_parameters;
+  wall_parameters.top = "impermeable";
+  const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
+  FreeSurfaceLocator<dim> surface(grid, corners, walls, FreeSurface::distance);
+  CornerVector pressure(corners.partitioner());
+  surface.locate(mixture, pressure);
+  double error = 0, unknowns = 0;
+  for (const unsigned int corner : surface.wet_corners())
+    if (surface.kind(corner) == CornerKind::unknown)
+      {
+        ++unknowns;
+        error = std::max(error, std::abs(pressure.local_element(corner) - linear(corners.position(corner))));
+      }
+  out << "  linear pressure from shaken points: " << (largest(error) < 1e-12 ? "exact" : "WRONG") << " at "
+      << Utilities::MPI::sum(unknowns, MPI_COMM_WORLD) << " unknown corners" << std::endl;
+
+  // 3. Divergence: linear motion of both phases, then translation of both.
+  const auto drawn = [&](const bool moves_as_one) {
+    // Nodes of all cells, so that absent phases move along.
+    for (NodalField<dim> *field : { &soil_field, &water_field })
+      {
+        for (const auto &cell : mixture.cells())
+          field->activate_cell(cell.cell);
+        field->add_contributions();
+        for (const unsigned int node : field->active_nodes())
+          for (unsigned int a = 0; a < dim; ++a)
+            (*field)[node][NodalField<dim>::velocity + a] =
+                moves_as_one ? 2. + a : (a + 1.) * grid.node_position(node)[a] + grid.node_position(node)[1 - (a % 2)];
+        field->update_ghosts();
+      }
+    CornerVector sums(corners.partitioner());
+    MixtureDivergence<dim>(grid, corners, Divergence::expanded)
+        .integrate(mixture, soil_field, water_field, pores, sums);
+    CornerVector expected(corners.partitioner());
+    const double trace = dim == 2 ? 3. : 6.;
+    for (const auto &cell : mixture.cells())
+      if (cell.water_volume > 0 && !moves_as_one)
+        for (unsigned int v = 0; v < cell.n_corners; ++v)
+          expected.local_element(corners.nodes(cell.cell)[v]) -=
+              trace * std::min(cell.fill, 1.) * Utilities::fixed_power<dim>(grid.cell_size()) / cell.n_corners;
+    expected.compress(VectorOperation::add);
+    sums -= expected;
+    return sums.linfty_norm() / Utilities::fixed_power<dim>(grid.cell_size());
+  };
+  out << "  divergence of linear motion: " << (drawn(false) < 1e-12 ? "exact" : "WRONG")
+      << ", of translation: " << (drawn(true) < 1e-12 ? "none" : "WRONG") << std::endl;
+
+  // 4. The solver: a unit source at every unknown corner is what the found pressure carries away.
+  for (MixtureCell<dim> &cell : mixture.cells())
+    cell.mobility = 1e-3 * (1. + 0.5 * pattern(corners.position(corners.nodes(cell.cell)[0])));
+  PressureParameters solver_parameters;
+  solver_parameters.relative_tolerance = 1e-12;
+  PressureSolver<dim> solver(grid, corners, solver_parameters);
+  CornerVector source(corners.partitioner()), change(corners.partitioner());
+  for (const unsigned int corner : surface.wet_corners())
+    if (surface.kind(corner) == CornerKind::unknown)
+      source.local_element(corner) = surface.hat_volume(corner);
+  double work[2];
+  for (double &sum : work)
+    {
+      solver.assemble(
+          mixture, surface, 1e-3, [](const unsigned int) { return 0.; }, 0.);
+      const SolveReport report = solver.solve(source, pressure, change);
+      sum                      = source * change;
+      if (&sum == work)
+        out << "  solved with a preconditioner made: " << (report.made_preconditioner ? "yes" : "NO");
+      else
+        out << "; again from the solution: " << report.n_iterations << " iterations" << std::endl;
+    }
+  out << "  work of the source: " << work[0]
+      << ", same again: " << (std::abs(work[0] - work[1]) < 1e-9 * work[0] ? "yes" : "NO") << std::endl;
+}
+
+
+int main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::ostream silent(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  out.precision(10);
+  for (const std::string basis : { "spline", "quadratic" })
+    {
+      out << basis << ", 2D" << std::endl;
+      test<2, 3>(basis, out);
+    }
+  out << "spline, 3D" << std::endl;
+  test<3, 3>("spline", out);
+  out << "linear, 2D" << std::endl;
+  test<2, 2>("linear", out);
+}
