@@ -290,12 +290,13 @@ namespace scree
       }
     Utilities::MPI::sum(sums, communicator, sums);
 
-    std::vector<double> largest(2, -std::numeric_limits<double>::infinity()); // -p, p
+    std::vector<double> largest(3, -std::numeric_limits<double>::infinity()); // -p, p, x
     for (const auto &one : water)
       for_each_point<dim>({ { one.points(), one.layout.pressure } },
-                          [&](const unsigned int, const Point<dim> &, const double *pressure) {
+                          [&](const unsigned int, const Point<dim> &x, const double *pressure) {
                             largest[0] = std::max(largest[0], -*pressure);
                             largest[1] = std::max(largest[1], *pressure);
+                            largest[2] = std::max(largest[2], x[0]);
                           });
     Utilities::MPI::max(largest, communicator, largest);
 
@@ -305,6 +306,7 @@ namespace scree
     measures.mass_outside_soil = sums[2];
     measures.smallest_pressure = sums[0] > 0 ? -largest[0] : 0.;
     measures.largest_pressure  = sums[0] > 0 ? largest[1] : 0.;
+    measures.tip               = sums[0] > 0 ? largest[2] : grid.lower_corner()[0];
     measures.volume_error      = sums[4] > 0 ? sums[3] / sums[4] : 0.;
     return measures;
   }

@@ -167,6 +167,7 @@ namespace scree
     add("Water front 90 % (m)", front[0]);
     add("Water front 99 % (m)", front[1]);
     add("Water front 99.5 % (m)", front[2]);
+    add("Water tip (m)", measures.tip);
     if (!phases.empty())
       add("Largest porosity (-)", now.largest_porosity);
     add("Drag dissipation (J)", totals.balance.drag_dissipation);

@@ -18,6 +18,13 @@ namespace scree
                       Patterns::Anything());
     prm.add_parameter(
         "Points per cell", points_per_cell, "Points along each axis of a cell.", Patterns::Integer(1, 32));
+    prm.add_parameter(
+        "Jitter",
+        jitter,
+        "Largest random move of a point from its place on the lattice, along each axis and over the lattice's "
+        "spacing; 0: a regular lattice. For verification and stability maps: moved points keep their "
+        "volume, so that a cell is no longer evenly filled.",
+        Patterns::Double(0, 0.49));
     prm.add_parameter("Grain density", grain_density, "Density of the grains, kg/m^3.", Patterns::Double(1e-12));
     prm.add_parameter(
         "Initial porosity",
@@ -76,7 +83,7 @@ namespace scree
     const MPI_Comm communicator = triangulation.get_communicator();
     const auto seeds            = lattice_seeds<dim>(triangulation,
                                           cell_size,
-                                          parameters.points_per_cell,
+                                          { parameters.points_per_cell, parameters.jitter, 0 },
                                           [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
                                             const auto [volume, centroid] = region.part_of_cube(lower, width);
                                             return { volume, volume, centroid };

@@ -24,6 +24,12 @@ namespace scree
                       points_per_cell,
                       "Points of water along each axis of a cell; double-point only.",
                       Patterns::Integer(1, 32));
+    prm.add_parameter(
+        "Jitter",
+        jitter,
+        "Largest random move of a point of water from its place on the lattice, along each axis and over the "
+        "lattice's spacing; 0: a regular lattice. For verification and stability maps. Double-point only.",
+        Patterns::Double(0, 0.49));
     prm.add_parameter("Density", density, "Density of the water, kg/m^3.", Patterns::Double(1e-12));
     prm.add_parameter("Hydraulic conductivity",
                       conductivity,
@@ -117,6 +123,7 @@ namespace scree
         "nothing reads it, as single-point water rides on the soil's points. Remove it, or write "
         "\"Point sets = double\".";
     require_entry(points_per_cell == defaults.points_per_cell, "Water", "Points per cell", points_per_cell, remedy);
+    require_entry(jitter == defaults.jitter, "Water", "Jitter", jitter, remedy);
     require_entry(
         volume_correction == defaults.volume_correction, "Water", "Volume correction", volume_correction, remedy);
     require_entry(initial_velocity == defaults.initial_velocity, "Water", "Initial velocity", initial_velocity, remedy);

@@ -74,7 +74,8 @@ namespace scree
         return sum;
       };
       const MPI_Comm communicator = triangulation.get_communicator();
-      const auto seeds = lattice_seeds<dim>(triangulation, cell_size, parameters.points_per_cell, part_of_cube);
+      const auto seeds            = lattice_seeds<dim>(
+          triangulation, cell_size, { parameters.points_per_cell, parameters.jitter, 1 }, part_of_cube);
 
       Utilities::MPI::sum(filled, communicator, filled);
       require_entry(std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),

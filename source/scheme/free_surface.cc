@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/free_surface.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -69,6 +70,16 @@ namespace scree
 
 
   template <int dim>
+  unsigned int FreeSurfaceLocator<dim>::cells_in_box(const unsigned int corner) const
+  {
+    unsigned int number = 1 << dim;
+    for (unsigned int faces = corners.faces(corner); faces != 0; faces &= faces - 1)
+      number /= 2;
+    return number;
+  }
+
+
+  template <int dim>
   bool FreeSurfaceLocator<dim>::is_unknown(const unsigned int corner, const double fill) const
   {
     constexpr double least_depth = 0.25 - 1e-9; // cells
@@ -79,12 +90,7 @@ namespace scree
       case FreeSurface::half_full:
         return fill >= 0.5 - 1e-9;
       default: // all cells around it hold water
-        {
-          unsigned int cells_in_box = 1 << dim;
-          for (unsigned int faces = corners.faces(corner); faces != 0; faces &= faces - 1)
-            cells_in_box /= 2;
-          return filling[corner][wet_cells] > cells_in_box - 0.5;
-        }
+        return filling[corner][wet_cells] > cells_in_box(corner) - 0.5;
       }
   }
 
@@ -123,11 +129,12 @@ namespace scree
     sum_filling(mixture);
     const auto classify = [&](const unsigned int corner) {
       const double *sums = filling[corner];
-      const double fill  = sums[filled] / hat_volume(corner);
-      CornerKind &kind   = kinds[corner];
-      distances[corner]  = distance_from_fill(fill);
-      kind               = CornerKind::dry;
-      double value       = 0.;
+      // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
+      const double fill = std::min(sums[filled] / hat_volume(corner), sums[wet_cells] / cells_in_box(corner));
+      CornerKind &kind  = kinds[corner];
+      distances[corner] = distance_from_fill(fill);
+      kind              = CornerKind::dry;
+      double value      = 0.;
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(corners.faces(corner)))
         {
           kind  = CornerKind::prescribed;

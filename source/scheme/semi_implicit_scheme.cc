@@ -207,11 +207,10 @@ namespace scree
         if (soil_mass <= 0. && water_mass <= 0.)
           continue; // Another rank sees this node, but no point acts on it.
 
-        // Where water does not fill the pores, it drags less.
         const double water_volume = water_mass / water_density;
         const double pore_volume  = pore[PoreField<dim>::pore_volume];
         pore[PoreField<dim>::drag] *=
-            soil_mass <= 0. || water_mass <= 0. ? 0. : time_step * std::min(1., water_volume / pore_volume);
+            soil_mass <= 0. || water_mass <= 0. ? 0. : time_step * drag_share(water_volume, pore_volume);
         const double grains                  = pore[PoreField<dim>::grain_volume];
         pore[PoreField<dim>::grain_fraction] = grains > 0. ? grains / (grains + water_volume) : 0.;
 
@@ -284,7 +283,9 @@ namespace scree
           double mobility = V_w * V_w / b;
           if (a > 0.)
             {
-              const double C = splitting == Splitting::classical ? 0. : cell.saturation * cell.drag * time_step;
+              const double C = splitting == Splitting::classical
+                                   ? 0.
+                                   : drag_share(cell.water_volume, cell.pore_volume) * cell.drag * time_step;
               mobility       = (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));
             }
           cell.mobility = mobility / (cell_volume * std::min(cell.fill, 1.));
@@ -381,16 +382,20 @@ namespace scree
           soil_change = water_change;
         if (pair.water_mass <= 0.)
           water_change = soil_change;
-        Tensor<1, dim> slip;
+        Tensor<1, dim> slip, slip_before, slip_predicted;
         for (unsigned int c = 0; c < dim; ++c)
           {
+            slip_before[c]    = water_before[c] - soil_before[c];
+            slip_predicted[c] = of_water[NodalField<dim>::velocity + c] - of_soil[NodalField<dim>::velocity + c];
             of_soil[NodalField<dim>::velocity + c] += soil_change[c];
             of_soil[NodalField<dim>::velocity_change + c] += soil_change[c];
             of_water[NodalField<dim>::velocity + c] += water_change[c];
             of_water[NodalField<dim>::velocity_change + c] += water_change[c];
             slip[c] = of_water[NodalField<dim>::velocity + c] - of_soil[NodalField<dim>::velocity + c];
           }
-        balance.drag_dissipation += pair.drag * slip.norm_square();
+        // The work of an impulse, as at walls; the classical splitting's drag knows the predicted velocities only.
+        balance.drag_dissipation +=
+            0.5 * pair.drag * (splitting == Splitting::classical ? slip_predicted : slip) * (slip_before + slip);
       }
     for (const unsigned int corner : surface.wet_corners())
       if (surface.kind(corner) != CornerKind::dry)

@@ -56,8 +56,7 @@ namespace scree
     const double volume = Utilities::fixed_power<dim>(grid.cell_size());
     for (MixtureCell<dim> &cell : records)
       {
-        cell.saturation = cell.water_volume < cell.pore_volume ? cell.water_volume / cell.pore_volume
-                                                               : (cell.water_volume > 0 ? 1. : 0.);
+        cell.saturation = saturation_of(cell.water_volume, cell.pore_volume);
         cell.fill       = (cell.water_volume + cell.saturation * cell.grain_volume) / volume;
       }
   }

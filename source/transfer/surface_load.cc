@@ -135,6 +135,10 @@ namespace scree
     const double cells_below = (parameters.lower_corner[normal] - grid.lower_corner()[normal]) / cell_size;
     const double layer       = std::max(0., std::ceil(cells_below - 1e-9) - 1);
     const double layer_lower = grid.lower_corner()[normal] + layer * cell_size;
+    // A hair inside the layer: rounding must not put a marker on a face into the next cell, which holds no soil.
+    const double hair = 1e-9 * cell_size;
+    const double plane =
+        std::clamp(parameters.lower_corner[normal], layer_lower + hair, layer_lower + cell_size - hair);
 
     std::vector<Seed<dim>> seeds;
     for (const auto &cell : grid.triangulation().active_cell_iterators())
@@ -148,7 +152,7 @@ namespace scree
           {
             places[a] =
                 a == normal
-                    ? std::vector<std::pair<double, double>>{ { parameters.lower_corner[a], 1. } }
+                    ? std::vector<std::pair<double, double>>{ { plane, 1. } }
                     : places_on_axis(lower[a], cell_size, parameters.lower_corner[a], parameters.upper_corner[a]);
             n *= places[a].size();
           }

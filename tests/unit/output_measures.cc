@@ -216,6 +216,7 @@ void test_water(std::ostream &out)
   expect(wet.mass_outside_soil, 800. * 0.2 * column, 1e-8, "water outside soil");
   expect(wet.smallest_pressure, 1000. * (0.225 - 0.275), 1e-8, "smallest p");
   expect(wet.largest_pressure, 1000. * (0.575 + 0.275), 1e-8, "largest p");
+  expect(wet.tip, 0.575, 1e-12, "tip of the water");
   // Two columns of cells hold all grains and 0.8 of water.
   const double error = 0.8 * 0.2 / (0.4 + 0.8 * 0.4);
   expect(wet.volume_error, error, 1e-10, "volume error");

@@ -58,6 +58,7 @@ namespace scree
     double mass_outside_soil = 0; ///< in cells without soil points, kg
     double smallest_pressure = 0; ///< p of points, Pa
     double largest_pressure  = 0; ///< Pa
+    double tip               = 0; ///< largest x of points; the lower corner's x without points, m
     double volume_error      = 0; ///< grains and water beyond their cells' volume, over all grains and water
   };
 

@@ -29,16 +29,26 @@ namespace scree
     double volume;               ///< m^3 (2D: per m)
   };
 
+  /// The lattice of a set of points.
+  struct Lattice
+  {
+    unsigned int n;    ///< points along each axis of a cell
+    double jitter = 0; ///< largest move of a point along an axis, over the lattice's spacing; below 1/2
+    /// Sets with other numbers are moved independently of each other.
+    unsigned int sequence = 0;
+  };
+
   /// What lies in the cube with this lower corner, m, and width, m.
   template <int dim>
   using PartOfCube = std::function<CubePart<dim>(const dealii::Point<dim> &lower, const double width)>;
 
-  /// The seeds of this rank's cells on a regular lattice of `n` cubes an axis and cell. Cubes covered by less than a
-  /// quarter join the nearest fuller one of their cell.
+  /// The seeds of this rank's cells on a lattice of cubes. Cubes covered by less than a quarter join the nearest fuller
+  /// one of their cell. Jitter moves a seed within its cell by a random amount, the same on any number of ranks, and
+  /// leaves it its volume.
   template <int dim>
   std::vector<Seed<dim>> lattice_seeds(const dealii::Triangulation<dim> &triangulation,
                                        const double cell_size,
-                                       const unsigned int n,
+                                       const Lattice &lattice,
                                        const PartOfCube<dim> &part_of_cube);
 
   /// Writes a new point's properties, which are 0 before.

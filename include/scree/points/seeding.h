@@ -16,6 +16,7 @@ namespace scree
   {
     std::string region           = "0";
     unsigned int points_per_cell = 4;    ///< along each axis
+    double jitter                = 0;    ///< over the points' spacing
     double grain_density         = 2500; ///< kg/m^3
     double initial_porosity      = -1;   ///< below 0: as the law says
     std::string initial_velocity = "";   ///< m/s, one expression an axis; empty: at rest

@@ -95,6 +95,8 @@ namespace scree
       return distances[corner] < 1. ? distances[corner] : 1. + std::max(distances[surface_corner], 0.);
     }
 
+    /// Cells around a corner.
+    unsigned int cells_in_box(const unsigned int corner) const;
     bool is_unknown(const unsigned int corner, const double fill) const;
     void sum_filling(const Mixture<dim> &mixture);
 

@@ -5,11 +5,32 @@
 #include <scree/grid/nodal_field.h>
 #include <scree/transfer/node_rows.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 namespace scree
 {
+  /// How far the volume of water may differ from that of the soil's pores by the scatter of points alone, over the
+  /// latter: of four points an axis three or five may be in a cell.
+  constexpr double point_scatter = 0.3;
+
+  /// Part of the pores that water fills; 1 also where the scatter explains what is missing. Without this the scatter
+  /// takes buoyancy from the grains: a saturated soil settles under its own weight by 2 % too much.
+  inline double saturation_of(const double water_volume, const double pore_volume)
+  {
+    const double full = (1. - point_scatter) * pore_volume;
+    return water_volume < full ? water_volume / full : (water_volume > 0 ? 1. : 0.);
+  }
+
+  /// Drag on water over that on water that fills the pores: in proportion to its volume, as the force of the pressure
+  /// on it is, within the scatter of points; water beyond is outside the soil. Bounded by 1, soil consolidates 4 % too
+  /// fast, since a surplus then flows faster and a lack does not flow more slowly.
+  inline double drag_share(const double water_volume, const double pore_volume)
+  {
+    return pore_volume > 0 ? std::min(1. + point_scatter, water_volume / pore_volume) : 0.;
+  }
+
   /// What the points of a cell weigh and fill (2D: per m).
   template <int dim>
   struct MixtureCell
