@@ -321,11 +321,9 @@ namespace scree
         graphics.write(phases, field, time);
         return;
       }
-    const WaterView<dim> view{ water,
-                               semi_implicit->water_field(),
-                               [&](const unsigned int cell, const unsigned int corner) {
-                                 return semi_implicit->corner_pressure(cell)[corner];
-                               } };
+    const WaterView<dim> view{ water, semi_implicit->water_field(), [&](const unsigned int cell) {
+                                return semi_implicit->corner_pressure(cell);
+                              } };
     graphics.write(phases, field, time, &view);
   }
 

@@ -51,7 +51,7 @@ namespace scree
             if (!view)
               continue;
             put_velocity(view->field);
-            put(view->pressure_at_corner(index, v));
+            put(view->pressure_of_cell(index)[v]);
             put(sums.porosity());
             put(sums.saturation(cell_volume));
           }

@@ -4,7 +4,6 @@
 #include <scree/output/patch_output.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace scree
 {
@@ -149,9 +148,9 @@ namespace scree
         law_fields.begin(phase);
         for (const auto &cell : phase.points.cells())
           {
-            std::optional<CellPressure<dim>> pressure;
+            std::array<double, (1 << dim)> pressure;
             if (view)
-              pressure.emplace(view->pressure_at_corner, cell.cell);
+              pressure = view->pressure_of_cell(cell.cell);
             for (unsigned int p = 0; p < cell.n_points; ++p)
               {
                 const double *properties = cell.properties + p * phase.points.stride();
@@ -162,7 +161,7 @@ namespace scree
                     const Point<dim> &x = cell.reference_location[p];
                     const double n      = phase.porosity(properties);
                     rows.put(n);
-                    rows.put(pressure->at(x));
+                    rows.put(pressure_at<dim>(x, pressure));
                     rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
                   }
                 law_fields.put(rows, phase, properties);

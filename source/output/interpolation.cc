@@ -1,39 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/shape_functions.h>
 #include <scree/output/interpolation.h>
 
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Calls visit(node, shape value) for the nodes that act at the place `x` of a cell.
-    template <int n, int dim, typename Visit>
-    void for_nodes(const Point<dim> &x, const BackgroundGrid<dim> &grid, const unsigned int cell, const Visit &visit)
-    {
-      const CellBasis<dim, n> basis(x, grid.open_knots(cell));
-      for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
-        {
-          double value = 1.;
-          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-            value *= basis.value[a][rest % n];
-          visit(grid.nodes(cell)[i], value);
-        }
-    }
-
-    template <int dim, typename Visit>
-    void for_shape_functions(const Point<dim> &x,
-                             const BackgroundGrid<dim> &grid,
-                             const unsigned int cell,
-                             const Visit &visit)
-    {
-      if (grid.n_nodes_1d() == 3)
-        for_nodes<3>(x, grid, cell, visit);
-      else
-        for_nodes<2>(x, grid, cell, visit);
-    }
-  } // namespace
-
 
   template <int dim>
   Tensor<1, dim> velocity_at(const Point<dim> &x,
@@ -42,7 +13,7 @@ namespace scree
                              const NodalField<dim> &field)
   {
     Tensor<1, dim> velocity;
-    for_shape_functions(x, grid, cell, [&](const unsigned int node, const double shape) {
+    visit_nodes(grid, cell, x, [&](const unsigned int node, const double shape) {
       for (unsigned int c = 0; c < dim; ++c)
         velocity[c] += shape * field[node][NodalField<dim>::velocity + c];
     });
@@ -59,7 +30,7 @@ namespace scree
   {
     using Field = NodalField<dim>;
     Tensor<1, dim> velocity;
-    for_shape_functions(x, grid, cell, [&](const unsigned int node, const double shape) {
+    visit_nodes(grid, cell, x, [&](const unsigned int node, const double shape) {
       // A node without mass has no velocity of its own.
       if (soil[node][Field::mass] > 0 && water[node][Field::mass] > 0)
         for (unsigned int c = 0; c < dim; ++c)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/shape_functions.h>
 #include <scree/scheme/semi_implicit_scheme.h>
 
 #include <algorithm>
@@ -13,31 +14,6 @@ namespace scree
     return transfer.to_points(
         water, water_nodes, [this](const unsigned int cell) { return corner_pressure(cell); }, time_step);
   }
-
-
-  namespace
-  {
-    /// The value of nodal components from `first` on at a place of a cell.
-    template <int dim, int n>
-    Tensor<1, dim> interpolate(const Point<dim> &x,
-                               const OpenKnots open,
-                               const unsigned int *nodes,
-                               const NodeValues<dim, 2 * dim> &values,
-                               const unsigned int first)
-    {
-      const CellBasis<dim, n> basis(x, open);
-      Tensor<1, dim> result;
-      for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
-        {
-          double shape = 1.;
-          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-            shape *= basis.value[a][rest % n];
-          for (unsigned int c = 0; c < dim; ++c)
-            result[c] += shape * values[nodes[i]][first + c];
-        }
-      return result;
-    }
-  } // namespace
 
 
   template <int dim>
@@ -87,11 +63,12 @@ namespace scree
     for (const CellPoints<dim> &cell : water.points().cells())
       for (unsigned int p = 0; p < cell.n_points; ++p)
         {
-          const unsigned int *nodes = grid.nodes(cell.cell);
-          const OpenKnots open      = grid.open_knots(cell.cell);
-          const Point<dim> &x       = cell.reference_location[p];
-          cell.location[p] += grid.n_nodes_1d() == 2 ? interpolate<dim, 2>(x, open, nodes, correction, dim)
-                                                     : interpolate<dim, 3>(x, open, nodes, correction, dim);
+          Tensor<1, dim> shift;
+          visit_nodes(grid, cell.cell, cell.reference_location[p], [&](const unsigned int node, const double shape) {
+            for (unsigned int c = 0; c < dim; ++c)
+              shift[c] += shape * correction[node][dim + c];
+          });
+          cell.location[p] += shift;
         }
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/grid/cell_basis.h>
+#include <scree/grid/shape_functions.h>
 #include <scree/transfer/load_transfer.h>
 
 #include <algorithm>
@@ -10,31 +10,6 @@ namespace scree
 
   namespace
   {
-    /// Calls `visit(i, phi_i)` for the nodes of a cell, `x` in reference coordinates.
-    template <int dim, int n, typename Visit>
-    void visit_basis(const Point<dim> &x, const OpenKnots open, const Visit &visit)
-    {
-      const CellBasis<dim, n> basis(x, open);
-      for (unsigned int i = 0; i < basis.n_nodes; ++i)
-        {
-          double value = 1;
-          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-            value *= basis.value[a][rest % n];
-          visit(i, value);
-        }
-    }
-
-    template <int dim, typename Visit>
-    void visit_nodes(const BackgroundGrid<dim> &grid, const unsigned int cell, const Point<dim> &x, const Visit &visit)
-    {
-      const unsigned int *nodes = grid.nodes(cell);
-      const auto visit_node     = [&](const unsigned int i, const double value) { visit(nodes[i], value); };
-      if (grid.n_nodes_1d() == 2)
-        visit_basis<dim, 2>(x, grid.open_knots(cell), visit_node);
-      else
-        visit_basis<dim, 3>(x, grid.open_knots(cell), visit_node);
-    }
-
     /// Calls `visit(cell, p, force)` for the markers.
     template <int dim, typename Visit>
     void visit_markers(const SurfaceLoad<dim> &load, const double time, const Visit &visit)

@@ -113,12 +113,10 @@ void test_interpolation(std::ostream &out)
           expect(relative, 0., 1e-12, "relative velocity away from the water");
 
         const auto pressure = [&](const Point<dim> &y) { return 7. + 5. * y[0] - 3. * y[1] + y[0] * y[1]; };
-        const CellPressure<dim> corners(
-            [&](const unsigned int, const unsigned int corner) {
-              return pressure(GeometryInfo<dim>::unit_cell_vertex(corner));
-            },
-            index);
-        expect(corners.at(x), pressure(x), 1e-12, "bilinear pressure");
+        std::array<double, (1 << dim)> corners;
+        for (unsigned int v = 0; v < corners.size(); ++v)
+          corners[v] = pressure(GeometryInfo<dim>::unit_cell_vertex(v));
+        expect(pressure_at<dim>(x, corners), pressure(x), 1e-12, "bilinear pressure");
       }
   out << dim << "D interpolation: OK" << std::endl;
 }
@@ -146,8 +144,10 @@ void test_graphics(std::ostream &out)
     std::filesystem::create_directories(folder + "/solution");
   MPI_Barrier(MPI_COMM_WORLD);
   Graphics<dim> graphics(scene.grid, OutputParameters(), folder);
-  const WaterView<dim> view{ scene.water, scene.water_field, [](const unsigned int, const unsigned int) {
-                              return 100.;
+  const WaterView<dim> view{ scene.water, scene.water_field, [](const unsigned int) {
+                              std::array<double, (1 << dim)> corners;
+                              corners.fill(100.);
+                              return corners;
                             } };
   graphics.write(scene.phases, scene.soil_field, 0., &view);
   graphics.write({}, scene.soil_field, 1., &view); // a pure water scene has no series of soil points

@@ -5,6 +5,7 @@
 #include <scree/output/cell_contents.h>
 #include <scree/output/interpolation.h>
 #include <scree/output/output_parameters.h>
+#include <scree/transfer/mixture.h>
 
 #include <list>
 #include <string>
@@ -19,8 +20,8 @@ namespace scree
   {
     const std::list<WaterPhase<dim>> &water;
     const NodalField<dim> &field; ///< the water's, solved: its mass and velocity are read
-    /// Asked for all corners of the cells of this rank that hold points; 0 where there is no pressure.
-    CornerPressure pressure_at_corner;
+    /// Asked for the cells of this rank that hold points; 0 where there is no pressure.
+    PressureOfCell<dim> pressure_of_cell;
   };
 
   /// The folder `solution` of a run: `.pvtu` files of points, of water points and of grid cells that hold points, and a

@@ -7,7 +7,6 @@
 #include <deal.II/base/geometry_info.h>
 
 #include <array>
-#include <functional>
 
 namespace scree
 {
@@ -27,38 +26,16 @@ namespace scree
                                               const NodalField<dim> &soil,
                                               const NodalField<dim> &water);
 
-  /// Pressure at a corner of a cell, Pa; corners in deal.II's order (lexicographic).
-  using CornerPressure = std::function<double(const unsigned int cell, const unsigned int corner)>;
-
-  /// The pressures at the corners of one cell.
+  /// The pressure, Pa, at the place `x` (in cell widths from the lower corner) of a cell with the given values at its
+  /// corners: linear along each axis.
   template <int dim>
-  class CellPressure
+  double pressure_at(const dealii::Point<dim> &x, const std::array<double, (1 << dim)> &corners)
   {
-  public:
-    CellPressure(const CornerPressure &pressure_at_corner, const unsigned int cell)
-    {
-      for (unsigned int corner = 0; corner < corners.size(); ++corner)
-        corners[corner] = pressure_at_corner(cell, corner);
-    }
-
-    /// Pa, at a corner.
-    double operator[](const unsigned int corner) const
-    {
-      return corners[corner];
-    }
-
-    /// Pa, multilinear at the place `x`, in cell widths from the lower corner.
-    double at(const dealii::Point<dim> &x) const
-    {
-      double pressure = 0;
-      for (unsigned int corner = 0; corner < corners.size(); ++corner)
-        pressure += corners[corner] * dealii::GeometryInfo<dim>::d_linear_shape_function(x, corner);
-      return pressure;
-    }
-
-  private:
-    std::array<double, dealii::GeometryInfo<dim>::vertices_per_cell> corners;
-  };
+    double pressure = 0;
+    for (unsigned int corner = 0; corner < corners.size(); ++corner)
+      pressure += corners[corner] * dealii::GeometryInfo<dim>::d_linear_shape_function(x, corner);
+    return pressure;
+  }
 } // namespace scree
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace scree
@@ -57,6 +58,10 @@ namespace scree
     {
     }
   };
+
+  /// The pressure at a cell's corners, Pa, in deal.II's order.
+  template <int dim>
+  using PressureOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
 
   /// A pressure that is linear along each axis of a cell: coefficients of the monomials of the cell's coordinates from
   /// 0 to 1; bit a of the index stands for a factor x_a.

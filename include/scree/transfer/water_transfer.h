@@ -7,8 +7,6 @@
 #include <scree/transfer/mixture.h>
 #include <scree/transfer/transfer.h>
 
-#include <functional>
-
 namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
@@ -26,10 +24,6 @@ namespace scree
     {
     }
   };
-
-  /// The pressure at a cell's corners, Pa, in deal.II's order.
-  template <int dim>
-  using PressureOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
 
   /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
   template <int dim>
