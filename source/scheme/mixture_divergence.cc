@@ -65,18 +65,17 @@ namespace scree
           continue;
         const unsigned int *nodes = grid.nodes(cell.cell);
         const OpenKnots open      = grid.open_knots(cell.cell);
-        NodeRow soil_rows[dim][n_rows], slip_rows[dim][n_rows], grain_rows[n_rows];
+        // The mixture's velocity is made at the nodes: an interpolated fraction of grains would lend that of heavy
+        // nodes to light ones, whose soil is fast where points have just entered a cell.
+        NodeRow rows_of_flow[dim][n_rows];
         for (unsigned int c = 0; c < dim; ++c)
-          {
-            gather<dim, n>(
-                nodes, [&](const unsigned int node) { return soil[node][velocity + c]; }, soil_rows[c]);
-            gather<dim, n>(
-                nodes,
-                [&](const unsigned int node) { return water[node][velocity + c] - soil[node][velocity + c]; },
-                slip_rows[c]);
-          }
-        gather<dim, n>(
-            nodes, [&](const unsigned int node) { return pores[node][PoreField<dim>::grain_fraction]; }, grain_rows);
+          gather<dim, n>(
+              nodes,
+              [&](const unsigned int node) {
+                const double grains = pores[node][PoreField<dim>::grain_fraction];
+                return grains * soil[node][velocity + c] + (1. - grains) * water[node][velocity + c];
+              },
+              rows_of_flow[c]);
 
         const double scale = cell_volume * std::min(cell.fill, 1.);
         std::array<double, n_corners> integrals{};
@@ -92,14 +91,11 @@ namespace scree
               return inverse_width * (a == 0 ? sum(contract(rows.value, field) * derivative_x)
                                              : sum(contract(rows.derivative[a - 1], field) * value_x));
             };
-            const double porosity = 1. - value(grain_rows);
             if (form == Divergence::expanded)
               {
-                // div v_s + n div(v_w - v_s) + grad n . (v_w - v_s)
                 double divergence = 0;
                 for (unsigned int c = 0; c < dim; ++c)
-                  divergence += slope(soil_rows[c], c) + porosity * slope(slip_rows[c], c) -
-                                slope(grain_rows, c) * value(slip_rows[c]);
+                  divergence += slope(rows_of_flow[c], c);
                 const double weighted = -scale * weights[q] * divergence;
                 for (unsigned int v = 0; v < n_corners; ++v)
                   integrals[v] += weighted * hats[q][v];
@@ -108,7 +104,7 @@ namespace scree
               {
                 Tensor<1, dim> flux;
                 for (unsigned int c = 0; c < dim; ++c)
-                  flux[c] = value(soil_rows[c]) + porosity * value(slip_rows[c]);
+                  flux[c] = value(rows_of_flow[c]);
                 const double weight = scale * weights[q] * inverse_width;
                 for (unsigned int v = 0; v < n_corners; ++v)
                   integrals[v] += weight * (flux * hat_gradients[q][v]);

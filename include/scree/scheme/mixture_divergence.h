@@ -9,7 +9,8 @@
 
 namespace scree
 {
-  /// The volume that the mixture's flow draws from the corners: integrals of -psi div[(1-n) v_s + n v_w].
+  /// The volume that the mixture's flow draws from the corners: integrals of -psi div u, where u = (1-n) v_s + n v_w is
+  /// formed at the nodes.
   template <int dim>
   class MixtureDivergence
   {
