@@ -26,7 +26,7 @@ namespace scree
                    CornerVector &sums);
 
   private:
-    static constexpr unsigned int n_gauss   = 3; // an axis: exact for products of quadratics
+    static constexpr unsigned int n_gauss   = 2; // an axis: exact for slopes of quadratics times hats
     static constexpr unsigned int n_points  = dealii::Utilities::pow(n_gauss, dim);
     static constexpr unsigned int n_corners = 1 << dim;
 
