@@ -33,8 +33,7 @@ namespace scree
     prm.add_parameter(
         "Divergence",
         divergence,
-        "Of the mixture: expanded ((1-n) div v_s + n div v_w + grad n . (v_w - v_s)); flux (integrated by "
-        "parts).",
+        "Of the mixture's velocity (1-n) v_s + n v_w: expanded (taken as it stands); flux (integrated by parts).",
         Patterns::Selection("expanded|flux"));
     prm.add_parameter(
         "Previous pressure",

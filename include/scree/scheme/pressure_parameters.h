@@ -26,8 +26,8 @@ namespace scree
   /// The form of the mixture's divergence.
   enum class Divergence
   {
-    expanded, ///< (1-n) div v_s + n div v_w + grad n . (v_w - v_s): Galilean-invariant
-    flux      ///< -grad psi . [(1-n) v_s + n v_w]
+    expanded, ///< psi div u, u = (1-n) v_s + n v_w of the nodes: Galilean-invariant
+    flux      ///< -grad psi . u
   };
 
   /// Where a step's pressure at its start comes from.
