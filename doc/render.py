@@ -260,13 +260,17 @@ def panels(rows, columns, box, width=10.):
                         subplot_kw={"projection": "3d"} if three_dimensional else {})
 
 
-def render_points(run, output, name="mean_effective_stress", times=None, limits=None):
+def has_collection(run, collection):
+    return (pathlib.Path(run) / "solution" / f"{collection}.pvd").exists()
+
+
+def render_points(run, output, name, times=None, limits=None, collection="points"):
     """Panels of a few times (default: first, a quarter, half, last) in one PNG."""
     box = read_box(run)
     if times is None:
-        available = read_times(run)
+        available = read_times(run, collection)
         times = available[0] + np.array([0, 0.25, 0.5, 1]) * (available[-1] - available[0])
-    pictures = {picture.time: picture for picture in (read_points(run, time) for time in times)}
+    pictures = {picture.time: picture for picture in (read_points(run, time, collection) for time in times)}
     pictures = [pictures[time] for time in sorted(pictures)]
     if limits is None:
         limits = colour_limits(np.concatenate([field_values(points, name) for points in pictures]), name)
@@ -328,7 +332,9 @@ def render_statistics(run, output):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
-    parser.add_argument("--field", default="mean_effective_stress", help=f"{', '.join(FIELDS)} or any array of the file")
+    parser.add_argument("--collection", choices=["points", "water"],
+                        help="points of the soil or of the water; default: of the soil, if there is any")
+    parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: mean_effective_stress, pressure of water")
     parser.add_argument("--times", help="times in s, separated by commas; default: first, 1/4, 1/2 and last")
     parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
     parser.add_argument("--output", type=pathlib.Path, help="default: points.png in the run folder")
@@ -337,9 +343,12 @@ def main():
     def numbers(text):
         return text and [float(word) for word in text.split(",")]
 
-    output = arguments.output or arguments.run / "points.png"
+    collection = arguments.collection or ("points" if has_collection(arguments.run, "points")
+                                          or not has_collection(arguments.run, "water") else "water")
+    field = arguments.field or ("mean_effective_stress" if collection == "points" else "pressure")
+    output = arguments.output or arguments.run / f"{collection}.png"
     try:
-        render_points(arguments.run, output, arguments.field, numbers(arguments.times), numbers(arguments.limits))
+        render_points(arguments.run, output, field, numbers(arguments.times), numbers(arguments.limits), collection)
         print(f"Wrote {output}")
         statistics = output.with_name("statistics.png")
         if (arguments.run / "statistics").exists() and render_statistics(arguments.run, statistics):
