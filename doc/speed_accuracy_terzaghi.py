@@ -9,6 +9,10 @@ the core-seconds of the steps, a curve a method over its meshes; runs that no ot
 square of the L2 errors of p/q at T_v = 0.1, 0.5 and 1; the table has each of them, that of U, and the error against the solution with
 inertia (doc/closed_forms.py), which Terzaghi's leaves out, so that orders of convergence are not hidden by it. A run that is
 there already for the same parameters is not repeated (--again repeats it): do so on an idle machine.
+
+It shows: second order in the cell size for both bases and both point sets, from 10 to 40 cells; the step hardly matters, as the
+error is that of the mesh even at C = 0.9, so that the largest step wins; double- and single-point agree within 1 % with splines;
+linear functions are as accurate as splines, on regular points that hardly move. (The .png is the same chart.)
 """
 
 import argparse
@@ -28,6 +32,7 @@ from render import plt
 from runs import ROOT
 
 FACTORS = (0.1, 0.5, 1.)
+LOAD = 100.  # Pa, a tenth of the case's: Terzaghi's strain is small, and a settlement of 9e-4 H alone changes p/q by 5e-4
 BASE = ROOT / "prm" / "terzaghi.prm"
 COLOURS = {("spline", "double"): "C0", ("spline", "single"): "C1", ("linear", "double"): "C2", ("linear", "single"): "C3"}
 MARKERS = ["o", "s", "^", "D", "v"]
@@ -45,10 +50,11 @@ def column_of(entries):
 def run_variant(basis, point_sets, courant, cells, arguments):
     """Runs one variant unless it is there; returns its line of the table."""
     column, grain_density, porosity = column_of(variants.read_entries(BASE))
+    column = column._replace(load=LOAD)
     size = 1 / cells
     folder, exit_code = runs.run_variant(
         BASE, f"{basis}_{point_sets}_C{courant:g}_{cells}",
-        {"Mesh/Basis": basis, "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": f"{2 * size:.12g}, 1.2",
+        {"Mesh/Basis": basis, "Surface load/Traction": f"0; {-LOAD:g}", "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": f"{2 * size:.12g}, 1.2",
          "Surface load/Upper corner": f"{2 * size:.12g}, 1", "Water/Point sets": point_sets,
          "Time step/Courant number": f"{courant:g}", "End time": repr(column.time(1)), "Output/Interval": repr(column.time(0.1)),
          "Output/Graphics": "points"},
@@ -119,7 +125,8 @@ def draw(lines, output):
     axes.set_title("Terzaghi's consolidation; the numbers are cells over the height", fontsize="medium")
     axes.grid(alpha=0.3, which="both")
     axes.legend(fontsize="small")
-    figure.savefig(output)
+    for suffix in (".svg", ".png"):
+        figure.savefig(output.with_suffix(suffix), dpi=120)
     plt.close(figure)
 
 
@@ -133,7 +140,7 @@ def main():
     parser.add_argument("--bases", type=list_of(str), default=["spline", "linear"])
     parser.add_argument("--point-sets", type=list_of(str), default=["double", "single"])
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "doc" / "figures" / "speed_accuracy_terzaghi.svg",
-                        help=".svg or .png; the table goes beside it")
+                        help="the chart as .svg and .png; the table goes beside them")
     runs.add_arguments(parser, "speed_accuracy_terzaghi", 1800.)
     arguments = parser.parse_args()
     try:
