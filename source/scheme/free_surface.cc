@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -151,27 +152,47 @@ namespace scree
     if (rule != FreeSurface::distance)
       return;
 
+    // Kinds beside the surface: those with unknown neighbours, then those that have only those.
     neighbours.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0)
+        neighbours.activate_cell(cell.cell);
+    const auto spread = [&](const CornerKind source, const CornerKind target) {
+      for_pairs(mixture, CornerKind::dry, source, [&](const unsigned int corner, const unsigned int neighbour) {
+        neighbours[corner][number] += 1.;
+        neighbours[corner][sum_of_distances] += depth(neighbour, corner);
+      });
+      neighbours.add_contributions();
+      neighbours.update_ghosts();
+      for_all_wet_corners(mixture, [&](const unsigned int corner) {
+        if (kinds[corner] == CornerKind::dry && neighbours[corner][number] > 0.)
+          kinds[corner] = target;
+      });
+    };
+    spread(CornerKind::unknown, CornerKind::surface);
+    neighbours.clear_ghosts();
+    spread(CornerKind::surface, CornerKind::beyond);
+  }
+
+
+  template <int dim>
+  template <typename Function>
+  void FreeSurfaceLocator<dim>::for_pairs(const Mixture<dim> &mixture,
+                                          const CornerKind kind,
+                                          const CornerKind kind_of_neighbour,
+                                          const Function &act) const
+  {
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0)
         {
-          neighbours.activate_cell(cell.cell);
           const unsigned int *nodes = corners.nodes(cell.cell);
           for (unsigned int v = 0; v < cell.n_corners; ++v)
-            if (kinds[nodes[v]] == CornerKind::dry)
+            if (kinds[nodes[v]] == kind)
               for (unsigned int w = 0; w < cell.n_corners; ++w)
-                if (kinds[nodes[w]] == CornerKind::unknown)
-                  {
-                    neighbours[nodes[v]][number] += 1.;
-                    neighbours[nodes[v]][sum_of_distances] += depth(nodes[w], nodes[v]);
-                  }
+                if (kinds[nodes[w]] == kind_of_neighbour &&
+                    (kind_of_neighbour == CornerKind::unknown || distances[nodes[w]] > 1e-6))
+                  act(nodes[v], nodes[w]);
         }
-    neighbours.add_contributions();
-    neighbours.update_ghosts();
-    for_all_wet_corners(mixture, [&](const unsigned int corner) {
-      if (kinds[corner] == CornerKind::dry && neighbours[corner][number] > 0.)
-        kinds[corner] = CornerKind::surface;
-    });
   }
 
 
@@ -180,28 +201,28 @@ namespace scree
   {
     if (rule != FreeSurface::distance)
       return;
-    neighbours.clear_ghosts();
-    for (const unsigned int corner : neighbours.active_nodes())
-      neighbours[corner][sum_of_pressures] = 0.;
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0)
-        {
-          const unsigned int *nodes = corners.nodes(cell.cell);
-          for (unsigned int v = 0; v < cell.n_corners; ++v)
-            if (kinds[nodes[v]] == CornerKind::surface)
-              for (unsigned int w = 0; w < cell.n_corners; ++w)
-                if (kinds[nodes[w]] == CornerKind::unknown)
-                  neighbours[nodes[v]][sum_of_pressures] += pressure.local_element(nodes[w]);
-        }
-    neighbours.add_contributions();
-    neighbours.update_ghosts();
-    for_all_wet_corners(mixture, [&](const unsigned int corner) {
-      if (kinds[corner] != CornerKind::surface)
-        return;
-      const double *sums             = neighbours[corner];
-      const double ratio             = std::max(distances[corner] * sums[number] / sums[sum_of_distances], -steepest);
-      pressure.local_element(corner) = ratio * sums[sum_of_pressures] / sums[number];
-    });
+    const auto spread = [&](const CornerKind source, const CornerKind target) {
+      neighbours.clear_ghosts();
+      for (const unsigned int corner : neighbours.active_nodes())
+        neighbours[corner][sum_of_pressures] = 0.;
+      for_pairs(mixture, target, source, [&](const unsigned int corner, const unsigned int neighbour) {
+        neighbours[corner][sum_of_pressures] += pressure.local_element(neighbour);
+      });
+      neighbours.add_contributions();
+      neighbours.update_ghosts();
+      for_all_wet_corners(mixture, [&](const unsigned int corner) {
+        if (kinds[corner] != target)
+          return;
+        const double *sums = neighbours[corner];
+        // The slope of a corner inside the water is bounded already, however near the surface it is.
+        const double steep = target == CornerKind::surface ? steepest * sums[sum_of_distances] / sums[number]
+                                                           : std::numeric_limits<double>::infinity();
+        pressure.local_element(corner) =
+            std::max(distances[corner], -steep) * sums[sum_of_pressures] / sums[sum_of_distances];
+      });
+    };
+    spread(CornerKind::unknown, CornerKind::surface);
+    spread(CornerKind::surface, CornerKind::beyond);
   }
 
   template class FreeSurfaceLocator<2>;

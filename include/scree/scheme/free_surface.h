@@ -17,7 +17,8 @@ namespace scree
   {
     dry,        ///< 0
     unknown,    ///< a degree of freedom
-    surface,    ///< extrapolated, so that it vanishes at the surface beside the corner
+    surface,    ///< extrapolated from unknown neighbours, so that it vanishes at the surface beside the corner
+    beyond,     ///< extrapolated from those of kind surface that are inside the water
     prescribed, ///< by a drained wall
   };
 
@@ -88,12 +89,23 @@ namespace scree
   private:
     static constexpr double steepest = 3.; // bounds the extrapolation from shallow corners
 
-    /// Distance of an unknown corner from the surface that is near another one, cells.
-    double depth(const unsigned int corner, const unsigned int surface_corner) const
+    /// Distance of a corner from the surface that is beside its neighbour, cells. Fills near 1 tell it badly, and not
+    /// at all beyond one cell: a corner deeper than its neighbour in the water is taken to be a cell deeper.
+    double depth(const unsigned int corner, const unsigned int neighbour) const
     {
-      // Fills do not tell more than one cell of water from many.
-      return distances[corner] < 1. ? distances[corner] : 1. + std::max(distances[surface_corner], 0.);
+      const double own = distances[corner], from_neighbour = 1. + distances[neighbour];
+      if (distances[neighbour] <= 0. || own < 0.5)
+        return own;
+      return own + std::min(4. * (own - 0.5), 1.) * std::max(from_neighbour - own, 0.);
     }
+
+    /// Calls `act(corner, neighbour)` for the corners of a kind and those of another kind (inside the water, if they
+    /// are not unknown) in the same cell, cell by cell.
+    template <typename Function>
+    void for_pairs(const Mixture<dim> &mixture,
+                   const CornerKind kind,
+                   const CornerKind kind_of_neighbour,
+                   const Function &act) const;
 
     /// Cells around a corner.
     unsigned int cells_in_box(const unsigned int corner) const;
