@@ -69,8 +69,8 @@ def hydrostatic(scree):
         # Pictures hold single precision: 1e-6 of the pressure at the base.
         check(label + "largest error of p over rho g h", np.max(np.abs(water.arrays["pressure"] - exact)) / unit, 0, 1e-5)
         largest, smallest = WATER * (surface - cell / 8), WATER * cell / 8
-        check(label + "error of the largest p over rho g h", abs(table["Largest p (Pa)"][-1] - largest) / unit, 0, 1e-9)
-        check(label + "error of the smallest p over rho g h", abs(table["Smallest p (Pa)"][-1] - smallest) / unit, 0, 1e-9)
+        check(label + "error of the largest p over rho g h", abs(table["Largest p (Pa)"][-1] - largest) / unit, 0, 1e-10)
+        check(label + "error of the smallest p over rho g h", abs(table["Smallest p (Pa)"][-1] - smallest) / unit, 0, 1e-10)
         check(label + "speed, m/s", speed(table), 0, 1e-9)
         check_water(label + "water", table)
     hydrostatic_jittered(scree)
@@ -79,8 +79,8 @@ def hydrostatic(scree):
 def hydrostatic_jittered(scree):
     """Points moved by up to a quarter of their spacing: error of p, rms over the points, <= .01 rho g h (prototype: .005).
 
-    h is the cell. The largest error of a point is up to .015; a surface a quarter of a cell above a face is worse by far
-    (rms .03, largest .08): the corners there lie a quarter of a cell deep, where they turn from unknown to extrapolated.
+    h is the cell. Measured .0047/.0025/.0009/.0012. A surface a quarter of a cell above a face is the touchstone: there the
+    corners turn from unknown to extrapolated (.033 when those beyond them were left at 0).
     """
     cell = 0.1
     for part in (0, 0.25, 0.5, 0.75):
@@ -182,14 +182,14 @@ def terzaghi(scree):
 def terzaghi_slow(scree):
     """k = 1e-5 m/s. Prototype at 0.9 of the limit step: .0010/.0014 (T_v = .1/.5). A stiff soil keeps the number of steps small."""
     bounds = {0.1: 0.00105, 0.3: 0.00145, 0.5: 0.00145, 1: 0.0015}
-    stiff = column_of(1e-5, 1e9, 1e5)
+    stiff = column_of(1e-5, 1e9, 1e6)
     results, _ = consolidation(scree, "slow_stiff", stiff, (0.1, 0.3, 0.5, 1), {"Time step/Courant number": "0.9"}, 1e9,
                                "terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.9", results, bounds)
     results, _ = consolidation(scree, "slow_stiff_small_step", stiff, (0.1,), {"Time step/Courant number": "0.1"}, 1e9,
                                "terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.1", results, bounds)
-    results, _ = consolidation(scree, "slow_soft", column_of(1e-5, 1e7), (0.1,), {"Time step/Courant number": "0.9"}, 1e7)
+    results, _ = consolidation(scree, "slow_soft", column_of(1e-5, 1e7, 1e4), (0.1,), {"Time step/Courant number": "0.9"}, 1e7)
     check_consolidation("Terzaghi, k = 1e-5 m/s, C = 0.9", results, bounds)
 
 
