@@ -320,7 +320,8 @@ def saturated_slopes(scree):
                 check(name + ": largest p over rho_mixture g times height (ours)",
                       max(table["Largest p (Pa)"]) / (1900 * 9.81 * 2), 0.2, 5)
                 check(name + ": mean p oscillation (ours)", np.mean(table["p oscillation (-)"][1:]), 0, 0.5)
-                check_balances(name, table)
+                # The dense slope releases little: 2 J of what the start on the grid lacks of equilibrium are half a per cent.
+                check_balances(name, table, 0.01 if kind == "dense" else 0.005)
 
 
 def saturated_column(scree):
