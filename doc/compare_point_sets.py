@@ -77,7 +77,7 @@ def numbers(variant):
             "stopped": "no" if variant.stopped_at is None else "yes"}
     empty = ["time (s)", "steps", "front 90 % (m)", "front 99.5 % (m)", "water front 99.5 % (m)", "angle of deposit (degrees)",
              "p oscillation (time mean)", "largest p (kPa)", "smallest p (kPa)", "water mass change", "water outside soil (part)",
-             "volume error", "seconds on 2 cores"]
+             "volume error"]
     line.update({name: "" for name in empty})
     if not (variant.folder / "statistics").exists():
         return line
@@ -96,7 +96,6 @@ def numbers(variant):
         "water mass change": water[-1] / water[0] - 1,
         "water outside soil (part)": statistics["Water outside soil (kg)"][-1] / statistics["Water mass (kg)"][-1],
         "volume error": statistics["Volume error (-)"][-1],
-        "seconds on 2 cores": runs.core_seconds(variant.folder, 2) / 2,
     }
     picture = pictures(variant, time[-1])
     if picture and len(picture[0].positions):

@@ -95,7 +95,7 @@ void test_single_point(const std::vector<double> &upper_corner, std::ostream &ou
   seed(soil, seeding, grid.triangulation(), grid.cell_size());
 
   WaterPhase<dim> water(1000., is_affine, soil);
-  fill_pores(water);
+  seed_water(water, WaterParameters(), {}, grid.triangulation(), grid.cell_size());
   AssertThrow(water.carrier() == &soil && &water.points() == &soil.points && water.layout.velocity == soil_slots &&
                   water.layout.end == soil.layout.n_properties,
               ExcMessage("The water's slots are not behind those of the soil."));
