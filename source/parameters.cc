@@ -219,7 +219,7 @@ namespace scree
     require_entry(
         !bodies.empty(), "", "Bodies", "none", "the scene is empty. Name a body of soil, or add a subsection Water.");
     const std::string subsection = "Boundaries/Water";
-    for (const auto &face : BoundaryParameters::face_names(3))
+    for (const auto &face : FaceEntries::names(3))
       require_entry(!file.sets(subsection, face),
                     subsection,
                     face,
@@ -235,7 +235,7 @@ namespace scree
     for (unsigned int f = 0; f < walls.size(); ++f)
       require_entry(walls[f] == defaults[f],
                     "Boundaries",
-                    BoundaryParameters::face_names(3)[f],
+                    FaceEntries::names(3)[f],
                     walls[f],
                     no_soil + ", or move it to subsection Water of subsection Boundaries.");
     require_entry(!surface_load.is_set(), "Surface load", "Traction", surface_load.traction, no_soil + '.');

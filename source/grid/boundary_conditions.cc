@@ -41,16 +41,16 @@ namespace scree
   } // namespace
 
 
+  BoundaryParameters::BoundaryParameters()
+      : FaceEntries{ "free slip", "free slip", "free slip", "free slip", "fixed", "open" }
+  {
+  }
+
+
   void BoundaryParameters::add_parameters(ParameterHandler &prm)
   {
-    const std::string what = std::string(" of the box: ") + pattern_text + ".";
     prm.enter_subsection("Boundaries");
-    prm.add_parameter("Left", left, "Lower x face" + what);
-    prm.add_parameter("Right", right, "Upper x face" + what);
-    prm.add_parameter("Front", front, "Lower y face (3D only)" + what);
-    prm.add_parameter("Back", back, "Upper y face (3D only)" + what);
-    prm.add_parameter("Bottom", bottom, "Lower face of the last axis" + what);
-    prm.add_parameter("Top", top, "Upper face of the last axis" + what);
+    FaceEntries::add_parameters(prm, std::string(" of the box: ") + pattern_text + ".");
     prm.leave_subsection();
   }
 
@@ -58,40 +58,16 @@ namespace scree
   void BoundaryParameters::check(const unsigned int dim) const
   {
     walls(3);
-    const BoundaryParameters defaults;
-    if (dim == 2)
-      for (const auto &[name, wall, otherwise] :
-           { std::make_tuple("Front", front, defaults.front), std::make_tuple("Back", back, defaults.back) })
-        require_entry(wall == otherwise,
-                      "Boundaries",
-                      name,
-                      wall,
-                      "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
-  }
-
-
-  std::vector<std::string> BoundaryParameters::face_names(const unsigned int dim)
-  {
-    if (dim == 2)
-      return { "Left", "Right", "Bottom", "Top" };
-    return { "Left", "Right", "Front", "Back", "Bottom", "Top" };
-  }
-
-
-  std::vector<std::string> BoundaryParameters::texts(const unsigned int dim) const
-  {
-    if (dim == 2)
-      return { left, right, bottom, top };
-    return { left, right, front, back, bottom, top };
+    FaceEntries::check("Boundaries", dim, BoundaryParameters());
   }
 
 
   std::vector<Wall> BoundaryParameters::walls(const unsigned int dim) const
   {
-    const auto names = face_names(dim), entries = texts(dim);
+    const auto faces = names(dim), entries = texts(dim);
     std::vector<Wall> result;
-    for (unsigned int f = 0; f < names.size(); ++f)
-      result.push_back(wall_from_text(names[f], entries[f]));
+    for (unsigned int f = 0; f < faces.size(); ++f)
+      result.push_back(wall_from_text(faces[f], entries[f]));
     return result;
   }
 
@@ -169,7 +145,7 @@ namespace scree
   std::pair<std::string, bool> BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
   {
     const unsigned int face = nearest_face(grid, location);
-    return { BoundaryParameters::face_names(dim)[face], wall_list[face].type == WallType::open };
+    return { FaceEntries::names(dim)[face], wall_list[face].type == WallType::open };
   }
 
 

@@ -44,17 +44,17 @@ namespace scree
   } // namespace
 
 
+  WaterBoundaryParameters::WaterBoundaryParameters()
+      : FaceEntries{ "impermeable", "impermeable", "impermeable", "impermeable", "impermeable", "drained" }
+  {
+  }
+
+
   void WaterBoundaryParameters::add_parameters(ParameterHandler &prm)
   {
-    const std::string what = std::string(" of the box, for the water: ") + pattern_text + ".";
     prm.enter_subsection("Boundaries");
     prm.enter_subsection("Water");
-    prm.add_parameter("Left", left, "Lower x face" + what);
-    prm.add_parameter("Right", right, "Upper x face" + what);
-    prm.add_parameter("Front", front, "Lower y face (3D only)" + what);
-    prm.add_parameter("Back", back, "Upper y face (3D only)" + what);
-    prm.add_parameter("Bottom", bottom, "Lower face of the last axis" + what);
-    prm.add_parameter("Top", top, "Upper face of the last axis" + what);
+    FaceEntries::add_parameters(prm, std::string(" of the box, for the water: ") + pattern_text + ".");
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -63,26 +63,16 @@ namespace scree
   void WaterBoundaryParameters::check(const unsigned int dim) const
   {
     walls(3);
-    const WaterBoundaryParameters defaults;
-    if (dim == 2)
-      for (const auto &[name, wall, otherwise] :
-           { std::make_tuple("Front", front, defaults.front), std::make_tuple("Back", back, defaults.back) })
-        require_entry(wall == otherwise,
-                      "Boundaries/Water",
-                      name,
-                      wall,
-                      "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
+    FaceEntries::check("Boundaries/Water", dim, WaterBoundaryParameters());
   }
 
 
   std::vector<WaterWall> WaterBoundaryParameters::walls(const unsigned int dim) const
   {
-    const auto names   = BoundaryParameters::face_names(dim);
-    const auto entries = dim == 2 ? std::vector<std::string>{ left, right, bottom, top }
-                                  : std::vector<std::string>{ left, right, front, back, bottom, top };
+    const auto faces = names(dim), entries = texts(dim);
     std::vector<WaterWall> result;
-    for (unsigned int f = 0; f < names.size(); ++f)
-      result.push_back(wall_from_text(names[f], entries[f]));
+    for (unsigned int f = 0; f < faces.size(); ++f)
+      result.push_back(wall_from_text(faces[f], entries[f]));
     return result;
   }
 
@@ -141,7 +131,7 @@ namespace scree
   std::pair<std::string, bool> WaterBoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
   {
     const unsigned int face = nearest_face(grid, location);
-    return { BoundaryParameters::face_names(dim)[face], is_drained(face) };
+    return { FaceEntries::names(dim)[face], is_drained(face) };
   }
 
   template class WaterBoundaryConditions<2>;

@@ -2,6 +2,7 @@
 #ifndef scree_grid_boundary_conditions_h
 #define scree_grid_boundary_conditions_h
 
+#include <scree/grid/face_entries.h>
 #include <scree/grid/nodal_field.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -28,23 +29,16 @@ namespace scree
   };
 
   /// Subsection Boundaries: one entry a face of the box.
-  struct BoundaryParameters
+  struct BoundaryParameters : FaceEntries
   {
-    std::string left = "free slip", right = "free slip", front = "free slip", back = "free slip", bottom = "fixed",
-                top = "open";
+    BoundaryParameters();
 
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
     void check(const unsigned int dim) const;
 
-    /// Names of the faces in deal.II's numbering: lower and upper face of each axis.
-    static std::vector<std::string> face_names(const unsigned int dim);
-
-    /// The entries in the same order.
-    std::vector<std::string> texts(const unsigned int dim) const;
-
-    /// The walls in the same order.
+    /// The walls in deal.II's numbering of the faces.
     std::vector<Wall> walls(const unsigned int dim) const;
   };
 

@@ -3,6 +3,7 @@
 #define scree_grid_water_walls_h
 
 #include <scree/grid/background_grid.h>
+#include <scree/grid/face_entries.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -27,10 +28,9 @@ namespace scree
   };
 
   /// Subsection Water of subsection Boundaries: one entry a face of the box.
-  struct WaterBoundaryParameters
+  struct WaterBoundaryParameters : FaceEntries
   {
-    std::string left = "impermeable", right = "impermeable", front = "impermeable", back = "impermeable",
-                bottom = "impermeable", top = "drained";
+    WaterBoundaryParameters();
 
     void add_parameters(dealii::ParameterHandler &prm);
 
@@ -60,11 +60,6 @@ namespace scree
     bool is_drained(const unsigned int face) const
     {
       return wall_list[face].type == WaterWallType::drained;
-    }
-
-    const std::vector<WaterWall> &walls() const
-    {
-      return wall_list;
     }
 
     /// Name of the face of the box nearest to a point outside, and whether it is drained.
