@@ -63,10 +63,7 @@ namespace scree
   template <int dim>
   double FreeSurfaceLocator<dim>::hat_volume(const unsigned int corner) const
   {
-    double volume = Utilities::fixed_power<dim>(grid.cell_size());
-    for (unsigned int faces = corners.faces(corner); faces != 0; faces &= faces - 1)
-      volume *= 0.5;
-    return volume;
+    return Utilities::fixed_power<dim>(grid.cell_size()) * cells_in_box(corner) / (1 << dim);
   }
 
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/transfer/mixture.h>
 
-#include <algorithm>
-
 namespace scree
 {
   using namespace dealii;

@@ -5,8 +5,6 @@
 #include <scree/scheme/free_surface.h>
 #include <scree/transfer/water_transfer.h>
 
-#include <memory>
-
 namespace scree
 {
   /// The volume that the mixture's flow draws from the corners: integrals of -psi div u, where u = (1-n) v_s + n v_w is
