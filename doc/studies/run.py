@@ -181,11 +181,15 @@ def row_of(study, run):
 # Pages ----------------------------------------------------------------------------------------------------------------
 
 
+def _cost(core_seconds):
+    return f"{core_seconds:.0f} core-seconds" if core_seconds < 90 else f"{core_seconds / 60:.0f} core-minutes"
+
+
 def page_text(name, study, introduction, rows, claims):
     seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
     verdict = "\n".join(f"- {claim.text}" + ("" if claim.holds else " **(Does not hold.)**") for claim in claims)
     return (f"# {study.title}\n\n{introduction}\n\n![{study.title}]({name}.svg)\n\n## Verdict\n\n{verdict}\n\n"
-            f"`python3 doc/studies/run.py {name}` repeats it: {len(rows)} runs, {max(1, round(seconds / 60))} core-minutes. "
+            f"`python3 doc/studies/run.py {name}` repeats it: {len(rows)} runs, {_cost(seconds)}. "
             f"Numbers: [{name}.csv]({name}.csv); case: `{study.base}`.\n")
 
 
