@@ -24,7 +24,8 @@ CAUSES = {
 }
 
 
-def classify(run, oscillation=0.1, column="^p oscillation", gain=0.005, energy=None, volume_ratio=(0.1, 10.), error=0., tolerance=math.inf):
+def classify(run, oscillation=0.1, column="^p oscillation", scatter=None, gain=0.005, energy=None, volume_ratio=(0.1, 10.), error=0.,
+             tolerance=math.inf):
     """State of a run, the first of these that holds:
 
     - "blow-up": more energy came from nothing than the run had to release (`energy_gain` > 1), or a number is not finite
@@ -32,7 +33,8 @@ def classify(run, oscillation=0.1, column="^p oscillation", gain=0.005, energy=N
       message that the run stopped with (`volume_ratios`)
     - "blow-up", too: the program stopped for another reason, the time limit included (`cause` tells which)
     - "energy gain": the numerical dissipation fell by more than `gain` of the energy that the run had to release
-    - "oscillating": the time mean of `column` of the statistics, without the state at the start, is above `oscillation`
+    - "oscillating": the time mean of `column` of the statistics, without the state at the start, or the study's own `scatter` in its
+      place, is above `oscillation`
     - "wrong": quiet, but the study's own `error` is above `tolerance`
     - "stable": none of these
 
@@ -49,7 +51,7 @@ def classify(run, oscillation=0.1, column="^p oscillation", gain=0.005, energy=N
         return "blow-up"
     if gained > gain:
         return "energy gain"
-    if mean_oscillation(run, column) > oscillation:
+    if (mean_oscillation(run, column) if scatter is None else scatter) > oscillation:
         return "oscillating"
     return "stable" if error <= tolerance else "wrong"
 
