@@ -48,7 +48,7 @@ def read_entries(prm):
     return entries
 
 
-def _set_entry(text, key, value):
+def set_entry(text, key, value):
     """`text` with one entry changed where it stands, or added to its subsection, or added at the end."""
     *wanted, wanted_name = key.split("/")
     lines = text.split("\n")
@@ -93,7 +93,7 @@ def write_variant(base_prm, target_prm, entries):
     with open(base_prm, encoding="utf-8") as file:
         text = file.read().rstrip("\n")
     for key, value in entries.items():
-        text = _set_entry(text, key, value)
+        text = set_entry(text, key, value)
     with open(target_prm, "w", encoding="utf-8") as file:
         file.write(text + "\n")
 

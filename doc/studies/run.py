@@ -1,0 +1,280 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs studies: variants of a case, a chart, a table and a page with the verdict.
+
+/usr/bin/python3 doc/studies/run.py NAME... | all [--quick] [--list] [--again]
+
+A study is a file of doc/studies/cases. Its runs are kept in folders of results/studies named by the content of their parameter files: a second call makes
+what is missing or has changed, so that an interrupted study goes on where it was. The table, the chart and the page go to
+doc/studies/pages; with --quick, a short version is run and checked, and nothing under doc/ is written.
+"""
+
+import argparse
+import concurrent.futures
+import csv
+import hashlib
+import importlib
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parent / "cases")]
+
+from study import ROOT, Run, Variant, prm_files  # noqa: E402
+
+START_UP = 1.  # s of a run before its first step
+
+STUDIES = ROOT / "doc" / "studies"
+PAGES = STUDIES / "pages"
+
+
+def names_of_studies():
+    return sorted(file.stem for file in (STUDIES / "cases").glob("*.py"))
+
+
+# Runs -----------------------------------------------------------------------------------------------------------------
+
+
+def case_text(study, variant):
+    """The variant's parameter file, without an output directory."""
+    base = ROOT / (variant.base or study.base)
+    text = base.read_text(encoding="utf-8").rstrip("\n")
+    defaults = {"Output/Checkpoint interval": 0} if study.program == "scree" else {}
+    for name, value in {**defaults, **study.entries, **variant.entries}.items():
+        text = prm_files.set_entry(text, name, f"{value:.12g}" if isinstance(value, float) else value)
+    return text + "\n"
+
+
+def folder_of(study, variant, results):
+    """Runs of one content share a folder, whichever study or label they serve."""
+    return results / hashlib.sha256(f"{study.program} {study.ranks}\n{case_text(study, variant)}".encode()).hexdigest()[:12]
+
+
+def load_run(folder, labels):
+    """The run in a folder, None if there is none that has ended."""
+    record = folder / "run.json"
+    if not record.exists():
+        return None
+    return Run(folder, labels, **json.loads(record.read_text(encoding="utf-8")))
+
+
+def make_run(study, variant, folder, arguments):
+    """Runs one variant in `folder`, which it empties before."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    prm, screen = folder / "case.prm", folder / "screen.txt"
+    prm.write_text(prm_files.set_entry(case_text(study, variant), "Output directory", folder).rstrip("\n") + "\n", encoding="utf-8")
+    environment = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    if os.geteuid() == 0:
+        environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    launcher = ["mpirun", "-np", str(study.ranks)] if study.ranks > 1 else []
+    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
+    start = time.monotonic()
+    with open(screen, "w", encoding="utf-8") as output:
+        process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT)
+        _, status, usage = os.wait4(process.pid, 0)
+    code = os.waitstatus_to_exitcode(status)
+    process.returncode = code  # it has been waited for
+    record = {"exit_code": code, "core_seconds": usage.ru_utime + usage.ru_stime, "wall_seconds": time.monotonic() - start}
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    return Run(folder, variant.labels, **record)
+
+
+def expected_seconds(name):
+    """Core-seconds of each variant in the committed table, by its labels as text; {} without a table."""
+    table = PAGES / f"{name}.csv"
+    if not table.exists():
+        return {}
+    return {tuple(map(_text, row.values())): row.get("core-seconds", math.nan) for row in read_table(table)}
+
+
+def _estimate(labels, expected):
+    """Core-seconds of the row that begins with these labels; the mean of the others if it is not there."""
+    words = tuple(map(_text, labels.values()))
+    known = [seconds for row, seconds in expected.items() if row[:len(words)] == words and math.isfinite(seconds)]
+    others = [seconds for seconds in expected.values() if math.isfinite(seconds)]
+    return START_UP + known[0] if known else START_UP + sum(others) / len(others) if others else math.nan
+
+
+def make_runs(name, study, arguments):
+    """The runs of all variants, in their order; the reference's first, with progress and the time left."""
+    wanted = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
+    if study.reference is not None:
+        wanted.insert(0, Variant({"reference": "reference"}, study.reference))
+    folders = [folder_of(study, variant, arguments.results) for variant in wanted]
+    missing = {folder: variant for variant, folder in zip(wanted, folders) if arguments.again or load_run(folder, variant.labels) is None}
+    expected = expected_seconds(name)
+    left = {folder: _estimate(variant.labels, expected) for folder, variant in missing.items()}
+    jobs = 1 if study.chart.timed else max(1, arguments.jobs // study.ranks)
+    print(f"{name}: {len(set(folders))} runs, {len(set(folders)) - len(missing)} of them are there" + (f"; {_duration(left, jobs)}" if missing else ""), flush=True)
+
+    def make(folder):
+        variant = missing[folder]
+        run = make_run(study, variant, folder, arguments)
+        del left[folder]
+        print(f"  {len(missing) - len(left)} of {len(missing)}: " + ", ".join(f"{key} {value}" for key, value in variant.labels.items())
+              + f": {folder.name}" + ("" if run.ended else f" (ended with {run.exit_code})") + (f"; {_duration(left, jobs)}" if left else ""), flush=True)
+        return run
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(make, missing))
+    runs = [load_run(folder, variant.labels) for variant, folder in zip(wanted, folders)]
+    reference = runs.pop(0) if study.reference is not None else None
+    for run in runs:
+        run.reference = reference
+    return runs
+
+
+def _duration(left, jobs):
+    known = [seconds for seconds in left.values() if math.isfinite(seconds)]
+    if not known:
+        return "no earlier times to tell how long it takes"
+    seconds = sum(known) * len(left) / len(known) / jobs
+    return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {max(1, seconds):.0f} s left"
+
+
+# Tables ---------------------------------------------------------------------------------------------------------------
+
+
+def _text(value):
+    return f"{value:.5g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
+
+
+def _value(word):
+    if word in ("True", "False"):
+        return word == "True"
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def write_table(rows, table):
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    with open(table, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, fieldnames=names, restval="nan", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({name: _text(value) for name, value in row.items()} for row in rows)
+
+
+def read_table(table):
+    """The rows of a table: numbers are floats, True and False are themselves, the rest is text."""
+    with open(table, newline="", encoding="utf-8") as file:
+        return [{name: _value(word) for name, word in row.items()} for row in csv.DictReader(file)]
+
+
+def row_of(study, run):
+    row = {**run.labels, "ended": run.ended, **run.cost}
+    if study.default is not None:
+        row["default"] = all(run.labels.get(name, value) == value for name, value in study.default.items())
+    if run.ended or not study.needs_end:
+        row.update(study.measure(run))
+    return row
+
+
+# Pages ----------------------------------------------------------------------------------------------------------------
+
+
+def _cost(core_seconds):
+    return f"{core_seconds:.0f} core-seconds" if core_seconds < 90 else f"{core_seconds / 60:.0f} core-minutes"
+
+
+def page_text(name, study, introduction, rows, claims):
+    seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
+    verdict = "\n".join(f"- {claim.text}" + ("" if claim.holds else " **(Does not hold.)**") for claim in claims)
+    return (f"# {study.title}\n\n{introduction}\n\n![{study.title}]({name}.svg)\n\n## Verdict\n\n{verdict}\n\n"
+            f"`python3 doc/studies/run.py {name}` repeats it: {len(rows)} runs, {_cost(seconds)}. "
+            f"Numbers: [{name}.csv]({name}.csv); case: `{study.base}`.\n")
+
+
+def write_index():
+    """The list of all studies with a page, and what they say."""
+    lines = ["# Studies\n", "Each page is written by `python3 doc/studies/run.py NAME` from the runs of one study.\n"]
+    for name in names_of_studies():
+        page = PAGES / f"{name}.md"
+        if page.exists():
+            text = page.read_text(encoding="utf-8")
+            verdict = re.search(r"## Verdict\n\n- (.*)", text)
+            lines.append(f"- [{text.splitlines()[0][2:]}]({name}.md): {verdict.group(1) if verdict else ''}")
+    (PAGES / "README.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def finish(name, module, folder, rows=None):
+    """Writes table, chart and page of a study into `folder` (from the table in it without `rows`); returns the claims."""
+    study = module.STUDY
+    folder.mkdir(parents=True, exist_ok=True)
+    table = folder / f"{name}.csv"
+    if rows is not None:
+        study.chart.complete(rows)
+        write_table(rows, table)
+    rows = read_table(table)
+    claims = study.verdict(rows)
+    study.chart.write(rows, study.title, folder / name)
+    (folder / f"{name}.md").write_text(page_text(name, study, module.__doc__.strip(), rows, claims), encoding="utf-8")
+    return claims
+
+
+def page_is_current(name, module):
+    """Whether the committed page is what its committed table says."""
+    page, table = PAGES / f"{name}.md", PAGES / f"{name}.csv"
+    if not page.exists() or not table.exists():
+        return False
+    rows = read_table(table)
+    return page.read_text(encoding="utf-8") == page_text(name, module.STUDY, module.__doc__.strip(), rows, module.STUDY.verdict(rows))
+
+
+def run_study(name, arguments):
+    """True if all claims hold."""
+    module = importlib.import_module(name)
+    folder = arguments.results / "quick" if arguments.quick else PAGES
+    rows = None if arguments.page else [row_of(module.STUDY, run) for run in make_runs(name, module.STUDY, arguments)]
+    claims = [claim for claim in finish(name, module, folder, rows) if claim.quick or not arguments.quick]
+    for claim in claims:
+        print(f"  {'holds' if claim.holds else 'DOES NOT HOLD'}: {claim.text}")
+    current = not arguments.quick or page_is_current(name, module)
+    if not current:
+        print(f"  {PAGES / name}.md does not say what its table says: run.py {name} --page")
+    return current and all(claim.holds for claim in claims)
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", help="studies, or all")
+    parser.add_argument("--quick", action="store_true", help="the short version, into results/studies/quick")
+    parser.add_argument("--list", action="store_true", help="names of the studies")
+    parser.add_argument("--page", action="store_true", help="write chart and page again from the table that is there")
+    parser.add_argument("--again", action="store_true", help="repeat runs that are there already")
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "scree", help="default build/scree")
+    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results" / "studies", help="folder of the runs; default results/studies")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time where times are not compared; default %(default)d")
+    parser.add_argument("--time-limit", type=float, default=7200., help="longest time of a run, s; default %(default)g")
+    arguments = parser.parse_args()
+    if arguments.list:
+        print("\n".join(names_of_studies()))
+        sys.exit(0)
+    unknown = sorted(set(arguments.names) - {"all", *names_of_studies()})
+    if unknown or not arguments.names:
+        parser.error((f"no study {', '.join(unknown)}" if unknown else "name a study, or all") + f"; there are {', '.join(names_of_studies())}")
+    if not arguments.page and not arguments.program.exists():
+        parser.error(f"{arguments.program} is not there: build it (doc/quickstart.sh), or name it with --program")
+    arguments.program, arguments.results = arguments.program.resolve(), arguments.results.resolve()
+    return arguments
+
+
+def main():
+    arguments = parse()
+    names = names_of_studies() if "all" in arguments.names else arguments.names
+    held = [run_study(name, arguments) for name in names]
+    if not arguments.quick:
+        write_index()
+    sys.exit(0 if all(held) else 1)
+
+
+if __name__ == "__main__":
+    main()

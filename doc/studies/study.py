@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a study is: variants of a case, a measure of each run, a chart and a verdict. doc/manual.md, chapter 10, shows how to write one."""
+
+import dataclasses
+import itertools
+import math
+import pathlib
+import re
+import sys
+from typing import Any, Callable, NamedTuple
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "doc"))
+
+import render  # noqa: E402  (a module of doc/)
+import variants as prm_files  # noqa: E402
+
+
+class Claim(NamedTuple):
+    """A sentence of the verdict, its numbers taken from the table, and whether the table bears it out.
+
+    With `quick` False it needs the whole study, and the short version does not check it.
+    """
+    text: str
+    holds: bool
+    quick: bool = True
+
+
+class Variant(NamedTuple):
+    """Labels: the columns that tell this run from others. Entries: {"Mesh/Cell size": 0.1}. Base: another case than the study's."""
+    labels: dict
+    entries: dict
+    base: str | None = None
+
+
+def axis(label, entry, values):
+    """One varied thing: its column, the entry of the .prm (or a function value -> entries), and its values."""
+    def entries(value):
+        return entry(value) if callable(entry) else {entry: value}
+    return [Variant({label: value}, entries(value)) for value in values]
+
+
+def product(*axes):
+    """All combinations of the variants of several axes; lists of variants add up with +."""
+    return [Variant({name: value for part in parts for name, value in part.labels.items()},
+                    {name: value for part in parts for name, value in part.entries.items()},
+                    next((part.base for part in reversed(parts) if part.base), None))
+            for parts in itertools.product(*axes)]
+
+
+@dataclasses.dataclass(frozen=True)
+class Study:
+    """`measure(run)` returns the columns of a run; `verdict(rows)` the claims, from the rows as the table holds them.
+
+    entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure. quick(labels): whether
+    a variant belongs to the short version. needs_end: a run that failed has no measures. default: the labels of the .prm's defaults,
+    marked in the chart. program: scree or scree-element.
+    """
+    title: str
+    base: str
+    variants: list
+    measure: Callable
+    verdict: Callable
+    chart: Any
+    entries: dict = dataclasses.field(default_factory=dict)
+    reference: dict | None = None
+    quick: Callable = lambda labels: True
+    needs_end: bool = True
+    default: dict | None = None
+    program: str = "scree"
+    ranks: int = 1
+
+
+class Run:
+    """A finished run: its folder, what the program said, and what it cost."""
+
+    def __init__(self, folder, labels, exit_code, core_seconds, wall_seconds):
+        self.folder = folder
+        self.labels = labels
+        self.exit_code = exit_code
+        self.reference = None
+        self._whole = core_seconds, wall_seconds
+        self._statistics = None
+
+    @property
+    def ended(self):
+        return self.exit_code == 0
+
+    @property
+    def entries(self):
+        """The entries of the variant's .prm, as text: {"Mesh/Cell size": "0.1"}."""
+        return prm_files.read_entries(self.folder / "case.prm")
+
+    @property
+    def log(self):
+        """What the program wrote on the screen, errors included."""
+        return (self.folder / "screen.txt").read_text(encoding="utf-8", errors="replace")
+
+    def statistics(self, pattern):
+        """The first column of the file `statistics` whose name matches the regular expression (case ignored); None if there is none."""
+        if self._statistics is None:
+            file = self.folder / "statistics"
+            self._statistics = render.read_statistics(self.folder) if file.exists() else {}
+        return render.column(self._statistics, pattern)
+
+    @property
+    def time(self):
+        return self.statistics("^time")
+
+    def points(self, time=None, collection="points"):
+        """The points of the picture next to `time`, s (the last one without): positions (n, 3) and arrays by name."""
+        return render.read_points(self.folder, time, collection)
+
+    @property
+    def cost(self):
+        """Steps, core-seconds of the steps, ns per point and step; nan where the run did not come to its end.
+
+        Core-seconds are processor time, which a busy machine disturbs less than the clock on the wall: that of the whole process by the
+        share of the steps in its wall time.
+        """
+        log = self.folder / "log.txt"
+        text = log.read_text(encoding="utf-8") if log.exists() else ""
+        total = re.search(r"^total .* ([\d.e+-]+)$", text, re.MULTILINE)
+        updates = re.search(r"/ ([\d.e+-]+) point updates", text)
+        core_seconds, wall_seconds = self._whole
+        if not total or not updates:
+            return {"steps": math.nan, "core-seconds": core_seconds, "ns per point and step": math.nan}
+        updates = float(updates.group(1))
+        of_steps = core_seconds * min(1., 1e-9 * float(total.group(1)) * updates / wall_seconds)
+        return {"steps": self.statistics("^step$")[-1], "core-seconds": of_steps, "ns per point and step": 1e9 * of_steps / updates}
