@@ -129,3 +129,11 @@ def hydrostatic_error(run, surface):
     exact = closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
     cell = float(run.entries["Mesh/Cell size"])
     return float(np.sqrt(np.mean((water.arrays["pressure"] - exact)**2)) / (1000 * closed_forms.GRAVITY * cell))
+
+
+def pressure_scatter(run):
+    """Time mean of the rms of p about its local linear fits, over the mean p at the start: the mean of a slide may vanish."""
+    times = render.read_times(run.folder, "water")
+    oscillation = np.interp(times, run.time, run.statistics("^p oscillation"))
+    mean = np.array([np.mean(run.points(time, "water").arrays["pressure"]) for time in times])
+    return float(np.mean(np.abs(oscillation * mean)[1:]) / mean[0]) if len(times) > 1 else 0.

@@ -73,14 +73,14 @@ def verdict(rows):
     failed = [row for row in beyond if row["state"] == "blow-up"]
     quiet = [name for name in ("classical splitting", "p^n on grid", "p^n on grid, projection", "flux", "empty cell") if all_stable(name)]
     return [
-        Claim(f"Ours is stable for any conductivity from {max(row['k'] for row in ours):g} to {min(row['k'] for row in ours):g} m/s up to 1.2 of the limit step, "
-              f"with an error of at most {largest('ours'):.1g} of the load.", all_stable("ours") and largest("ours") < 0.02),
+        Claim(f"Ours is stable for any conductivity from {max(row['k'] for row in ours):g} to {min(row['k'] for row in ours):g} m/s up to 1.2 of the "
+              f"limit step, with an error of at most {largest('ours'):.1g} of the load.", all_stable("ours") and largest("ours") < 0.02),
         Claim(f"At 1.5 of the limit step {len(failed)} of {len(beyond)} conductivities blow up: the limit is the soil's, not the pressure's.",
               len(failed) >= len(beyond) / 2),
         Claim("The plain fractional step (p^n dropped, drag outside the pressure's matrix) is as quiet, and wrong: the load sinks in at once, "
               f"by up to {plain:.2g} of it.", plain > 0.1),
-        Claim(f"p^n dropped alone is wrong by up to {dropped:.2g}, p^n as a plain average of the points by {average:.2g}: both more at larger steps and "
-              "smaller k.", dropped > 0.05 and average > 0.05, quick=False),
+        Claim(f"p^n dropped alone is wrong by up to {dropped:.2g}, p^n as a plain average of the points by {average:.2g}: both more at larger steps "
+              "and smaller k.", dropped > 0.05 and average > 0.05, quick=False),
         Claim(f"On this column, whose points hardly move and whose surface lies on a face, {', '.join(quiet)} are as good as the defaults.",
               len(quiet) >= 4, quick=False),
         Claim("'half full' finds no surface here: its corners are exactly half full.",

@@ -4,26 +4,15 @@ States as in the study of the column at rest; here a free surface moves through 
 time mean of the p oscillation.
 """
 
-import numpy as np
-
 import measures
-import render
 from charts import StabilityMap
 from pressure_options import OPTIONS
 from study import Claim, Study, Variant, axis, product
 
 
-def pressure_scatter(run):
-    """Time mean of the rms of p about its local linear fits, over the mean p at the start: an undrained slide may lose all its mean p."""
-    times = render.read_times(run.folder, "water")
-    oscillation = np.interp(times, run.time, run.statistics("^p oscillation"))
-    mean = np.array([np.mean(run.points(time, "water").arrays["pressure"]) for time in times])
-    return float(np.mean(np.abs(oscillation * mean)[1:]) / mean[0]) if len(times) > 1 else 0.
-
-
 def measure(run):
     front = run.statistics("^front 99.5")
-    scatter = pressure_scatter(run)
+    scatter = measures.pressure_scatter(run)
     return {"state": measures.classify(run, scatter=scatter, oscillation=0.1), "scatter": scatter, "gain": measures.energy_gain(run),
             "front": float(front[-1]), "time reached": float(run.time[-1]), "largest p": float(max(run.statistics("^largest p \\("))),
             "cause": measures.cause(run)}
