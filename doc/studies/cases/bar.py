@@ -1,0 +1,60 @@
+"""An elastic bar between two walls swings in its first mode at small strain: v = V sin(pi x) cos(pi c t). No point crosses a
+cell. Error: rms over velocity and stress of their relative L2 errors over the points at 2.125 periods, where both are far from 0. Methods
+differ from `prm/vibrating_bar.prm` (splines, FLIP without PIC rate, 4 x 4 points a cell, Courant number 0.6, no F-bar) in one thing."""
+
+import math
+
+import numpy as np
+
+from charts import WorkPrecision
+from precision import DEFAULTS, cost_at_equal_error, costs, listed, order, ratio
+from study import Claim, Study, axis, product
+
+SPEED, MODULUS, AMPLITUDE = math.sqrt(10.), 1e4, 1e-5  # of the wave, m/s; Pa; m/s
+TIME = 4.25 / SPEED  # s
+
+METHODS = {
+    DEFAULTS: {},
+    "linear": {"Mesh/Basis": "linear"},
+    "quadratic": {"Mesh/Basis": "quadratic"},
+    "PIC rate 5": {"Transfer/PIC rate": 5},
+    "PIC rate 50": {"Transfer/PIC rate": 50},
+    "PIC": {"Transfer/Method": "PIC"},
+    "APIC": {"Transfer/Method": "APIC"},
+    "TPIC": {"Transfer/Method": "TPIC"},
+    "2 x 2 points": {"Soil/Points per cell": 2},
+    "3 x 3 points": {"Soil/Points per cell": 3},
+    "Courant number 0.15": {"Time step/Courant number": 0.15},
+    "Courant number 0.9": {"Time step/Courant number": 0.9},
+    "modified F-bar": {"Stabilisation/F-bar": "modified"},
+}
+
+
+def mesh(h):
+    return {"Mesh/Cell size": h, "Mesh/Upper corner": f"1, {h:.12g}"}
+
+
+def relative(computed, exact):
+    return math.sqrt(np.mean((computed - exact)**2) / np.mean(exact**2))
+
+
+def measure(run):
+    points = run.points()
+    x, phase = points.positions[:, 0], math.pi * SPEED * TIME
+    velocity = relative(points.arrays["velocity"][:, 0], AMPLITUDE * np.sin(math.pi * x) * math.cos(phase))
+    stress = relative(points.arrays["stress"][:, 0], MODULUS * AMPLITUDE / SPEED * np.cos(math.pi * x) * math.sin(phase))
+    return {"error": math.sqrt((velocity**2 + stress**2) / 2), "error of velocity": velocity, "error of stress": stress}
+
+
+def verdict(rows):
+    return [Claim(listed(costs(rows)), True), Claim(f"{order(rows)}", True)]
+
+
+STUDY = Study(
+    title="Vibrating bar: error over cost", base="prm/vibrating_bar.prm",
+    entries={"Soil/Initial velocity": f"{AMPLITUDE:g}*sin(pi*x); 0", "Time step/Maximum time step": 1, "End time": TIME,
+             "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points"},
+    variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", mesh, [1 / 16, 1 / 32, 1 / 64, 1 / 128, 1 / 256])),
+    default={"method": DEFAULTS}, quick=lambda labels: labels["h"] > 0.03,
+    measure=measure, verdict=verdict,
+    chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of velocity and stress (-)"))

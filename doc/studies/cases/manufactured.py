@@ -1,0 +1,76 @@
+"""A manufactured solution at large strain: in a closed box of side 1 m, points swing by up to 0.1 m along both axes, 0.8 to 6.4 cells, under
+a body force that makes the motion exact (as `tests/unit/order_manufactured`, at 0.6 s). Points cross cells all the time. Error: rms over velocity and stress of their
+relative L2 errors over the points. Methods differ from the program's defaults (splines, FLIP with a PIC rate of 5 1/s,
+4 x 4 points a cell, Courant number 0.6), here without F-bar, in one thing."""
+
+import math
+
+import numpy as np
+
+from bar import relative
+from charts import WorkPrecision
+from precision import DEFAULTS, cost_at_equal_error, costs, listed, order, ratio
+from study import Claim, Study, axis, product
+
+AMPLITUDE, MODULUS, TIME = 0.1, 1e4, 0.6  # m, Pa, s
+
+METHODS = {
+    DEFAULTS: {},
+    "linear": {"Mesh/Basis": "linear"},
+    "quadratic": {"Mesh/Basis": "quadratic"},
+    "PIC rate 0": {"Transfer/PIC rate": 0},
+    "PIC": {"Transfer/Method": "PIC"},
+    "APIC": {"Transfer/Method": "APIC"},
+    "TPIC": {"Transfer/Method": "TPIC"},
+    "2 x 2 points": {"Soil/Points per cell": 2},
+    "3 x 3 points": {"Soil/Points per cell": 3},
+    "6 x 6 points": {"Soil/Points per cell": 6},
+    "Courant number 0.3": {"Time step/Courant number": 0.3},
+    "Courant number 0.9": {"Time step/Courant number": 0.9},
+    "modified F-bar": {"Stabilisation/F-bar": "modified"},
+}
+
+
+DENSER = {"points as cells": {}, "TPIC, points as cells": METHODS["TPIC"]}
+
+
+def denser_points(h):
+    """As many points along a cell as keep their spacing in proportion to h^2."""
+    return {"Mesh/Cell size": h, "Soil/Points per cell": round(0.5 / h)}
+
+
+def body_force(x):
+    """Dv/Dt + E/(rho_0 g) g' (1 + ln g) along the axis `x` ("x" or "y"), of X = x - A sin(pi x) sin(pi t) and g = dX/dx."""
+    sine, cosine = f"(0.1*sin(pi*{x}))", f"(0.1*pi*cos(pi*{x}))"
+    g, g_x, g_t = f"(1-{cosine}*sin(pi*t))", f"(pi*pi*{sine}*sin(pi*t))", f"(-pi*{cosine}*cos(pi*t))"
+    n, n_x, n_t = f"(pi*{sine}*cos(pi*t))", f"(pi*{cosine}*cos(pi*t))", f"(-pi*pi*{sine}*sin(pi*t))"
+    return f"{n_t}/{g}-{n}*{g_t}/{g}^2+{n}/{g}*({n_x}/{g}-{n}*{g_x}/{g}^2)+10/{g}*{g_x}*(1+ln({g}))"
+
+
+def measure(run):
+    points = run.points()
+    x, y = points.positions[:, 0], points.positions[:, 1]
+
+    def stretch(z):
+        return 1 / (1 - AMPLITUDE * math.pi * np.cos(math.pi * z) * math.sin(math.pi * TIME))
+
+    velocity = relative(points.arrays["velocity"][:, 0], AMPLITUDE * math.pi * np.sin(math.pi * x) * math.cos(math.pi * TIME) * stretch(x))
+    stress = relative(points.arrays["stress"][:, 0], MODULUS * np.log(stretch(x)) / (stretch(x) * stretch(y)))
+    return {"error": math.sqrt((velocity**2 + stress**2) / 2), "error of velocity": velocity, "error of stress": stress}
+
+
+def verdict(rows):
+    return [Claim(listed(costs(rows)), True), Claim(f"{order(rows)}", True)]
+
+
+STUDY = Study(
+    title="Manufactured solution with points that cross cells: error over cost", base="prm/vibrating_bar.prm",
+    entries={"End time": TIME, "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points",
+             "Mesh/Upper corner": "1, 1", "Body force": f"{body_force('x')}; {body_force('y')}",
+             "Soil/Initial velocity": "0.1*pi*sin(pi*x); 0.1*pi*sin(pi*y)",
+             "Boundaries/Left": "free slip", "Boundaries/Right": "free slip", "Transfer/PIC rate": 5, "Time step/Maximum time step": 1},
+    variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 8, 1 / 16, 1 / 32, 1 / 64]))
+    + product(axis("method", DENSER.__getitem__, DENSER), axis("h", denser_points, [1 / 8, 1 / 16, 1 / 32])),
+    default={"method": DEFAULTS}, quick=lambda labels: labels["h"] > 0.03,
+    measure=measure, verdict=verdict,
+    chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of velocity and stress (-)"))
