@@ -1,6 +1,6 @@
 """An elastic bar between two walls swings in its first mode at small strain: v = V sin(pi x) cos(pi c t). No point crosses a
-cell. Error: rms over velocity and stress of their relative L2 errors over the points at 2.125 periods, where both are far from 0. Methods
-differ from `prm/vibrating_bar.prm` (splines, FLIP without PIC rate, 4 x 4 points a cell, Courant number 0.6, no F-bar) in one thing."""
+cell. Error: rms over velocity and stress of their relative L2 errors over the points at 2.125 periods, where both are far from 0; velocities are those of half a step before, as symplectic Euler
+has them. Runs whose error is above 1 have blown up and are not drawn. Methods differ from `prm/vibrating_bar.prm` (splines, FLIP without PIC rate, 4 x 4 points a cell, Courant number 0.6, no F-bar) in one thing."""
 
 import math
 
@@ -18,7 +18,6 @@ METHODS = {
     "linear": {"Mesh/Basis": "linear"},
     "quadratic": {"Mesh/Basis": "quadratic"},
     "PIC rate 5": {"Transfer/PIC rate": 5},
-    "PIC rate 50": {"Transfer/PIC rate": 50},
     "PIC": {"Transfer/Method": "PIC"},
     "APIC": {"Transfer/Method": "APIC"},
     "TPIC": {"Transfer/Method": "TPIC"},
@@ -40,10 +39,13 @@ def relative(computed, exact):
 
 def measure(run):
     points = run.points()
-    x, phase = points.positions[:, 0], math.pi * SPEED * TIME
-    velocity = relative(points.arrays["velocity"][:, 0], AMPLITUDE * np.sin(math.pi * x) * math.cos(phase))
-    stress = relative(points.arrays["stress"][:, 0], MODULUS * AMPLITUDE / SPEED * np.cos(math.pi * x) * math.sin(phase))
-    return {"error": math.sqrt((velocity**2 + stress**2) / 2), "error of velocity": velocity, "error of stress": stress}
+    x, omega, step = points.positions[:, 0], math.pi * SPEED, run.statistics("^time step")[-1]
+    computed, shape = points.arrays["velocity"][:, 0], AMPLITUDE * np.sin(math.pi * x)
+    velocity = relative(computed, shape * math.cos(omega * (TIME - step / 2)))
+    stress = relative(points.arrays["stress"][:, 0], MODULUS * AMPLITUDE / SPEED * np.cos(math.pi * x) * math.sin(omega * TIME))
+    error = math.sqrt((velocity**2 + stress**2) / 2)
+    return {"cells": round(1 / run.labels["h"]), "error": error if error < 1 else math.nan, "error of velocity": velocity,
+            "error of stress": stress, "error of velocity, taken as on time": relative(computed, shape * math.cos(omega * TIME))}
 
 
 def verdict(rows):
@@ -57,4 +59,4 @@ STUDY = Study(
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", mesh, [1 / 16, 1 / 32, 1 / 64, 1 / 128, 1 / 256])),
     default={"method": DEFAULTS}, quick=lambda labels: labels["h"] > 0.03,
     measure=measure, verdict=verdict,
-    chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of velocity and stress (-)"))
+    chart=WorkPrecision(error="error", curves=["method"], annotate="cells", ylabel="error of velocity and stress (-)"))
