@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 plt.rcParams.update({"svg.hashsalt": "scree", "svg.fonttype": "none", "font.size": 9})
 
-STATES = {"stable": "#7fbf7f", "oscillating": "#ffd966", "energy gain": "#f4a460", "J out of bounds": "#b08fc7", "blow-up": "#d9534f"}
+STATES = {"stable": "#7fbf7f", "oscillating": "#ffd966", "energy gain": "#f4a460", "J out of bounds": "#b08fc7", "wrong": "#9ecae1", "blow-up": "#d9534f"}
 
 
 def save(figure, target):
