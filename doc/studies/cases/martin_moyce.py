@@ -77,16 +77,20 @@ def verdict(rows):
     finest, coarsest = min(rows, key=lambda row: row["h"]), max(rows, key=lambda row: row["h"])
     measured = dict(zip(*experiment("front")))[2.98]
     change = max(rows, key=lambda row: row["rms of Z"])["rms of Z"] - finest["rms of Z"]
+    milliseconds = 1e3 * finest["delay (T)"] * math.sqrt(0.05715 / (2 * GRAVITY))
     return [
         Claim(f"The height at the wall follows the experiment, without any fit: rms of H {finest['rms of H']:.3f} at h = {finest['h']:g} m, "
               f"{coarsest['rms of H']:.3f} at {coarsest['h']:g} m.", holds=all(row["rms of H"] < 0.02 for row in rows)),
-        Claim(f"The front is ahead of the experiment: Z = {finest['Z at T = 2.98']:.2f} instead of {measured:.2f} at T = 2.98, rms of Z {finest['rms of Z']:.2f}.",
+        Claim(f"The front is ahead of the experiment: Z = {finest['Z at T = 2.98']:.2f} instead of {measured:.2f} at T = 2.98, rms of Z "
+              f"{finest['rms of Z']:.2f}.",
               holds=all(row["Z at T = 2.98"] > 1.05 * measured for row in rows)),
-        Claim(f"A delay by T = {finest['delay (T)']:.3g} ({1e3 * finest['delay (T)'] * math.sqrt(0.05715 / (2 * GRAVITY)):.0f} ms of the experiment) brings the front to rms "
-              f"{finest['rms of Z, delayed']:.3f}, but takes the height from {finest['rms of H']:.3f} to {finest['rms of H, delayed']:.3f}: a gate that opens late, and "
-              "would hold back the whole column, does not explain the front if both tables count from the same moment: what holds it back acts on it alone.",
+        Claim(f"A delay by T = {finest['delay (T)']:.3g} ({milliseconds:.0f} ms of the experiment) brings the front to rms "
+              f"{finest['rms of Z, delayed']:.3f}, "
+              f"but takes the height from {finest['rms of H']:.3f} to {finest['rms of H, delayed']:.3f}: a gate that opens late, "
+              "and would hold back the whole column, does not explain the front if both tables count from the same moment: what holds it back acts on it alone.",
               holds=all(row["rms of Z, delayed"] < 0.2 * row["rms of Z"] and row["rms of H, delayed"] > 2 * row["rms of H"] for row in rows)),
-        Claim(f"It is not the mesh: from h = {coarsest['h']:g} to {finest['h']:g} m the front's residual falls by {change:.2f} of {coarsest['rms of Z']:.2f}.",
+        Claim(f"It is not the mesh: from h = {coarsest['h']:g} to {finest['h']:g} m the front's residual falls by {change:.2f} of "
+              f"{coarsest['rms of Z']:.2f}.",
               holds=change < 0.25 * coarsest["rms of Z"]),
     ]
 

@@ -49,13 +49,14 @@ def verdict(rows):
         Claim(f"Drained, dense and loose sand come to one critical state: q/P ends within {100 * off_ratio:.1f} % of M, v within {off_volume:.4f} of "
               f"the critical one, where they began {SOILS['loose'] - SOILS['dense']:.3f} apart.", holds=off_ratio < 0.02 and off_volume < 0.005),
         Claim(f"Dense sand has a peak, q/P = {dense['peak q/P']:.2f} at {100 * dense['strain at peak']:.1f} % and 100 kPa, and grows by "
-              f"{100 * (dense['volume ratio at the end'] - 1):.1f} %; loose sand hardly ({loose['peak q/P']:.2f}, {100 * (loose['volume ratio at the end'] - 1):.2f} %).",
+              f"{100 * (dense['volume ratio at the end'] - 1):.1f} %; loose sand hardly ({loose['peak q/P']:.2f}, "
+              f"{100 * (loose['volume ratio at the end'] - 1):.2f} %).",
               holds=dense["peak q/P"] > 1.3 * M and loose["peak q/P"] < 1.1 * M and loose["volume ratio at the end"] < 1.01),
         Claim(f"Undrained from 100 kPa, the loose sand loses {100 - closed['smallest P (kPa)']:.0f} % of its P at first but ends at "
               f"{closed['P at the end (kPa)']:.0f} kPa: with these parameters it does not liquefy.",
               holds=closed["smallest P (kPa)"] < 75 and closed["P at the end (kPa)"] > 100),
-        Claim(f"The dense one wants {1e-3 * open_['P at the end (kPa)']:.1f} MPa at 20 %, far beyond the suction at which water would cavitate: in a saturated "
-              "slope it is the inflow of water, not the undrained strength, that decides.", holds=open_["P at the end (kPa)"] > 1000),
+        Claim(f"The dense one wants {1e-3 * open_['P at the end (kPa)']:.1f} MPa at 20 %, far beyond the suction at which water would cavitate: in a "
+              "saturated slope it is the inflow of water, not the undrained strength, that decides.", holds=open_["P at the end (kPa)"] > 1000),
     ]
 
 
