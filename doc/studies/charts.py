@@ -140,3 +140,18 @@ class Curves:
         figure.suptitle(title, fontsize="medium")
         self.draw(figure, rows)
         save(figure, target)
+
+
+class RunCurves(Curves):
+    """Curves of the runs themselves, which `measure` hands over with `keep(run)`: draw(figure, runs). Without them (--page) the chart stays as it is."""
+
+    def __init__(self, draw, size=(9, 6), timed=False):
+        super().__init__(draw, size, timed)
+        self.runs = []
+
+    def keep(self, run):
+        self.runs.append(run)
+
+    def write(self, rows, title, target):
+        if self.runs:
+            super().write(self.runs, title, target)
