@@ -10,28 +10,31 @@ namespace scree
   {
     // Measured over the cases of prm/, doc/studies/pages/advice.md.
 
+    /// How long dry soil moves, over sqrt(H/g); water keeps it moving.
+    constexpr double motion_lasts = 5.;
+
     /// Bulk modulus of soil in motion over that at the start, where it grows with the pressure: of the stiffest point.
     constexpr double stiffening = 1.5;
 
-    /// Cost of plastic soil's stress update, mean of a run over the first steps.
-    constexpr double plastic_flow = 1.2;
-
-    /// Largest speed of the points, mean over a run, over that of a free fall by Scene::fall.
+    /// Largest speed of the points in motion over that of a free fall by Scene::fall.
     constexpr double part_of_fall_speed = 0.8;
+
+    /// Cost of the stress update over that of the first steps: in motion 1 + this times the strain of a step at the
+    /// rate sqrt(g/H), over the strain at which the law divides it; at rest.
+    constexpr double substeps_of_strain = 0.4, resting_update = 0.65;
 
     /// Core-seconds of a picture and of a row of `statistics`: by themselves, a point, and a row written before (each
     /// row writes all).
     constexpr double picture_seconds = 8e-3, picture_seconds_per_point = 1.5e-6;
     constexpr double row_seconds = 5e-4, row_seconds_per_point = 3e-7, row_seconds_per_row = 1e-5;
 
-    /// Steps of at most `step` s until the end, if they are shortened to meet the appointments.
-    double count_steps(const Schedule &schedule, const double end_time, const double step)
+    /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the appointments.
+    double count_steps(const OutputParameters &output, const double begin, const double end, const double step)
     {
-      const OutputParameters &output = schedule.output;
-      double n = 0, time = 0;
-      while (time < end_time * (1. - 1e-12))
+      double n = 0, time = begin;
+      while (time < end * (1. - 1e-12))
         {
-          double next = end_time;
+          double next = end;
           for (const double interval : { output.interval, output.interval_of_statistics(), output.checkpoint_interval })
             if (interval > 0)
               next = std::min(next, (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval);
@@ -63,20 +66,29 @@ namespace scree
   RunCost cost_of_run(const Scene &scene, const StepCost &first_steps, const Schedule &schedule)
   {
     const Clock clock(schedule.time_step);
-    const auto step = [&](const double stiffness, const double speed) {
+    const auto step_at = [&](const double stiffness, const double speed) {
       return std::min(schedule.longest_step, clock.stable_step(scene.cell_size, scene.fastest.speed(stiffness), speed));
     };
-    RunCost cost;
-    cost.speed      = std::max(scene.initial_speed, part_of_fall_speed * std::sqrt(2. * scene.gravity * scene.fall));
-    cost.first_step = step(1., scene.initial_speed);
-    cost.mean_step  = step(scene.stiffens ? stiffening : 1., cost.speed);
-    cost.n_steps    = count_steps(schedule, scene.end_time, cost.mean_step);
-
-    double seconds = first_steps.seconds;
+    double update = 0; // core-seconds a step of the law
     for (const auto &[part, of_part] : first_steps.parts)
-      if (is_of_law(part) && scene.has_soil && !scene.is_elastic)
-        seconds += (plastic_flow - 1.) * of_part;
-    cost.step_seconds   = cost.n_steps * seconds;
+      if (is_of_law(part))
+        update += of_part;
+
+    RunCost cost;
+    const auto add = [&](const double begin, const double end, const double step, const double update_factor) {
+      const double n = count_steps(schedule.output, begin, end, step);
+      cost.n_steps += n;
+      cost.step_seconds += n * (first_steps.seconds + (update_factor - 1.) * update);
+    };
+    const bool flows    = scene.has_soil && !scene.is_elastic && scene.gravity > 0;
+    const double rate   = std::sqrt(scene.gravity / scene.height); // 1/s
+    const double motion = flows && !scene.has_water ? std::min(scene.end_time, motion_lasts / rate) : scene.end_time;
+    const double speed = std::max(scene.initial_speed, part_of_fall_speed * std::sqrt(2. * scene.gravity * scene.fall));
+    const double in_motion = step_at(scene.stiffens ? stiffening : 1., speed);
+    add(0, motion, in_motion, flows ? 1. + substeps_of_strain * in_motion * rate / scene.substep_strain : 1.);
+    add(motion, scene.end_time, step_at(1., 0.), resting_update);
+    cost.first_step     = step_at(1., scene.initial_speed);
+    cost.mean_step      = scene.end_time / cost.n_steps;
     cost.output_seconds = seconds_of_output(scene, schedule.output);
     cost.memory         = first_steps.memory;
     return cost;

@@ -99,7 +99,11 @@ namespace scree
         scene.has_soil   = !parameters.bodies.empty();
         scene.is_elastic = scene.has_soil;
         for (const auto &body : parameters.bodies)
-          scene.is_elastic = scene.is_elastic && body.material.law == "linear elastic";
+          {
+            scene.is_elastic = scene.is_elastic && body.material.law == "linear elastic";
+            if (body.material.law == "Nor-Sand")
+              scene.substep_strain = std::min(scene.substep_strain, body.material.nor_sand.substep_strain);
+          }
         scene.has_water = parameters.has_water;
         if (!scene.has_water)
           return;

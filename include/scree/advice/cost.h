@@ -45,8 +45,8 @@ namespace scree
     double longest_step = std::numeric_limits<double>::infinity(); ///< s, of the water's viscosity
   };
 
-  /// The cost of a run of `scene` whose first steps cost `first_steps`. The first steps of plastic soil are cheaper and
-  /// longer than later ones: both are corrected by measured factors.
+  /// The cost of a run of `scene` whose first steps cost `first_steps`. In motion, steps of soil that flows are shorter
+  /// and dearer than the first ones, at rest cheaper: measured factors.
   RunCost cost_of_run(const Scene &scene, const StepCost &first_steps, const Schedule &schedule);
 
   /// The same scene and steps with other cells: points and cells in proportion, and the cost with them.

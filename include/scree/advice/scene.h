@@ -3,6 +3,7 @@
 #define scree_advice_scene_h
 
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -32,13 +33,14 @@ namespace scree
 
     double initial_speed = 0; ///< largest of a point, m/s
 
-    bool has_soil   = false;
-    bool is_elastic = false;  ///< all bodies are linear elastic
-    bool stiffens   = false;  ///< a body's bulk modulus grows with its pressure
-    WaveMedium mean;          ///< means over the volume of the soil
-    WaveMedium fastest;       ///< the point with the fastest pressure wave
-    double grain_density = 0; ///< kg/m^3, mean
-    double porosity      = 0; ///< mean
+    bool has_soil         = false;
+    bool is_elastic       = false;                                   ///< all bodies are linear elastic
+    bool stiffens         = false;                                   ///< a body's bulk modulus grows with its pressure
+    double substep_strain = std::numeric_limits<double>::infinity(); ///< at which a law divides a step, the smallest
+    WaveMedium mean;                                                 ///< means over the volume of the soil
+    WaveMedium fastest;                                              ///< the point with the fastest pressure wave
+    double grain_density = 0;                                        ///< kg/m^3, mean
+    double porosity      = 0;                                        ///< mean
 
     bool has_water        = false;
     bool is_single_point  = false;
