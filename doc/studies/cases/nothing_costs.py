@@ -4,7 +4,7 @@
 1. Bodies in a box that is 1, 4 and 16 times as large (4 is twice as wide and high): a stiff elastic block, whose points stay in their cells, a soft
    one, some of whose points change cells in each step, a collapsing column of Nor-Sand, and a dam break (water alone).
 2. A column of Nor-Sand dry, with water on its points (single), with water on points of its own (double), and water alone.
-3. The dry column with pictures every 0.02 s, about 35 steps: none, of the points, of points and grid.
+3. The dry column with pictures every 0.02 s: none, of the points, of points and grid.
 
 The measure is processor time a step. The front at the end tells whether a larger box changes the motion. The shares of the parts of a step are those of
 the log."""
