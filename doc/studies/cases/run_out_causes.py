@@ -91,7 +91,7 @@ def draw(figure, rows):
               for base in (run_out.FIXED, run_out.FRICTION)}
     groups["loose saturated slope, base: friction"] = {key[2]: pair for key, pair in both.items() if key[0] == run_out.SATURATED}
     groups = {title: group for title, group in groups.items() if group}
-    for axes, (title, group) in zip(figure.subplots(1, len(groups), squeeze=False)[0], groups.items()):
+    for axes, (title, group) in zip(figure.subplots(1, len(groups), squeeze=False, sharex=True)[0], groups.items()):
         for offset, quantile in ((-0.2, 90), (0.2, 99)):
             axes.barh([line + offset for line in range(len(group))], [100 * advance(pair, quantile) for pair in group.values()], 0.38,
                       label=f"front at {quantile} % of the mass")
