@@ -357,6 +357,8 @@ def wet_friction(scree):
     wall = table["Wall dissipation (J)"][-1]
     check("wet friction: work of drag over that of the wall (ours)", table["Drag dissipation (J)"][-1] / wall, 0, 0.01)
     check("wet friction: energy in no other account over work of the wall (ours)", table["Numerical dissipation (J)"][-1] / wall, -0.02, 0.02)
+    weight = (table["Mass (kg)"][0] + table["Water mass (kg)"][0]) * closed_forms.GRAVITY
+    check("wet friction: momentum residual over weight times time", max(table["Momentum residual (N s)"]) / (weight * table["Time (s)"][-1]), 0, 1e-11)
     check_water("wet friction", table)
 
 
