@@ -52,8 +52,8 @@ def verdict(rows):
         Claim(f"Without F-bar the block locks: at K/G = {stiffest:g} it sags {100 * stiffness:.0f} % less than with the modified one.",
               stiffness > 0.05),
         Claim(f"Hats break when an edge of the block enters a new cell, whatever the F-bar: {hats[0]} of {hats[1]} runs with free sides, "
-              f"{hats_between[0]} of {hats_between[1]} between walls. The node beyond the edge has next to no mass, and a point in the new cell feels "
-              "its full gradient at once; a spline's gradient vanishes there, as its value does.",
+              f"{hats_between[0]} of {hats_between[1]} between walls. The node beyond the edge has next to no mass, and a point in the new cell "
+              "feels its full gradient at once; a spline's gradient vanishes there, as its value does.",
               hats[0] > hats[1] / 2 and hats_between[0] == 0, quick=False),
         Claim(f"So do C0 quadratics ({quadratics[0]} of {quadratics[1]}), which without F-bar may break between walls, too "
               f"({quadratics_between[0]} of {quadratics_between[1]}).", quadratics[0] > quadratics[1] / 2, quick=False),
