@@ -123,6 +123,21 @@ def volume_ratios(run):
     return float(np.min(ratios)), float(np.max(ratios))
 
 
+def roughness(points, cell_size, field):
+    """Rms of a field of `points` (of a picture) about the planes fitted to the points of each cell and the eight around it, in the field's unit.
+
+    What `p oscillation` tells in parts of the mean of p, which means little where p is near 0.
+    """
+    cells = np.floor(points.positions[:, :2] / cell_size).astype(int)
+    values, squares = points.arrays[field], 0.
+    for cell in np.unique(cells, axis=0):
+        near = np.max(np.abs(cells - cell), axis=1) <= 1
+        own = np.all(cells == cell, axis=1)
+        plane = [np.column_stack([np.ones(np.sum(chosen)), points.positions[chosen, :2]]) for chosen in (near, own)]
+        squares += np.sum((values[own] - plane[1] @ np.linalg.lstsq(plane[0], values[near], rcond=None)[0]) ** 2)
+    return float(np.sqrt(squares / len(values)))
+
+
 def hydrostatic_error(run, surface):
     """Rms over the water's points of the last picture of p - rho_w g depth below `surface`, m, over rho_w g times the cell size."""
     water = run.points(None, "water")
