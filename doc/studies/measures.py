@@ -10,6 +10,7 @@ import re
 
 import numpy as np
 
+import closed_forms
 import render
 
 # Part of an error message of scree -> cause, in short.
@@ -40,7 +41,10 @@ def classify(run, oscillation=0.1, column="^p oscillation", scatter=None, gain=0
 
     `gain` is that of the scene tests. `oscillation` depends on the scene: P of points without stabilisation scatters by .7 of its
     mean in a collapse, p of a saturated slope by .02. `energy`, J, replaces the released one where there is next to none (rest).
+    Raises ValueError if the program refused the case.
     """
+    if re.search(r"\.prm, line \d+: ", run.log):
+        raise ValueError(run.log)
     gained = energy_gain(run, energy)
     if gained > 1 or (run.ended and not is_finite(run)):
         return "blow-up"
@@ -132,3 +136,19 @@ def roughness(points, cell_size, field):
         plane = [np.column_stack([np.ones(np.sum(chosen)), points.positions[chosen, :2]]) for chosen in (near, own)]
         squares += np.sum((values[own] - plane[1] @ np.linalg.lstsq(plane[0], values[near], rcond=None)[0]) ** 2)
     return float(np.sqrt(squares / len(values)))
+
+
+def hydrostatic_error(run, surface):
+    """Rms over the water's points of the last picture of p - rho_w g depth below `surface`, m, over rho_w g times the cell size."""
+    water = run.points(None, "water")
+    exact = closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
+    cell = float(run.entries["Mesh/Cell size"])
+    return float(np.sqrt(np.mean((water.arrays["pressure"] - exact)**2)) / (1000 * closed_forms.GRAVITY * cell))
+
+
+def pressure_scatter(run):
+    """Time mean of the rms of p about its local linear fits, over the mean p at the start: the mean of a slide may vanish."""
+    times = render.read_times(run.folder, "water")
+    oscillation = np.interp(times, run.time, run.statistics("^p oscillation"))
+    mean = np.array([np.mean(run.points(time, "water").arrays["pressure"]) for time in times])
+    return float(np.mean(np.abs(oscillation * mean)[1:]) / mean[0]) if len(times) > 1 else 0.

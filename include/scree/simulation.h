@@ -39,9 +39,22 @@ namespace scree
     {
       return phases;
     }
+    const std::list<WaterPhase<dim>> &water_phases() const
+    {
+      return water;
+    }
     const BackgroundGrid<dim> &background_grid() const
     {
       return grid;
+    }
+
+    /// Largest step, s, of the points as they are.
+    double stable_step() const;
+
+    /// Wall time of the parts of the steps so far.
+    const dealii::TimerOutput &times_of_parts() const
+    {
+      return timer;
     }
     double time() const
     {
@@ -61,9 +74,6 @@ namespace scree
 
     /// Soil, water and markers follow the nodes; they are not sorted yet.
     void move_points(const double time_step, std::vector<double> &largest);
-
-    /// Largest step, s, of the points as they are.
-    double stable_step() const;
 
     /// All sets of points, in a fixed order.
     std::vector<PointSet<dim> *> point_sets();

@@ -1,0 +1,74 @@
+"""Dam break on a smooth floor (`prm/dam_break.prm`, to T = 3 of t sqrt(2 g/a)). The reference is the case's own method with h = 1/60 m. Error: rms over time (each 0.04 s from 0.2 s on) and over three lengths, the fronts that hold 90 and 99 % of the
+water and the height of its centre of mass, of their distance to the reference, over what each has moved in it by the end. Methods
+differ from the case (TPIC, splines, 4 x 4 points a cell, steps of at most 0.04 s/m times the cell size and Advection number 0.3, volume
+correction 0.05, relative tolerance of the pressure 1e-6) in one thing."""
+
+import math
+
+import numpy as np
+
+from charts import WorkPrecision
+from precision import DEFAULTS, cost_at_equal_error, costs, listed, order, ratio
+from study import Claim, Study, axis, product
+
+STEP = 0.04  # s/m: longest step over cell size
+
+METHODS = {
+    DEFAULTS: {},
+    "linear": {"Mesh/Basis": "linear"},
+    "quadratic": {"Mesh/Basis": "quadratic"},
+    "2 x 2 points": {"Water/Points per cell": 2},
+    "3 x 3 points": {"Water/Points per cell": 3},
+    "6 x 6 points": {"Water/Points per cell": 6},
+    "FLIP": {"Transfer/Method": "FLIP"},
+    "PIC": {"Transfer/Method": "PIC"},
+    "APIC": {"Transfer/Method": "APIC"},
+    "half the step": {"Time step/Advection number": 0.15},
+    "twice the step": {"Time step/Advection number": 0.6},
+    "tolerance 1e-2": {"Water/Pressure/Relative tolerance": 1e-2},
+    "tolerance 1e-4": {"Water/Pressure/Relative tolerance": 1e-4},
+    "tolerance 1e-9": {"Water/Pressure/Relative tolerance": 1e-9},
+    "no volume correction": {"Water/Volume correction": 0},
+}
+FACTORS = {"half the step": 0.5, "twice the step": 2.}
+
+
+def mesh(h, method=DEFAULTS):
+    return {"Mesh/Cell size": h, "Time step/Maximum time step": STEP * h * FACTORS.get(method, 1.)}
+
+
+def variants(methods, sizes):
+    return [variant for method in methods
+            for variant in product(axis("method", METHODS.__getitem__, [method]), axis("h", lambda h: mesh(h, method), sizes))]
+
+
+def lengths(run):
+    """Fronts of 90 and 99 % of the water and the height of its centre of mass at the times of the rows, m."""
+    return np.array([run.statistics("^water front 90"), run.statistics("^water front 99 "),
+                     run.statistics("^potential") / (run.statistics("^water mass") * 9.81)])
+
+
+def measure(run):
+    own, exact = lengths(run), lengths(run.reference)
+    scale = np.abs(exact[:, -1] - exact[:, 0])
+    late = run.time > 0.19
+    errors = np.sqrt(np.mean(((own - exact)[:, late] / scale[:, None])**2, axis=1))
+    released = run.statistics("^potential")[0] - run.statistics("^potential")[-1]
+    return {"error": math.sqrt(np.mean(errors**2)), "error of front 90 %": errors[0], "error of front 99 %": errors[1],
+            "error of centre of mass": errors[2], "tip at the end, m": run.statistics("^water tip")[-1],
+            "largest volume error": np.max(run.statistics("^volume error")),
+            "numerical dissipation": run.statistics("^numerical")[-1] / released,
+            "CG iterations": np.mean(run.statistics("^CG iterations")[1:]), "preconditioners": run.statistics("^precond")[-1]}
+
+
+def verdict(rows):
+    return [Claim(listed(costs(rows)), True), Claim(f"{order(rows)}", True)]
+
+
+STUDY = Study(
+    title="Dam break: error over cost", base="prm/dam_break.prm",
+    entries={"End time": 0.68, "Output/Interval": 0.68, "Output/Statistics interval": 0.04, "Output/Graphics": "none"},
+    variants=variants(METHODS, [1 / 10, 1 / 20]) + variants((DEFAULTS, "2 x 2 points", "3 x 3 points"), [1 / 30]),
+    reference=mesh(1 / 60), default={"method": DEFAULTS}, quick=lambda labels: labels["h"] > 0.09,
+    measure=measure, verdict=verdict,
+    chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of fronts and centre of mass (-)"))
