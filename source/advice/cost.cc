@@ -25,7 +25,7 @@ namespace scree
 
     /// Core-seconds of a picture and of a row of `statistics`: by themselves, a point, and a row written before (each
     /// row writes all).
-    constexpr double picture_seconds = 8e-3, picture_seconds_per_point = 1.5e-6;
+    constexpr double picture_seconds = 4.5e-3, picture_seconds_per_point = 1.5e-6;
     constexpr double row_seconds = 5e-4, row_seconds_per_point = 3e-7, row_seconds_per_row = 1e-5;
 
     /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the appointments.

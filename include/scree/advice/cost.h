@@ -25,7 +25,6 @@ namespace scree
   struct RunCost
   {
     double first_step = 0, mean_step = 0; ///< s
-    double speed          = 0;            ///< of the points, as the mean step takes it, m/s
     double n_steps        = 0;            ///<
     double step_seconds   = 0;            ///< core-seconds
     double output_seconds = 0;            ///< core-seconds
