@@ -113,12 +113,11 @@ namespace scree
 
   StepCost with_cell_size(StepCost steps, const Scene &scene, const double cell_size)
   {
-    constexpr double program = 1.2e8; // bytes, without points and cells
-    const double factor      = std::pow(scene.cell_size / cell_size, scene.dim);
+    const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
     steps.seconds *= factor;
     for (auto &part : steps.parts)
       part.second *= factor;
-    steps.memory = program + std::max(0., steps.memory - program) * factor;
+    steps.memory = steps.program_memory + std::max(0., steps.memory - steps.program_memory) * factor;
     return steps;
   }
 
