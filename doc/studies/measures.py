@@ -147,22 +147,9 @@ def hydrostatic_error(run, surface):
 
 
 def pressure_scatter(run):
-    """Time mean of the rms of p about linear fits over 3 x 3 cells, over the mean p at the start, from the pictures of a run in 2D.
-
-    As the column "p oscillation", but with a unit that stays when the mean p of a slide vanishes or falls below 0.
-    """
-    cell = float(run.entries["Mesh/Cell size"])
-    scatter, unit = [], None
-    for time in render.read_times(run.folder, "water"):
-        water = run.points(time, "water")
-        x, p = water.positions[:, :2] / cell, water.arrays["pressure"]
-        cells = np.floor(x).astype(int)
-        design = np.column_stack([np.ones(len(p)), x])
-        residual = np.zeros(len(p))
-        for one in np.unique(cells, axis=0):
-            distance = np.max(np.abs(cells - one), axis=1)
-            fit = np.linalg.lstsq(design[distance <= 1], p[distance <= 1], rcond=None)[0]
-            residual[distance == 0] = p[distance == 0] - design[distance == 0] @ fit
-        scatter.append(np.sqrt(np.mean(residual**2)))
-        unit = unit or np.mean(p)
-    return float(np.mean(scatter[1:]) / unit) if len(scatter) > 1 else 0.
+    """Time mean of the roughness of p over the mean p at the start, from the pictures of a run in 2D."""
+    cell_size = float(run.entries["Mesh/Cell size"])
+    pictures = [run.points(time, "water") for time in render.read_times(run.folder, "water")]
+    if len(pictures) < 2:
+        return 0.
+    return float(np.mean([roughness(points, cell_size, "pressure") for points in pictures[1:]]) / np.mean(pictures[0].arrays["pressure"]))
