@@ -13,11 +13,17 @@ namespace scree
     /// How long dry soil moves, over sqrt(H/g); water keeps it moving.
     constexpr double motion_lasts = 5.;
 
-    /// Bulk modulus of soil in motion over that at the start, where it grows with the pressure: of the stiffest point.
-    constexpr double stiffening = 1.5;
-
     /// Largest speed of the points in motion over that of a free fall by Scene::fall.
     constexpr double part_of_fall_speed = 0.8;
+
+    /// Bulk modulus of soil in motion over that at the start, where it grows with the pressure: bodies that fall by d
+    /// press on what is below with about rho g d more.
+    double stiffening(const Scene &scene)
+    {
+      if (!scene.stiffens || scene.fastest.pressure <= 0)
+        return 1.;
+      return 1. + scene.fastest.density * scene.gravity * scene.fall / scene.fastest.pressure;
+    }
 
     /// Cost of the stress update over that of the first steps: in motion 1 + this times the strain of a step at the
     /// rate sqrt(g/H), over the strain at which the law divides it; at rest.
@@ -25,8 +31,8 @@ namespace scree
 
     /// Core-seconds of a picture and of a row of `statistics`: by themselves, a point, and a row written before (each
     /// row writes all).
-    constexpr double picture_seconds = 8e-3, picture_seconds_per_point = 1.5e-6;
-    constexpr double row_seconds = 5e-4, row_seconds_per_point = 3e-7, row_seconds_per_row = 1e-5;
+    constexpr double picture_seconds = 3e-3, picture_seconds_per_point = 1.5e-6;
+    constexpr double row_seconds = 1e-4, row_seconds_per_point = 3e-7, row_seconds_per_row = 1e-6;
 
     /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the appointments.
     double count_steps(const OutputParameters &output, const double begin, const double end, const double step)
@@ -84,7 +90,7 @@ namespace scree
     const double rate   = std::sqrt(scene.gravity / scene.height); // 1/s
     const double motion = flows && !scene.has_water ? std::min(scene.end_time, motion_lasts / rate) : scene.end_time;
     const double speed = std::max(scene.initial_speed, part_of_fall_speed * std::sqrt(2. * scene.gravity * scene.fall));
-    const double in_motion = step_at(scene.stiffens ? stiffening : 1., speed);
+    const double in_motion = step_at(stiffening(scene), speed);
     add(0, motion, in_motion, flows ? 1. + substeps_of_strain * in_motion * rate / scene.substep_strain : 1.);
     add(motion, scene.end_time, step_at(1., 0.), resting_update);
     cost.first_step     = step_at(1., scene.initial_speed);
@@ -107,12 +113,11 @@ namespace scree
 
   StepCost with_cell_size(StepCost steps, const Scene &scene, const double cell_size)
   {
-    constexpr double program = 1.2e8; // bytes, without points and cells
-    const double factor      = std::pow(scene.cell_size / cell_size, scene.dim);
+    const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
     steps.seconds *= factor;
     for (auto &part : steps.parts)
       part.second *= factor;
-    steps.memory = program + std::max(0., steps.memory - program) * factor;
+    steps.memory = steps.program_memory + std::max(0., steps.memory - steps.program_memory) * factor;
     return steps;
   }
 

@@ -54,6 +54,7 @@ namespace scree
         cost.parts[part]   = cost.seconds * (of_part - (earlier == before.end() ? 0. : earlier->second)) / wall;
       }
     cost.memory = Utilities::MPI::sum(peak_memory(), communicator);
+    cost.program_memory *= Utilities::MPI::n_mpi_processes(communicator);
     return cost;
   }
 

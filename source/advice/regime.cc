@@ -24,7 +24,8 @@ namespace scree
     if (!scene.has_soil)
       return Regime::free_water;
     const Groups groups = groups_of(scene);
-    if (groups.drainage < thresholds::drained_below)
+    // Water outside, and that of soil that flows, moves on its own.
+    if (groups.drainage < thresholds::drained_below && scene.is_elastic && scene.water_fills_soil)
       return Regime::drained;
     if (groups.drainage > thresholds::undrained_above && groups.time_factor < thresholds::consolidates_above)
       return Regime::undrained;
@@ -55,17 +56,19 @@ namespace scree
         return "the case has no soil";
       case Regime::drained:
         return ratio + ", below " + rounded(thresholds::drained_below) +
-               ": soil alone serves, under water with its buoyant weight";
+               ": soil alone serves, of the saturated density and under water with its buoyant weight";
       case Regime::undrained:
         return ratio + ", above " + rounded(thresholds::undrained_above) + ", and T_v at the end " +
                rounded(groups.time_factor) + ", below " + rounded(thresholds::consolidates_above) +
                ": water hardly moves through the soil";
       default:
-        return ratio + (groups.drainage > thresholds::undrained_above
-                            ? ", above " + rounded(thresholds::undrained_above) + ", but T_v at the end is " +
-                                  rounded(groups.time_factor) + ": pressure leaves during the run"
-                            : ", between " + rounded(thresholds::drained_below) + " and " +
-                                  rounded(thresholds::undrained_above));
+        if (groups.drainage > thresholds::undrained_above)
+          return ratio + ", above " + rounded(thresholds::undrained_above) + ", but T_v at the end is " +
+                 rounded(groups.time_factor) + ": pressure leaves during the run";
+        if (groups.drainage < thresholds::drained_below)
+          return ratio + ", below " + rounded(thresholds::drained_below) + ", but its water must move, too";
+        return ratio + ", between " + rounded(thresholds::drained_below) + " and " +
+               rounded(thresholds::undrained_above);
       }
   }
 

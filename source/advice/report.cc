@@ -87,7 +87,7 @@ namespace scree
       writer.line("end time over drainage time, T_v", groups.time_factor, "");
       writer.line("drag takes the slip in", groups.drag_time, "s");
       writer.line("drag time over step", groups.drag_time / step, "(any is stable: drag is implicit)");
-      writer.line("drained serves above k =", conductivity_for(scene, thresholds::drained_below), "m/s");
+      writer.line("drained serves a load above k =", conductivity_for(scene, thresholds::drained_below), "m/s");
       writer.line("undrained serves the motion below k =", conductivity_for(scene, thresholds::undrained_above), "m/s");
     }
 

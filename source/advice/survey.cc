@@ -143,10 +143,9 @@ namespace scree
         const double first_pressure = 2. / 3. * phase.density * scene.gravity * scene.height;
         for_points(phase.points, [&](const Point<dim> &x, const double *properties) {
           const double mass = properties[phase.layout.mass], volume = properties[phase.layout.volume];
-          const double pressure = mean_effective_stress(properties + phase.layout.stress);
-          const WaveMedium medium{ law.initial_bulk_modulus(pressure > 0 ? pressure : first_pressure),
-                                   law.shear_modulus(),
-                                   phase.density };
+          const double at_start = mean_effective_stress(properties + phase.layout.stress);
+          const double pressure = at_start > 0 ? at_start : first_pressure;
+          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus(), phase.density, pressure };
           if (medium.speed() > scene.fastest.speed())
             scene.fastest = medium;
           keep_speed(properties + phase.layout.velocity);
@@ -154,6 +153,7 @@ namespace scree
           soil_mass += mass;
           soil_volume += volume;
           grain_volume += mass / phase.grain_density;
+          pressure_sum += volume * pressure;
           bulk_sum += volume * medium.bulk_modulus;
           shear_sum += volume * medium.shear_modulus;
           height_moment += mass * height_of(x);
@@ -192,6 +192,7 @@ namespace scree
                              &soil_mass,
                              &soil_volume,
                              &grain_volume,
+                             &pressure_sum,
                              &bulk_sum,
                              &shear_sum,
                              &water_points,
@@ -206,15 +207,19 @@ namespace scree
         scene.n_occupied     = n_occupied;
         if (scene.has_soil)
           {
-            scene.mean          = { bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume };
+            scene.mean = {
+              bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume, pressure_sum / soil_volume
+            };
             scene.grain_density = soil_mass / grain_volume;
             scene.porosity      = 1. - grain_volume / soil_volume;
           }
         // The rank with the fastest wave tells its soil.
         const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);
-        std::vector<double> fastest{ scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density };
+        std::vector<double> fastest{
+          scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density, scene.fastest.pressure
+        };
         fastest       = Utilities::MPI::broadcast(communicator, fastest, speeds.max_index);
-        scene.fastest = { fastest[0], fastest[1], fastest[2] };
+        scene.fastest = { fastest[0], fastest[1], fastest[2], fastest[3] };
 
         // Level in the box, soil and the water that finds no room in its pores have their centre at half their height.
         const double box_height = grid.upper_corner()[axis] - grid.lower_corner()[axis];
@@ -232,8 +237,9 @@ namespace scree
       Scene scene;
 
       std::vector<char> occupied; // cells, on this rank
-      // Sums over the points, SI units; bulk and shear modulus times volume.
-      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, bulk_sum = 0, shear_sum = 0;
+      // Sums over the points, SI units; pressure and moduli times volume.
+      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, pressure_sum = 0, bulk_sum = 0,
+             shear_sum    = 0;
       double water_points = 0, water_mass = 0, water_volume = 0;
       double height_moment = 0; // kg m
     };

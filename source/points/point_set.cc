@@ -75,7 +75,8 @@ namespace scree
   PointSet<dim>::PointSet(const Triangulation<dim> &triangulation,
                           const Mapping<dim> &mapping,
                           const unsigned int n_properties)
-      : n_properties(n_properties)
+      : communicator(triangulation.get_communicator())
+      , n_properties(n_properties)
       , particle_handler(triangulation, mapping, n_properties)
   {
     particle_handler.signals.particle_lost.connect([this](const auto &point, const auto &) {
@@ -88,7 +89,7 @@ namespace scree
   template <int dim>
   void PointSet<dim>::sort()
   {
-    const bool all_in_place = Utilities::MPI::min<int>(update_places(particle_handler, cell_list), MPI_COMM_WORLD);
+    const bool all_in_place = Utilities::MPI::min<int>(update_places(particle_handler, cell_list), communicator);
     if (all_in_place)
       return;
     particle_handler.sort_particles_into_subdomains_and_cells();

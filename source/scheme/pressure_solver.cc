@@ -155,6 +155,7 @@ namespace scree
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     const double scale       = time_step * cell_volume / (grid.cell_size() * grid.cell_size());
     bool is_anchored         = false; // something beside differences of pressure matters
+    double largest_mobility  = 0;
     scratch                  = 0.;
     cells.clear();
     for (const MixtureCell<dim> &mixed : mixture.cells())
@@ -163,6 +164,7 @@ namespace scree
           cells.emplace_back();
           Cell &cell              = cells.back();
           cell.mobility           = scale * mixed.mobility;
+          largest_mobility        = std::max(largest_mobility, cell.mobility);
           cell.projection         = projection * cell_volume * std::min(mixed.fill, 1.);
           const CellMatrix own    = matrix(cell);
           const unsigned int *all = corners.nodes(mixed.cell);
@@ -182,10 +184,11 @@ namespace scree
     scratch.compress(VectorOperation::add);
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       diagonal[i] += scratch.local_element(i);
-    const std::vector<int> own{ int(!cells.empty()), int(is_anchored) };
-    std::vector<int> any(2);
-    Utilities::MPI::max(own, grid.triangulation().get_communicator(), any);
-    AssertThrow(any[0] == 0 || any[1] == 1,
+    const std::vector<double> own{ largest_mobility, double(is_anchored) };
+    std::vector<double> all_ranks(2);
+    Utilities::MPI::max(own, grid.triangulation().get_communicator(), all_ranks);
+    unit = all_ranks[0] > 0. ? all_ranks[0] * n_corners * laplacian[0][0] : 1.;
+    AssertThrow(all_ranks[0] == 0. || all_ranks[1] == 1.,
                 ExcMessage("Water fills the box, and all its walls are closed: nothing sets the level of its pressure. "
                            "Remedies: a drained wall in subsection Boundaries/Water, a 'Bulk modulus' in subsection "
                            "Water, or a box that is higher than the water."));
@@ -228,7 +231,7 @@ namespace scree
     target.compress(VectorOperation::add);
     source.zero_out_ghost_values();
     for (unsigned int i = 0; i < solver.diagonal.size(); ++i)
-      target.local_element(i) += (solver.is_unknown[i] ? solver.diagonal[i] : 1.) * source.local_element(i);
+      target.local_element(i) += (solver.is_unknown[i] ? solver.diagonal[i] : solver.unit) * source.local_element(i);
   }
 
 
@@ -267,7 +270,7 @@ namespace scree
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       {
         const auto row = partitioner->local_to_global(i);
-        stored_matrix.add(row, row, is_unknown[i] ? diagonal[i] : 1.);
+        stored_matrix.add(row, row, is_unknown[i] ? diagonal[i] : unit);
       }
     stored_matrix.compress(VectorOperation::add);
 

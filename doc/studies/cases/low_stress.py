@@ -1,7 +1,9 @@
 """Low stress: a column, as wide as high, collapses, with its height scaled from 2 m to 0.02 m and gravity from 1 to 0.01 of Earth's, so that the stress at its base goes from
 30 kPa to 3 Pa while the soil stays as stiff. Nor-Sand (loose; no stress below 1 Pa) and Mohr-Coulomb sand (cut off at 0), dry and saturated, 8 cells over the
 height, for 2 sqrt(height/g).
-State: `measures.classify`; oscillating: `Stress oscillation` above .5 (time mean). The number is that oscillation: the stiffer the soil over its weight, the more of it."""
+State: `measures.classify`; oscillating: `Stress oscillation` above .5 (time mean). The number is that oscillation: the stiffer the soil over its weight, the more of it.
+`low_stress_before.csv` and `.png` are the same runs before rows and pictures that are due within a tenth of a step of each other were met in one step: a picture was due
+less than 1e-11 s after a row, and a step as short as that turned the divergence that the last one had left into a shock of p. It broke all that is saturated."""
 import math
 
 from charts import StabilityMap
@@ -39,16 +41,21 @@ def measure(run):
 def verdict(rows):
     ended = [row for row in rows if row["ended"]]
     calm = [row for row in rows if row["state"] in ("stable", "oscillating")]
+    failed = [row for row in rows if row not in calm]
     smallest, largest = (pick(row["height"] * row["gravity"] for row in rows) for pick in (min, max))
 
     def mean(scale):
         chosen = [row["P oscillation"] for row in rows if row["height"] * row["gravity"] == scale]
         return sum(chosen) / len(chosen)
     return [
-        Claim(f"{len(ended)} of {len(rows)} columns collapse to their end, {len(calm)} without gain of energy or volumes out of bounds; largest gain {max(row['gain, %'] for row in ended):.2g} %.",
-              len(ended) == len(rows) and len(calm) == len(rows)),
+        Claim(f"{len(ended)} of {len(rows)} columns collapse to their end, {len(calm)} without gain of energy or volumes out of bounds.", len(ended) == len(rows)),
+        *([Claim(f"Saturated Mohr-Coulomb sand fails at {failed[0]['gravity']:g} of Earth's gravity: it gains up to {max(row['gain, %'] for row in failed):.0f} % of the energy "
+                 f"released, in one kick of a few steps, when points first crowd a cell at the surface; suction is then up to {max(row['suction/weight'] for row in failed):.0f} times the "
+                 "weight of the column's water. An error of the velocity's divergence costs a pressure of rho h v/dt whatever gravity is, and here nothing "
+                 "holds against it.", quick=False,
+                 holds=all(row["soil"] == "Mohr-Coulomb, saturated" and row["gravity"] == 0.01 for row in failed))] if failed else []),
         Claim(f"What low stress costs is smoothness: P oscillates by {mean(largest):.2g} of its mean at the largest stress and {mean(smallest):.2g} at the smallest (means over "
-              "soils). The soil is as stiff as ever and its weight next to nothing, so that the strain of a point that crosses a cell shows.", mean(smallest) > mean(largest)),
+              "soils): the soil is as stiff as ever, its weight next to nothing.", mean(smallest) > mean(largest)),
         Claim(f"The return map leaves {sum(row['unresolved'] for row in rows):g} updates unresolved.", sum(row["unresolved"] for row in rows) == 0),
     ]
 

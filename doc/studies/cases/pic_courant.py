@@ -48,10 +48,15 @@ def verdict(rows):
     column, default = "Mohr-Coulomb column", "FLIP, 5/s"
     columns = [row for row in rows if row["scene"] != "vibrating bar" and row["step/limit"] <= 1.2]
     tpic = {row["step/limit"]: row["P oscillation"] for row in select("TPIC", "Nor-Sand column")}
+    bar = [row for row in rows if row["scene"] == "vibrating bar"]
+    limit, beyond = (max((row["step/limit"] for row in bar if row["state"] == "stable"), default=math.nan),
+                     min((row["step/limit"] for row in bar if row["state"] != "stable"), default=math.nan))
     return [
         Claim("The default, FLIP at 5/s, is stable in both columns at every step up to 1.2 of the limit.",
               all(row["state"] == "stable" for row in columns if row["transfer"] == default)),
-        Claim(f"Up to there no transfer gains energy in a collapse (at most {max(row['gain'] for row in columns):.1g} of the released one).",
+        Claim(f"The elastic bar (no F-bar) is stable to {limit:g} of the limit step and breaks at {beyond:g} with every transfer: the limit "
+              "is sharp, and no transfer moves it.", limit < beyond, quick=False),
+        Claim(f"Up to 1.2 no transfer gains energy in a collapse (at most {max(row['gain'] for row in columns):.1g} of the released one).",
               all(row["gain"] < 0.005 for row in columns)),
         Claim(f"FLIP does not depend on the step: up to 1.2 of the limit it moves the front of the {column} by "
               f"{100 * spread(default, column):.1f} %; TPIC moves it by {100 * spread('TPIC', column):.0f} %, PIC by "

@@ -9,7 +9,7 @@ import math
 
 import measures
 from charts import StabilityMap
-from study import Claim, Study, Variant, axis, product
+from study import Claim, Study, Variant
 
 CELL = 0.1
 

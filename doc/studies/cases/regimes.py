@@ -14,7 +14,8 @@ c = (1 + K0)/2 sigma_v' sin(phi) of its own for each row of cells, no friction, 
 
 The error of a model is the largest one at t = 1, 2, 3, 4 sqrt(H/g): of the front that holds 90 % of the soil, over the front of the coupled run;
 of the settlement under load, over the drained one at the end. 5 % is called enough. The abscissa is the time of drainage over the time of motion,
-(H^2/c_v)/sqrt(H/g), with c_v = k E_oed/(rho_w g). Zienkiewicz, Chang & Bettess 1980 drew such a map for a layer under a periodic load.
+(H^2/c_v)/sqrt(H/g), with c_v = k E_oed/(rho_w g); the time factor at the end is 4 over it. Zienkiewicz, Chang &
+Bettess 1980 drew such a map for a layer under a periodic load.
 """
 import math
 

@@ -18,14 +18,14 @@ namespace scree
     double n_steps = 0;                  ///< looked at
     double seconds = 0;                  ///< a step, of all ranks together
     std::map<std::string, double> parts; ///< of `seconds`, by the names that a run tells at its end
-    double memory = 0;                   ///< of all ranks, bytes
+    double memory         = 0;           ///< of all ranks, bytes
+    double program_memory = 1.2e8;       ///< of `memory`, what does not grow with points and cells, bytes
   };
 
   /// What a whole run will take.
   struct RunCost
   {
     double first_step = 0, mean_step = 0; ///< s
-    double speed          = 0;            ///< of the points, as the mean step takes it, m/s
     double n_steps        = 0;            ///<
     double step_seconds   = 0;            ///< core-seconds
     double output_seconds = 0;            ///< core-seconds

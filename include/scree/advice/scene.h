@@ -11,7 +11,8 @@ namespace scree
   struct WaveMedium
   {
     double bulk_modulus = 0, shear_modulus = 0; ///< Pa
-    double density = 0;                         ///< dry, kg/m^3
+    double density  = 0;                        ///< dry, kg/m^3
+    double pressure = 0;                        ///< mean effective stress, Pa
 
     /// m/s, if the bulk modulus were `factor` times as large; 0 without soil.
     double speed(const double factor = 1.) const
