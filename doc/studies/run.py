@@ -105,8 +105,9 @@ def _estimate(labels, expected):
 def make_runs(name, study, arguments):
     """The runs of all variants, in their order; the reference's first, with progress and the time left."""
     wanted = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
-    if study.reference is not None:
-        wanted.insert(0, Variant({"reference": "reference"}, study.reference))
+    reference_entries = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
+    if reference_entries is not None:
+        wanted.insert(0, Variant({"reference": "reference"}, reference_entries))
     folders = [folder_of(study, variant, arguments.results) for variant in wanted]
     missing = {folder: variant for variant, folder in zip(wanted, folders) if arguments.again or load_run(folder, variant.labels) is None}
     expected = expected_seconds(name)
@@ -125,7 +126,7 @@ def make_runs(name, study, arguments):
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         list(pool.map(make, missing))
     runs = [load_run(folder, variant.labels) for variant, folder in zip(wanted, folders)]
-    reference = runs.pop(0) if study.reference is not None else None
+    reference = runs.pop(0) if reference_entries is not None else None
     for run in runs:
         run.reference = reference
     return runs

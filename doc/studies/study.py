@@ -52,9 +52,9 @@ def product(*axes):
 class Study:
     """`measure(run)` returns the columns of a run; `verdict(rows)` the claims, from the rows as the table holds them.
 
-    entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure. quick(labels): whether
-    a variant belongs to the short version. needs_end: a run that failed has no measures. default: the labels of the .prm's defaults,
-    marked in the chart. program: scree or scree-element.
+    entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure; quick_reference: that of the
+    short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
+    no measures. default: the labels of the .prm's defaults, marked in the chart. program: scree or scree-element.
     """
     title: str
     base: str
@@ -64,6 +64,7 @@ class Study:
     chart: Any
     entries: dict = dataclasses.field(default_factory=dict)
     reference: dict | None = None
+    quick_reference: dict | None = None
     quick: Callable = lambda labels: True
     needs_end: bool = True
     default: dict | None = None

@@ -82,7 +82,7 @@ namespace scree
     void measure_speeds();
 
     void make_appointments();
-    double next_appointment() const;
+    double next_appointment(const double largest_step) const;
     void report();
     void write_picture(const double time);
     void account_for_lost_points();

@@ -155,6 +155,7 @@ namespace scree
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     const double scale       = time_step * cell_volume / (grid.cell_size() * grid.cell_size());
     bool is_anchored         = false; // something beside differences of pressure matters
+    double largest_mobility  = 0;
     scratch                  = 0.;
     cells.clear();
     for (const MixtureCell<dim> &mixed : mixture.cells())
@@ -163,6 +164,7 @@ namespace scree
           cells.emplace_back();
           Cell &cell              = cells.back();
           cell.mobility           = scale * mixed.mobility;
+          largest_mobility        = std::max(largest_mobility, cell.mobility);
           cell.projection         = projection * cell_volume * std::min(mixed.fill, 1.);
           const CellMatrix own    = matrix(cell);
           const unsigned int *all = corners.nodes(mixed.cell);
@@ -182,10 +184,11 @@ namespace scree
     scratch.compress(VectorOperation::add);
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       diagonal[i] += scratch.local_element(i);
-    const std::vector<int> own{ int(!cells.empty()), int(is_anchored) };
-    std::vector<int> any(2);
-    Utilities::MPI::max(own, grid.triangulation().get_communicator(), any);
-    AssertThrow(any[0] == 0 || any[1] == 1,
+    const std::vector<double> own{ largest_mobility, double(is_anchored) };
+    std::vector<double> all_ranks(2);
+    Utilities::MPI::max(own, grid.triangulation().get_communicator(), all_ranks);
+    unit = all_ranks[0] > 0. ? all_ranks[0] * n_corners * laplacian[0][0] : 1.;
+    AssertThrow(all_ranks[0] == 0. || all_ranks[1] == 1.,
                 ExcMessage("Water fills the box, and all its walls are closed: nothing sets the level of its pressure. "
                            "Remedies: a drained wall in subsection Boundaries/Water, a 'Bulk modulus' in subsection "
                            "Water, or a box that is higher than the water."));
@@ -228,7 +231,7 @@ namespace scree
     target.compress(VectorOperation::add);
     source.zero_out_ghost_values();
     for (unsigned int i = 0; i < solver.diagonal.size(); ++i)
-      target.local_element(i) += (solver.is_unknown[i] ? solver.diagonal[i] : 1.) * source.local_element(i);
+      target.local_element(i) += (solver.is_unknown[i] ? solver.diagonal[i] : solver.unit) * source.local_element(i);
   }
 
 
@@ -267,7 +270,7 @@ namespace scree
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       {
         const auto row = partitioner->local_to_global(i);
-        stored_matrix.add(row, row, is_unknown[i] ? diagonal[i] : 1.);
+        stored_matrix.add(row, row, is_unknown[i] ? diagonal[i] : unit);
       }
     stored_matrix.compress(VectorOperation::add);
 
@@ -295,29 +298,37 @@ namespace scree
     take(change, solution);
 
     SolveReport report;
-    if (is_worn)
-      {
-        make_preconditioner();
-        report.made_preconditioner = true;
-        is_worn                    = false;
-      }
-    SolverControl control(maximum_iterations, std::max(rounding, relative_tolerance * source.l2_norm()));
-    if (control.tolerance() > 0.) // else nothing flows
+    const double tolerance = std::max(rounding, relative_tolerance * source.l2_norm());
+    const auto iterate     = [&](const unsigned int most) {
+      SolverControl control(most, tolerance);
       try
         {
           SolverCG<CornerVector>(control).solve(system, solution, source, *preconditioner);
         }
-      catch (const SolverControl::NoConvergence &failure)
+      catch (const SolverControl::NoConvergence &)
         {
-          AssertThrow(false,
-                      ExcMessage("The pressure solver did not converge: after " + std::to_string(failure.last_step) +
-                                 " iterations the residual is " +
-                                 std::to_string(failure.last_residual / control.tolerance()) +
-                                 " times the wanted one. Remedies: a smaller 'Courant number' in subsection Time step, "
-                                 "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection "
-                                 "Water/Pressure."));
         }
-    report.n_iterations = control.tolerance() > 0. ? control.last_step() : 0;
+      report.n_iterations += control.last_step();
+      return control;
+    };
+    // A front that enters new cells can make the kept preconditioner useless within a step.
+    const unsigned int patience = std::min(maximum_iterations, iterations_when_new + iterations_worth_a_preconditioner);
+    if (tolerance > 0. && // else nothing flows
+        (is_worn || iterate(patience).last_check() != SolverControl::success))
+      {
+        make_preconditioner();
+        report.made_preconditioner  = true;
+        const SolverControl control = iterate(maximum_iterations);
+        AssertThrow(
+            control.last_check() == SolverControl::success,
+            ExcMessage("The pressure solver did not converge: after " + std::to_string(control.last_step()) +
+                       " iterations the residual is " + std::to_string(control.last_value() / tolerance) +
+                       " times the wanted one. Remedies: a smaller 'Courant number' in subsection Time step, "
+                       "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection Water/Pressure."));
+        is_worn             = false;
+        iterations_when_new = control.last_step();
+        surplus_iterations  = 0;
+      }
 
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       change.local_element(corner_of_number[i]) = is_unknown[i] ? solution.local_element(i) : 0.;
@@ -328,10 +339,7 @@ namespace scree
   void PressureSolver<dim>::judge_preconditioner(const SolveReport &report)
   {
     if (report.made_preconditioner)
-      {
-        iterations_when_new = report.n_iterations;
-        surplus_iterations  = 0;
-      }
+      return;
     surplus_iterations += std::max(int(report.n_iterations) - int(iterations_when_new), 0);
     is_worn = surplus_iterations > iterations_worth_a_preconditioner;
   }

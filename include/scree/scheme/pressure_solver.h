@@ -90,11 +90,13 @@ namespace scree
     std::vector<Cell> cells;
     std::vector<char> is_unknown; // by number
     std::vector<double> diagonal; // what surface corners and storage add, by owned number
+    double unit = 1.;             // diagonal of the other numbers, m^3/(Pa s): of the size of the unknowns', for a
+                                  // preconditioner that is kept while corners turn from one to the other
     CornerVector source, solution, scratch;
 
     dealii::TrilinosWrappers::SparseMatrix stored_matrix; // the preconditioner refers to it
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
-    static constexpr unsigned int iterations_worth_a_preconditioner = 40; // what making it costs, measured
+    static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
     unsigned int iterations_when_new = 0, surplus_iterations = 0;
     bool is_worn = true;
   };

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the work-precision studies share: methods that differ from the defaults in one thing, and what they cost at equal error.
+
+Rows have the columns "method" and "h", the cell size, and an error, which is nan where the run failed or blew up.
+"""
+
+import math
+
+import numpy as np
+
+DEFAULTS = "defaults"
+
+
+def curve(rows, method=DEFAULTS, column="error"):
+    """{h: row} of the runs of a method that have a number above 0 in the column, from the coarsest mesh on."""
+    found = {row["h"]: row for row in rows if row["method"] == method and math.isfinite(row.get(column, math.nan)) and row[column] > 0}
+    return dict(sorted(found.items(), reverse=True))
+
+
+def at_finest(rows, method, column="error"):
+    """The column on the finest mesh that a method has; nan without one."""
+    found = list(curve(rows, method, column).values())
+    return found[-1][column] if found else math.nan
+
+
+def failed(rows, method):
+    """The cell sizes at which a method has no error."""
+    return sorted(row["h"] for row in rows if row["method"] == method and not math.isfinite(row.get("error", math.nan)))
+
+
+def order(rows, method=DEFAULTS, column="error"):
+    """Order of convergence in h between the coarsest and the finest mesh; nan with one mesh."""
+    found = curve(rows, method, column)
+    if len(found) < 2:
+        return math.nan
+    coarse, *_, fine = found
+    return math.log(found[coarse][column] / found[fine][column]) / math.log(coarse / fine)
+
+
+def ratio(rows, method, column="error", other=DEFAULTS):
+    """Geometric mean over the common meshes of the column of a method over that of another."""
+    own, base = curve(rows, method, column), curve(rows, other, column)
+    logs = [math.log(own[h][column] / base[h][column]) for h in own.keys() & base.keys()]
+    return math.exp(np.mean(logs)) if logs else math.nan
+
+
+def cost_at_equal_error(rows, method):
+    """How many times the defaults' core-seconds a method takes for the same error; below 1 it is better. nan with one mesh.
+
+    The ratio of the times, times the ratio of the errors to the power s, where core-seconds ~ error^-s along the defaults' curve: what is
+    lost in accuracy is paid for by the defaults' own rate of convergence. Both ratios are means over the meshes (`ratio`).
+    """
+    base = list(curve(rows).values())
+    if len(base) < 2:
+        return math.nan
+    price = math.log(base[-1]["core-seconds"] / base[0]["core-seconds"]) / math.log(base[0]["error"] / base[-1]["error"])
+    return ratio(rows, method, "core-seconds") * ratio(rows, method)**price
+
+
+def costs(rows):
+    """{method: cost_at_equal_error} of the other methods, the cheapest first; without those that failed on a mesh."""
+    methods = dict.fromkeys(row["method"] for row in rows if row["method"] != DEFAULTS)
+    found = {method: cost_at_equal_error(rows, method) for method in methods if not failed(rows, method)}
+    return dict(sorted(found.items(), key=lambda item: item[1]))
+
+
+def listed(found):
+    """"a 0.81, b 1.2": methods with their numbers."""
+    return ", ".join(f"{method} {cost:.2g}" for method, cost in found.items())
