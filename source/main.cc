@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/advice/advise.h>
 #include <scree/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <sstream>
 
 namespace
 {
-  constexpr char usage[] = "Usage: scree case.prm             run a case\n"
-                           "       scree case.prm --resume    go on from the newest checkpoint in its run folder\n"
-                           "       scree --print-parameters   all entries with defaults and explanations\n"
-                           "       scree --help               this text\n"
-                           "In parallel: mpirun -np 2 scree case.prm";
+  constexpr char usage[] =
+      "Usage: scree case.prm             run a case\n"
+      "       scree case.prm --resume    go on from the newest checkpoint in its run folder\n"
+      "       scree --advise case.prm [--accuracy 0.05]\n"
+      "                                  what the case is, what it will cost, what would serve it better\n"
+      "       scree --print-parameters   all entries with defaults and explanations\n"
+      "       scree --help               this text\n"
+      "In parallel: mpirun -np 2 scree case.prm";
 
   void check_command_line(const std::vector<std::string> &arguments, const bool resume)
   {
@@ -26,12 +31,40 @@ namespace
       throw scree::InputError("command line: " + fault + '\n' + usage);
   }
 
-  template <int dim>
-  void run(scree::Parameters &parameters, const scree::Start start)
+  /// The relative error that `--advise case.prm --accuracy VALUE` asks for.
+  double wanted_accuracy(const std::vector<std::string> &arguments)
+  {
+    std::string fault;
+    double accuracy = scree::default_accuracy;
+    if (arguments.size() < 2 || arguments[1].rfind("-", 0) == 0)
+      fault = "after \"--advise\", a case file is missing.";
+    else if (arguments.size() > 2 && arguments[2] != "--accuracy")
+      fault = "after the case file, \"" + arguments[2] + "\" does not read.";
+    else if (arguments.size() == 3)
+      fault = "after \"--accuracy\", a relative error is missing.";
+    else if (arguments.size() > 4)
+      fault = "after the accuracy, \"" + arguments[4] + "\" does not read.";
+    else if (arguments.size() == 4)
+      {
+        std::istringstream number(arguments[3]);
+        if (!(number >> accuracy) || !number.eof() || !(accuracy > 0 && accuracy < 1))
+          fault = "the accuracy is \"" + arguments[3] + "\", but must be a relative error between 0 and 1.";
+      }
+    if (!fault.empty())
+      throw scree::InputError("command line: " + fault + '\n' + usage);
+    return accuracy;
+  }
+
+  /// Calls `act` with a number of the type of the case's dimension; completes its errors.
+  template <typename Function>
+  void in_its_dimension(scree::Parameters &parameters, const Function &act)
   {
     try
       {
-        scree::Simulation<dim>(parameters, start, MPI_COMM_WORLD).run();
+        if (parameters.dimension == 2)
+          act(std::integral_constant<int, 2>());
+        else
+          act(std::integral_constant<int, 3>());
       }
     catch (const scree::EntryError &error)
       {
@@ -51,14 +84,20 @@ namespace
         scree::Parameters().print(out);
         return 0;
       }
+    if (!arguments.empty() && arguments[0] == "--advise")
+      {
+        const double accuracy = wanted_accuracy(arguments);
+        scree::Parameters parameters(arguments[1]);
+        in_its_dimension(parameters,
+                         [&](const auto dim) { scree::advise<dim()>(parameters, accuracy, MPI_COMM_WORLD, out); });
+        return 0;
+      }
     const bool resume = arguments.size() == 2 && arguments[1] == "--resume";
     check_command_line(arguments, resume);
     scree::Parameters parameters(arguments[0]);
     const scree::Start start = resume ? scree::Start::resume : scree::Start::fresh;
-    if (parameters.dimension == 2)
-      run<2>(parameters, start);
-    else
-      run<3>(parameters, start);
+    in_its_dimension(parameters,
+                     [&](const auto dim) { scree::Simulation<dim()>(parameters, start, MPI_COMM_WORLD).run(); });
     return 0;
   }
 } // namespace

@@ -58,7 +58,7 @@ namespace scree
                     ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
                                " s the stable step has fallen to " + Utilities::to_string(largest_step) + " s, from " +
                                Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
-        const double appointment = next_appointment();
+        const double appointment = next_appointment(largest_step);
         last_time_step           = clock.next_step(largest_step, appointment);
         advance(last_time_step);
         clock.advance(last_time_step, appointment);
@@ -307,9 +307,17 @@ namespace scree
 
 
   template <int dim>
-  double Simulation<dim>::next_appointment() const
+  double Simulation<dim>::next_appointment(const double largest_step) const
   {
-    return std::min({ parameters.end_time, next_picture, next_row, next_checkpoint });
+    const auto due     = { parameters.end_time, next_picture, next_row, next_checkpoint };
+    const double first = std::min(due);
+    // Those that follow at once are met together: in a step that is far shorter than the others the pressure would
+    // answer to what divergence the last one left with a shock.
+    double last = first;
+    for (const double time : due)
+      if (time <= first + 0.1 * largest_step)
+        last = std::max(last, time);
+    return std::min(last, parameters.end_time);
   }
 
 

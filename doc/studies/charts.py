@@ -12,7 +12,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 plt.rcParams.update({"svg.hashsalt": "scree", "svg.fonttype": "none", "font.size": 9})
 
-STATES = {"stable": "#7fbf7f", "oscillating": "#ffd966", "energy gain": "#f4a460", "J out of bounds": "#b08fc7", "wrong": "#9ecae1", "blow-up": "#d9534f"}
+STATES = {"stable": "#7fbf7f", "wrong": "#9ecae1", "oscillating": "#ffd966", "energy gain": "#f4a460",
+          "J out of bounds": "#b08fc7", "blow-up": "#d9534f"}
 
 
 def save(figure, target):
@@ -79,7 +80,7 @@ class WorkPrecision:
 class StabilityMap:
     """A heat map of the column `value` (a state of STATES) over `x` and `y`, one panel for each combination of the columns `panels`.
 
-    `number`: a column whose value is written into the cells.
+    Of two columns `panels` the first goes down, the second across. `number`: a column whose value is written into the cells.
     """
     timed = False
 
@@ -95,8 +96,11 @@ class StabilityMap:
         for row in rows:
             groups.setdefault(tuple(row[name] for name in self.panels), []).append(row)
         xs, ys = (list(dict.fromkeys(row[name] for row in rows)) for name in (self.x, self.y))
-        columns = min(len(groups), 3 if len(xs) <= 8 else 2)
-        lines = math.ceil(len(groups) / columns)
+        if len(self.panels) == 2:  # a line for each value of the first, a column for each of the second
+            lines, columns = (len({key[index] for key in groups}) for index in (0, 1))
+        else:
+            columns = min(len(groups), 3 if len(xs) <= 8 else 2)
+            lines = math.ceil(len(groups) / columns)
         figure, axes = plt.subplots(lines, columns, squeeze=False, layout="constrained",
                                     figsize=(max(5., columns * (0.8 + 0.62 * len(xs))), 1.1 + lines * (0.9 + 0.34 * len(ys))))
         for plot in axes.flat[len(groups):]:
@@ -139,3 +143,18 @@ class Curves:
         figure.suptitle(title, fontsize="medium")
         self.draw(figure, rows)
         save(figure, target)
+
+
+class RunCurves(Curves):
+    """Curves of the runs themselves, which `measure` hands over with `keep(run)`: draw(figure, runs). Without them (--page) the chart stays as it is."""
+
+    def __init__(self, draw, size=(9, 6), timed=False):
+        super().__init__(draw, size, timed)
+        self.runs = []
+
+    def keep(self, run):
+        self.runs.append(run)
+
+    def write(self, rows, title, target):
+        if self.runs:
+            super().write(self.runs, title, target)

@@ -10,6 +10,7 @@ import re
 
 import numpy as np
 
+import closed_forms
 import render
 
 # Part of an error message of scree -> cause, in short.
@@ -40,7 +41,10 @@ def classify(run, oscillation=0.1, column="^p oscillation", scatter=None, gain=0
 
     `gain` is that of the scene tests. `oscillation` depends on the scene: P of points without stabilisation scatters by .7 of its
     mean in a collapse, p of a saturated slope by .02. `energy`, J, replaces the released one where there is next to none (rest).
+    Raises ValueError if the program refused the case.
     """
+    if re.search(r"\.prm, line \d+: ", run.log):
+        raise ValueError(run.log)
     gained = energy_gain(run, energy)
     if gained > 1 or (run.ended and not is_finite(run)):
         return "blow-up"
@@ -117,3 +121,48 @@ def volume_ratios(run):
                 specific = points.arrays["volume"][chosen] / points.arrays["mass"][chosen]
                 ratios.extend(specific / units.setdefault(body, np.median(specific)))
     return float(np.min(ratios)), float(np.max(ratios))
+
+
+def roughness(points, cell_size, field):
+    """Rms of a field of `points` (of a picture) about the planes fitted to the points of each cell and the eight around it, in the field's unit.
+
+    What `p oscillation` tells in parts of the mean of p, which means little where p is near 0.
+    """
+    cells = np.floor(points.positions[:, :2] / cell_size).astype(int)
+    values, squares = points.arrays[field], 0.
+    for cell in np.unique(cells, axis=0):
+        near = np.max(np.abs(cells - cell), axis=1) <= 1
+        own = np.all(cells == cell, axis=1)
+        plane = [np.column_stack([np.ones(np.sum(chosen)), points.positions[chosen, :2]]) for chosen in (near, own)]
+        squares += np.sum((values[own] - plane[1] @ np.linalg.lstsq(plane[0], values[near], rcond=None)[0]) ** 2)
+    return float(np.sqrt(squares / len(values)))
+
+
+def hydrostatic_error(run, surface):
+    """Rms over the water's points of the last picture of p - rho_w g depth below `surface`, m, over rho_w g times the cell size."""
+    water = run.points(None, "water")
+    exact = closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
+    cell = float(run.entries["Mesh/Cell size"])
+    return float(np.sqrt(np.mean((water.arrays["pressure"] - exact)**2)) / (1000 * closed_forms.GRAVITY * cell))
+
+
+def pressure_scatter(run):
+    """Time mean of the rms of p about linear fits over 3 x 3 cells, over the mean p at the start, from the pictures of a run in 2D.
+
+    As the column "p oscillation", but with a unit that stays when the mean p of a slide vanishes or falls below 0.
+    """
+    cell = float(run.entries["Mesh/Cell size"])
+    scatter, unit = [], None
+    for time in render.read_times(run.folder, "water"):
+        water = run.points(time, "water")
+        x, p = water.positions[:, :2] / cell, water.arrays["pressure"]
+        cells = np.floor(x).astype(int)
+        design = np.column_stack([np.ones(len(p)), x])
+        residual = np.zeros(len(p))
+        for one in np.unique(cells, axis=0):
+            distance = np.max(np.abs(cells - one), axis=1)
+            fit = np.linalg.lstsq(design[distance <= 1], p[distance <= 1], rcond=None)[0]
+            residual[distance == 0] = p[distance == 0] - design[distance == 0] @ fit
+        scatter.append(np.sqrt(np.mean(residual**2)))
+        unit = unit or np.mean(p)
+    return float(np.mean(scatter[1:]) / unit) if len(scatter) > 1 else 0.

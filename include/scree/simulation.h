@@ -39,9 +39,22 @@ namespace scree
     {
       return phases;
     }
+    const std::list<WaterPhase<dim>> &water_phases() const
+    {
+      return water;
+    }
     const BackgroundGrid<dim> &background_grid() const
     {
       return grid;
+    }
+
+    /// Largest step, s, of the points as they are.
+    double stable_step() const;
+
+    /// Wall time of the parts of the steps so far.
+    const dealii::TimerOutput &times_of_parts() const
+    {
+      return timer;
     }
     double time() const
     {
@@ -62,9 +75,6 @@ namespace scree
     /// Soil, water and markers follow the nodes; they are not sorted yet.
     void move_points(const double time_step, std::vector<double> &largest);
 
-    /// Largest step, s, of the points as they are.
-    double stable_step() const;
-
     /// All sets of points, in a fixed order.
     std::vector<PointSet<dim> *> point_sets();
 
@@ -72,7 +82,7 @@ namespace scree
     void measure_speeds();
 
     void make_appointments();
-    double next_appointment() const;
+    double next_appointment(const double largest_step) const;
     void report();
     void write_picture(const double time);
     void account_for_lost_points();

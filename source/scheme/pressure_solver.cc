@@ -298,29 +298,37 @@ namespace scree
     take(change, solution);
 
     SolveReport report;
-    if (is_worn)
-      {
-        make_preconditioner();
-        report.made_preconditioner = true;
-        is_worn                    = false;
-      }
-    SolverControl control(maximum_iterations, std::max(rounding, relative_tolerance * source.l2_norm()));
-    if (control.tolerance() > 0.) // else nothing flows
+    const double tolerance = std::max(rounding, relative_tolerance * source.l2_norm());
+    const auto iterate     = [&](const unsigned int most) {
+      SolverControl control(most, tolerance);
       try
         {
           SolverCG<CornerVector>(control).solve(system, solution, source, *preconditioner);
         }
-      catch (const SolverControl::NoConvergence &failure)
+      catch (const SolverControl::NoConvergence &)
         {
-          AssertThrow(false,
-                      ExcMessage("The pressure solver did not converge: after " + std::to_string(failure.last_step) +
-                                 " iterations the residual is " +
-                                 std::to_string(failure.last_residual / control.tolerance()) +
-                                 " times the wanted one. Remedies: a smaller 'Courant number' in subsection Time step, "
-                                 "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection "
-                                 "Water/Pressure."));
         }
-    report.n_iterations = control.tolerance() > 0. ? control.last_step() : 0;
+      report.n_iterations += control.last_step();
+      return control;
+    };
+    // A front that enters new cells can make the kept preconditioner useless within a step.
+    const unsigned int patience = std::min(maximum_iterations, iterations_when_new + iterations_worth_a_preconditioner);
+    if (tolerance > 0. && // else nothing flows
+        (is_worn || iterate(patience).last_check() != SolverControl::success))
+      {
+        make_preconditioner();
+        report.made_preconditioner  = true;
+        const SolverControl control = iterate(maximum_iterations);
+        AssertThrow(
+            control.last_check() == SolverControl::success,
+            ExcMessage("The pressure solver did not converge: after " + std::to_string(control.last_step()) +
+                       " iterations the residual is " + std::to_string(control.last_value() / tolerance) +
+                       " times the wanted one. Remedies: a smaller 'Courant number' in subsection Time step, "
+                       "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection Water/Pressure."));
+        is_worn             = false;
+        iterations_when_new = control.last_step();
+        surplus_iterations  = 0;
+      }
 
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       change.local_element(corner_of_number[i]) = is_unknown[i] ? solution.local_element(i) : 0.;
@@ -331,10 +339,7 @@ namespace scree
   void PressureSolver<dim>::judge_preconditioner(const SolveReport &report)
   {
     if (report.made_preconditioner)
-      {
-        iterations_when_new = report.n_iterations;
-        surplus_iterations  = 0;
-      }
+      return;
     surplus_iterations += std::max(int(report.n_iterations) - int(iterations_when_new), 0);
     is_worn = surplus_iterations > iterations_worth_a_preconditioner;
   }

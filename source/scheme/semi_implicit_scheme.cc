@@ -196,6 +196,8 @@ namespace scree
         pair.solve(soil_impulse, water_impulse, soil_after, water_after);
         if (soil_mass > 0. && friction.find_contact(node, soil_after))
           {
+            soil_impulse += friction.resist(node, pair_at(node, soil), soil_impulse, water_impulse);
+            balance.wall_impulse += friction.resistance(node);
             pair = pair_at(node, soil);
             pair.solve(soil_impulse, water_impulse, soil_after, water_after);
           }
@@ -207,7 +209,6 @@ namespace scree
             // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
             balance.wall_dissipation -=
                 0.5 * (soil_wall * (soil_before + soil_after) + water_wall * (water_before + water_after));
-            friction.add_reaction(node, soil_wall);
           }
         if (soil_mass <= 0.)
           soil_after = soil_before = water_after;
@@ -265,11 +266,17 @@ namespace scree
             balance.wall_impulse += soil_wall + water_wall;
             // Before the correction the nodes were at rest there, so that only the start's velocity counts.
             balance.wall_dissipation -= 0.5 * (soil_wall * soil_before + water_wall * water_before);
-            friction.add_reaction(node, soil_wall);
             Tensor<1, dim> soil_after = soil_change;
             for (unsigned int c = 0; c < dim; ++c)
               soil_after[c] += of_soil[NodalField<dim>::velocity + c];
-            soil_change += friction.slow_down(node, pair.soil_mass, soil_before, soil_after, balance);
+            const Tensor<1, dim> more = friction.adjust(node, soil_wall, pair.soil_mass, soil_after);
+            Tensor<1, dim> soil_more, water_more;
+            free_of_drag.solve(more, Tensor<1, dim>(), soil_more, water_more);
+            soil_change += soil_more;
+            water_change += water_more;
+            balance.wall_impulse += more;
+            balance.wall_dissipation -=
+                0.5 * (friction.resistance(node) + more) * (soil_before + soil_after + soil_more);
           }
         if (pair.soil_mass <= 0.)
           soil_change = water_change;

@@ -337,6 +337,31 @@ def saturated_column(scree):
     check_water("saturated column", table)
 
 
+def wet_friction(scree):
+    """A saturated elastic layer, 4 m x 0.3 m, slides on a wall of friction 20 degrees, through which nothing drains (k = 1e-6 m/s).
+
+    Its buoyant weight presses on the wall: deceleration force tan(20) W' until waves from its ends have run in. The bounds of
+    pressure and energy are ours: friction that acts after the pressure is solved, on the soil alone, gives 4 times the hydrostatic
+    pressure, and over 100 times the wall's work goes to drag.
+    """
+    table = run(scree, "column_saturated", "wet_friction",
+                {"End time": "0.1", "Mesh/Upper corner": "6, 0.5", "Boundaries/Bottom": "friction 20",
+                 "Soil/Region": "x > 1 && x < 5 && y < 0.3", "Soil/Material": "linear elastic", "Soil/Points per cell": "2",
+                 "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.3",
+                 "Soil/Initial velocity": "1; 0", "Water/Initial velocity": "1; 0", "Water/Points per cell": "2",
+                 "Water/Hydraulic conductivity": "1e-6", "Output/Statistics interval": "0.01"})
+    force = (table["Momentum x (N s)"][0] - table["Momentum x (N s)"][1]) / table["Time (s)"][1]
+    buoyant_weight = 4 * 0.3 * 0.6 * (2650 - 1000) * closed_forms.GRAVITY
+    check("wet friction: force over coefficient times buoyant weight", force / (math.tan(math.radians(20)) * buoyant_weight), 0.98, 1.02)
+    check("wet friction: largest p over hydrostatic (ours)", max(table["Largest p (Pa)"]) / (0.3 * WATER), 0, 3)
+    wall = table["Wall dissipation (J)"][-1]
+    check("wet friction: work of drag over that of the wall (ours)", table["Drag dissipation (J)"][-1] / wall, 0, 0.01)
+    check("wet friction: energy in no other account over work of the wall (ours)", table["Numerical dissipation (J)"][-1] / wall, -0.02, 0.02)
+    weight = (table["Mass (kg)"][0] + table["Water mass (kg)"][0]) * closed_forms.GRAVITY
+    check("wet friction: momentum residual over weight times time", max(table["Momentum residual (N s)"]) / (weight * table["Time (s)"][-1]), 0, 1e-11)
+    check_water("wet friction", table)
+
+
 def submerged(scree):
     """A column collapses under water: later and shorter than in air (2.20 m at 1 s, h = 0.1 m: doc/verification.md).
 

@@ -38,8 +38,8 @@ namespace scree
              const dealii::Mapping<dim> &mapping,
              const unsigned int n_properties);
 
-    /// Hands every point to the cell and rank it lies in now. Collective.
-    /// Points outside the mesh leave the set and are appended to lost().
+    /// Hands every point to the cell and rank it lies in now; cheap while no point of any rank has left its cell.
+    /// Collective. Points outside the mesh leave the set and are appended to lost().
     void sort();
 
     /// Refreshes cells(): after points were inserted or unpacked.
@@ -73,6 +73,7 @@ namespace scree
     }
 
   private:
+    const MPI_Comm communicator;
     const unsigned int n_properties;
     dealii::Particles::ParticleHandler<dim> particle_handler;
     std::vector<CellPoints<dim>> cell_list;

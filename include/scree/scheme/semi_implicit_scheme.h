@@ -7,6 +7,7 @@
 #include <scree/scheme/forcing.h>
 #include <scree/scheme/mixture_divergence.h>
 #include <scree/scheme/pressure_solver.h>
+#include <scree/scheme/step_balance.h>
 #include <scree/scheme/wall_friction.h>
 
 #include <deal.II/base/timer.h>

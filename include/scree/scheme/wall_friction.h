@@ -3,14 +3,16 @@
 #define scree_scheme_wall_friction_h
 
 #include <scree/grid/boundary_conditions.h>
-#include <scree/scheme/step_balance.h>
+#include <scree/scheme/drag_pair.h>
 
 #include <vector>
 
 namespace scree
 {
   /// Walls with friction in a step of soil and water: the predictor finds out where the soil moves into a wall, which
-  /// stops it there until the step's end; then Coulomb's law bounds the tangential impulse by the normal one.
+  /// stops it there until the step's end. Coulomb's law then bounds the tangential impulse by the normal one: soil that
+  /// this can hold sticks. Friction acts before the pressure is solved, so that the pressure sees the motion that it
+  /// leaves, and follows the change of the normal impulse that the new pressure brings.
   template <int dim>
   class WallFriction
   {
@@ -32,22 +34,32 @@ namespace scree
     /// Sets them from the velocity that the soil would have without them; returns whether there are any.
     bool find_contact(const unsigned int node, const dealii::Tensor<1, dim> &velocity);
 
-    /// Takes note of the impulse, N s, that stopping the soil took.
-    void add_reaction(const unsigned int node, const dealii::Tensor<1, dim> &impulse);
+    /// The impulse, N s, of friction on the soil of a node in contact, from the impulses of soil and water without it.
+    /// Soil that sticks gets none: all its components are stopped from here on.
+    dealii::Tensor<1, dim> resist(const unsigned int node,
+                                  const DragPair<dim> &pair,
+                                  const dealii::Tensor<1, dim> &soil_impulse,
+                                  const dealii::Tensor<1, dim> &water_impulse);
 
-    /// Change of velocity, m/s, by which friction slows the soil at a node that moves at `velocity` and was at `before`
-    /// at the start of the step.
-    dealii::Tensor<1, dim> slow_down(const unsigned int node,
-                                     const double mass,
-                                     const dealii::Tensor<1, dim> &before,
-                                     const dealii::Tensor<1, dim> &velocity,
-                                     StepBalance<dim> &balance) const;
+    /// What that impulse changes by, N s, when the wall's reaction does, for soil of a mass, kg, and a velocity.
+    dealii::Tensor<1, dim> adjust(const unsigned int node,
+                                  const dealii::Tensor<1, dim> &reaction_change,
+                                  const double mass,
+                                  const dealii::Tensor<1, dim> &velocity) const;
+
+    /// The impulse of resist(), 0 where nothing slides.
+    dealii::Tensor<1, dim> resistance(const unsigned int node) const
+    {
+      return contacts.empty() ? dealii::Tensor<1, dim>() : resistances[node];
+    }
 
   private:
+    double bound(const unsigned int node, const dealii::Tensor<1, dim> &reaction) const;
+
     const BackgroundGrid<dim> &grid;
     const BoundaryConditions<dim> &walls;
-    std::vector<std::uint8_t> contacts;            // by owned node; empty without friction walls
-    std::vector<dealii::Tensor<1, dim>> reactions; // N s
+    std::vector<std::uint8_t> contacts;                         // by owned node; empty without friction walls
+    std::vector<dealii::Tensor<1, dim>> reactions, resistances; // N s, where there is contact
   };
 } // namespace scree
 

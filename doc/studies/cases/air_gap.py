@@ -1,0 +1,76 @@
+"""Closure of an air gap: a body 0.4 m high falls on another one, 0.4 m high, between smooth walls, so that the exact end is known: all is at rest, the gap
+is gone. Water on water, saturated soil on water, water on saturated soil, and soil on soil; the gap (in cells of 0.05 m) and the speed at the start
+vary. Air has no pressure here. The second row of panels drops the pressure of the previous step.
+State: `measures.classify`, with the energy that the fall releases; oscillating if p at the end is rough (`measures.roughness`) by more than a tenth of
+rho_w g 0.8 m. The number is the air that stays in the closed gap, as a height in cells."""
+import numpy as np
+
+from charts import StabilityMap
+from measures import classify, energy_gain, roughness
+from study import Claim, Study, axis, product
+
+CELL, HEIGHT = 0.05, 0.4  # m
+PAIRS = ["water on water", "soil on water", "water on soil", "soil on soil"]
+
+
+def with_case(variants):
+    """Each variant with the entries of its pair of bodies, gap and speed; water alone has a case without soil for its base."""
+    result = []
+    for labels, entries, _ in variants:
+        upper, _, lower = labels["pair"].split()
+        gap = labels["gap"] * CELL
+        above, below = f"(y > {HEIGHT + gap:g} && y < {2 * HEIGHT + gap:g})", f"y < {HEIGHT:g}"
+        soil = [region for region, what in ((above, upper), (below, lower)) if what == "soil"]
+        velocity = f"0; if(y > {HEIGHT + gap / 2:g}, {-labels['v']:g}, 0)"
+        entries = {**entries, "Water/Region": f"{below} || {above}", "Water/Initial velocity": velocity}
+        if soil:
+            entries.update({"Soil/Initial state/Type": "none", "Soil/Points per cell": 3, "Soil/Region": " || ".join(soil),
+                            "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": 1e-3})
+        else:
+            entries.update({"Water/Volume correction": 0, "Time step/Maximum time step": 1e-3})
+        result.append(variants[0]._replace(labels=labels, entries=entries, base=None if soil else "prm/dam_break.prm"))
+    return result
+
+
+def measure(run):
+    water = run.points(None, "water")
+    rough = roughness(water, CELL, "pressure") / (1000 * 9.81 * 2 * HEIGHT)
+    # The body's top from its centre of volume: two full layers without a gap have theirs at their height.
+    volumes = water.arrays["volume"]
+    upper = np.argsort(water.positions[:, 1])[len(volumes) // 2:]
+    left = (np.average(water.positions[upper, 1], weights=volumes[upper]) - 1.5 * HEIGHT) / CELL
+    return {"state": classify(run, scatter=rough), "air left, cells": left, "gain, %": 100 * energy_gain(run), "roughness of p": rough,
+            "peak p, kPa": 1e-3 * max(run.statistics(r"(?-i:^Largest p )")), "lowest p, kPa": 1e-3 * min(run.statistics("^smallest p")),
+            "volume error": max(run.statistics("^volume error"))}
+
+
+def verdict(rows):
+    def of(pair, pressure):
+        return [row for row in rows if row["pair"] == pair and row["old p"] == pressure]
+
+    def gain(chosen):
+        return max(row["gain, %"] for row in chosen)
+    ended = [row for row in rows if row["ended"]]
+    water, wet = of("water on water", "default"), of("water on soil", "default")
+    dropped = [row for row in rows if row["old p"] == "dropped"]
+    return [
+        Claim(f"{len(ended)} of {len(rows)} closures run to their end.", len(ended) == len(rows)),
+        Claim(f"Water on water gains no energy (at most {gain(water):.2g} %) and keeps {min(row['air left, cells'] for row in water):.2g} to "
+              f"{max(row['air left, cells'] for row in water):.2g} of a cell of air: bodies feel each other before they touch, and nothing "
+              "closes what is left.", gain(water) < 0.5 and max(row["air left, cells"] for row in water) < 0.5),
+        Claim(f"Water that falls on soil bounces and gains up to {gain(wet):.2g} % of the energy released. In a cell that holds the soil's surface and a "
+              "gap, p builds up over several steps, as in a spring, and is carried from step to step, so that it gives back what the impact had "
+              f"taken. Without the pressure of the previous step (Previous pressure = dropped) the gain is at most {gain(dropped):.2g} %, for all pairs.",
+              gain(wet) > 1 and gain(dropped) < 0.5),
+    ]
+
+
+STUDY = Study(title="Closure of an air gap", base="prm/column_saturated.prm", needs_end=False,
+              entries={"Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": CELL, "Water/Initial pressure": "none", "Water/Points per cell": 3,
+                       "End time": 0.5, "Output/Interval": 0.25, "Output/Statistics interval": 0.005},
+              variants=with_case(product(axis("old p", lambda p: {} if p == "default" else {"Water/Pressure/Previous pressure": p}, ["default", "dropped"]),
+                                         axis("pair", lambda _: {}, PAIRS), axis("gap", lambda _: {}, [0.5, 1., 2., 4.]),
+                                         axis("v", lambda _: {}, [0., 1., 5.]))),
+              quick=lambda labels: labels["pair"] in PAIRS[0:3:2] and labels["gap"] in (1., 4.) and labels["v"] in (0., 5.),
+              measure=measure, verdict=verdict,
+              chart=StabilityMap("v", "gap", panels=["old p", "pair"], number="air left, cells", xlabel="speed, m/s", ylabel="gap, cells"))

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_advice_regime_h
+#define scree_advice_regime_h
+
+#include <scree/advice/groups.h>
+#include <scree/points/water_parameters.h>
+
+#include <string>
+
+namespace scree
+{
+  /// Which model a scene needs.
+  enum class Regime
+  {
+    dry,        ///< there is no water
+    free_water, ///< there is no soil
+    drained, ///< excess pressure leaves as fast as it comes: soil on its own, with the hydrostatic pressure's buoyancy
+    undrained, ///< water stays where it is in the soil: soil and water move as one
+    coupled    ///< neither
+  };
+
+  /// Where the simpler models are within 5 % of soil and water, measured: doc/studies/pages/regimes.md (columns that
+  /// collapse in air and under water and that are loaded, until 4 sqrt(H/g)).
+  namespace thresholds
+  {
+    /// Drainage time over motion time, of loads: of a collapse the drained models were off by 6 to 33 % whatever the
+    /// conductivity, as the water must move, too.
+    constexpr double drained_below = 0.5;
+
+    /// Drainage time over motion time, in all scenes (a collapse in air: 3.5 to 40, under water: 155, loads: 255 to
+    /// 295).
+    constexpr double undrained_above = 300.;
+
+    /// T_v at the end, beyond which pressure leaves: that of the loads' limit, 4 over 300.
+    constexpr double consolidates_above = 4. / undrained_above;
+  } // namespace thresholds
+
+  Regime regime_of(const Scene &scene);
+
+  std::string name_of(const Regime regime);
+
+  /// The numbers behind regime_of(), as a sentence.
+  std::string reason_for(const Regime regime, const Scene &scene);
+
+  /// Whose points should carry the water, and why.
+  struct PointSetChoice
+  {
+    PointSets sets;
+    std::string reason;
+  };
+  PointSetChoice point_sets_for(const Regime regime, const Scene &scene);
+} // namespace scree
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_advice_resolution_h
+#define scree_advice_resolution_h
+
+#include <scree/advice/scene.h>
+#include <scree/grid/background_grid.h>
+#include <scree/scheme/time_step.h>
+
+#include <string>
+
+namespace scree
+{
+  /// A measured law of convergence: relative error = factor (h/H)^order, down to the resolution that carries motion.
+  struct ErrorLaw
+  {
+    std::string measure; ///< what the error is of
+    double factor;
+    double order;
+
+    double error(const double cells_over_height) const
+    {
+      return factor * std::pow(cells_over_height, -order);
+    }
+    double cells_over_height(const double error) const
+    {
+      return std::pow(factor / error, 1. / order);
+    }
+  };
+
+  /// The law of a scene's kind: run-out of plastic soil, small motion of elastic soil, free water.
+  ErrorLaw error_law_of(const Scene &scene);
+
+  /// Largest cell size, m, that divides the box and gives at least `cells` (and ten, which the motion needs) over
+  /// `height`, m.
+  double cell_size_for(const GridParameters &grid, const double height, const double cells);
+
+  /// The entries of subsection Time step that serve a scene, by measurement: the rest stays as it is.
+  TimeStepParameters time_step_for(const Scene &scene, TimeStepParameters present);
+} // namespace scree
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_advice_scene_h
+#define scree_advice_scene_h
+
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  /// What a pressure wave in dry soil runs through.
+  struct WaveMedium
+  {
+    double bulk_modulus = 0, shear_modulus = 0; ///< Pa
+    double density  = 0;                        ///< dry, kg/m^3
+    double pressure = 0;                        ///< mean effective stress, Pa
+
+    /// m/s, if the bulk modulus were `factor` times as large; 0 without soil.
+    double speed(const double factor = 1.) const
+    {
+      return density > 0 ? std::sqrt((factor * bulk_modulus + 4. / 3. * shear_modulus) / density) : 0.;
+    }
+  };
+
+  /// What a case starts from, in numbers of all ranks: sizes, stiffness, counts. SI units; in 2D per metre of
+  /// thickness.
+  struct Scene
+  {
+    unsigned int dim = 2;
+    double gravity   = 9.81; ///< m/s^2
+    double end_time  = 1;    ///< s
+
+    double height = 0; ///< of the soil (without soil: of the water) along gravity; without gravity its longest side, m
+    double fall   = 0; ///< what the centre of mass sinks until all lies level in the box, m
+
+    double initial_speed = 0; ///< largest of a point, m/s
+
+    bool has_soil         = false;
+    bool is_elastic       = false;                                   ///< all bodies are linear elastic
+    bool stiffens         = false;                                   ///< a body's bulk modulus grows with its pressure
+    double substep_strain = std::numeric_limits<double>::infinity(); ///< at which a law divides a step, the smallest
+    WaveMedium mean;                                                 ///< means over the volume of the soil
+    WaveMedium fastest;                                              ///< the point with the fastest pressure wave
+    double grain_density = 0;                                        ///< kg/m^3, mean
+    double porosity      = 0;                                        ///< mean
+
+    bool has_water        = false;
+    bool is_single_point  = false;
+    bool water_fills_soil = false; ///< in all the soil's pores and nowhere else
+    double water_density  = 1000;  ///< kg/m^3
+    double conductivity   = 0;     ///< m/s, at Earth's gravity
+
+    double cell_size      = 0; ///< m
+    double n_cells        = 0; ///< of the box
+    double n_occupied     = 0; ///< cells with points
+    double n_soil_points  = 0;
+    double n_water_points = 0;
+
+    /// M = K + 4/3 G of the soil, Pa, mean: the modulus of compression without lateral strain.
+    double constrained_modulus() const
+    {
+      return mean.bulk_modulus + 4. / 3. * mean.shear_modulus;
+    }
+
+    /// Of soil with the water in its pores, or of water alone, kg/m^3.
+    double density() const
+    {
+      return has_soil ? mean.density + (has_water ? porosity * water_density : 0.) : water_density;
+    }
+
+    double n_points() const
+    {
+      return n_soil_points + n_water_points;
+    }
+  };
+} // namespace scree
+
+#endif

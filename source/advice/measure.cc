@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/advice/measure.h>
+
+#include <deal.II/base/mpi.h>
+#include <ctime>
+
+#include <sys/resource.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of this process so far, s.
+    double processor_time()
+    {
+      return double(std::clock()) / CLOCKS_PER_SEC;
+    }
+
+    /// Largest memory of this process so far, bytes.
+    double peak_memory()
+    {
+      rusage usage;
+      getrusage(RUSAGE_SELF, &usage);
+      return 1024. * usage.ru_maxrss;
+    }
+  } // namespace
+
+
+  template <int dim>
+  StepCost measure_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator)
+  {
+    simulation.advance(simulation.stable_step()); // makes room
+    const auto parts_of = [&] { return simulation.times_of_parts().get_summary_data(TimerOutput::total_wall_time); };
+    const auto before   = parts_of();
+
+    constexpr unsigned int most_steps = 2000;
+    StepCost cost;
+    const double wall_start = MPI_Wtime(), processor_start = processor_time();
+    double rank_0 = 0; // core-seconds of rank 0, which decides for all
+    while (rank_0 < seconds && cost.n_steps < most_steps)
+      {
+        simulation.advance(simulation.stable_step());
+        ++cost.n_steps;
+        rank_0 = Utilities::MPI::broadcast(communicator, processor_time() - processor_start, 0);
+      }
+    const double wall = MPI_Wtime() - wall_start;
+
+    cost.seconds = Utilities::MPI::sum(processor_time() - processor_start, communicator) / cost.n_steps;
+    for (const auto &[part, of_part] : parts_of())
+      {
+        const auto earlier = before.find(part);
+        cost.parts[part]   = cost.seconds * (of_part - (earlier == before.end() ? 0. : earlier->second)) / wall;
+      }
+    cost.memory = Utilities::MPI::sum(peak_memory(), communicator);
+    cost.program_memory *= Utilities::MPI::n_mpi_processes(communicator);
+    return cost;
+  }
+
+  template StepCost measure_steps(Simulation<2> &, const double, const MPI_Comm);
+  template StepCost measure_steps(Simulation<3> &, const double, const MPI_Comm);
+} // namespace scree

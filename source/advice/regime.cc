@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/advice/regime.h>
+#include <scree/input/input_error.h>
+
+#include <map>
+
+namespace scree
+{
+  namespace
+  {
+    std::string rounded(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.2g", value);
+      return text;
+    }
+  } // namespace
+
+
+  Regime regime_of(const Scene &scene)
+  {
+    if (!scene.has_water)
+      return Regime::dry;
+    if (!scene.has_soil)
+      return Regime::free_water;
+    const Groups groups = groups_of(scene);
+    // Water outside, and that of soil that flows, moves on its own.
+    if (groups.drainage < thresholds::drained_below && scene.is_elastic && scene.water_fills_soil)
+      return Regime::drained;
+    if (groups.drainage > thresholds::undrained_above && groups.time_factor < thresholds::consolidates_above)
+      return Regime::undrained;
+    return Regime::coupled;
+  }
+
+
+  std::string name_of(const Regime regime)
+  {
+    static const std::map<Regime, std::string> names{ { Regime::dry, "dry" },
+                                                      { Regime::free_water, "water alone" },
+                                                      { Regime::drained, "drained" },
+                                                      { Regime::undrained, "undrained" },
+                                                      { Regime::coupled, "coupled" } };
+    return names.at(regime);
+  }
+
+
+  std::string reason_for(const Regime regime, const Scene &scene)
+  {
+    const Groups groups     = groups_of(scene);
+    const std::string ratio = "drainage time over motion time is " + rounded(groups.drainage);
+    switch (regime)
+      {
+      case Regime::dry:
+        return "the case has no water";
+      case Regime::free_water:
+        return "the case has no soil";
+      case Regime::drained:
+        return ratio + ", below " + rounded(thresholds::drained_below) +
+               ": soil alone serves, of the saturated density and under water with its buoyant weight";
+      case Regime::undrained:
+        return ratio + ", above " + rounded(thresholds::undrained_above) + ", and T_v at the end " +
+               rounded(groups.time_factor) + ", below " + rounded(thresholds::consolidates_above) +
+               ": water hardly moves through the soil";
+      default:
+        if (groups.drainage > thresholds::undrained_above)
+          return ratio + ", above " + rounded(thresholds::undrained_above) + ", but T_v at the end is " +
+                 rounded(groups.time_factor) + ": pressure leaves during the run";
+        if (groups.drainage < thresholds::drained_below)
+          return ratio + ", below " + rounded(thresholds::drained_below) + ", but its water must move, too";
+        return ratio + ", between " + rounded(thresholds::drained_below) + " and " +
+               rounded(thresholds::undrained_above);
+      }
+  }
+
+
+  PointSetChoice point_sets_for(const Regime regime, const Scene &scene)
+  {
+    constexpr double small_strain = 0.01;
+    if (!scene.has_soil || !scene.water_fills_soil)
+      return { PointSets::double_point, "there is water that is not in the soil's pores, or soil without" };
+    if (scene.is_elastic && groups_of(scene).own_strain < small_strain)
+      return { PointSets::single_point, "small motion: both agree, and single has half the points" };
+    if (regime == Regime::undrained)
+      return { PointSets::single_point, "water stays with its soil, whose points can carry it" };
+    return { PointSets::double_point, "water leaves its soil; single-point water would not be conserved" };
+  }
+} // namespace scree

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/advice/regime.h>
+#include <scree/advice/report.h>
+
+#include <cmath>
+
+namespace scree
+{
+  namespace
+  {
+    std::string rounded(const double value)
+    {
+      char text[32];
+      // Counts and seconds of some size in full, else three digits.
+      std::snprintf(text, sizeof text, std::abs(value) >= 1e3 && std::abs(value) < 1e6 ? "%.0f" : "%.3g", value);
+      return text;
+    }
+
+    /// 5400 -> "1.5 core-hours"
+    std::string core_time(const double seconds)
+    {
+      return rounded(seconds) + " core-seconds = " + rounded(seconds / 3600.) + " core-hours";
+    }
+
+    std::string megabytes(const double bytes)
+    {
+      return rounded(std::round(1e-6 * bytes)) + " MB";
+    }
+
+    class Writer
+    {
+    public:
+      explicit Writer(std::ostream &out)
+          : out(out)
+      {
+      }
+      void title(const std::string &text)
+      {
+        out << '\n' << text << '\n';
+      }
+      void line(const std::string &name, const std::string &value)
+      {
+        constexpr std::size_t width = 48;
+        out << "  " << name << std::string(name.size() < width ? width - name.size() : 1, ' ') << value << '\n';
+      }
+      void line(const std::string &name, const double value, const std::string &unit)
+      {
+        line(name, rounded(value) + (unit.empty() ? "" : ' ' + unit));
+      }
+
+    private:
+      std::ostream &out;
+    };
+
+
+    void write_groups(const Scene &scene, Writer &writer)
+    {
+      const Groups groups = groups_of(scene);
+      writer.title("Scales");
+      writer.line("height H", scene.height, "m");
+      if (groups.motion_time > 0)
+        writer.line(scene.gravity > 0 ? "time of motion sqrt(H/g)" : "time of a wave H/c", groups.motion_time, "s");
+      writer.line("density rho", scene.density(), "kg/m^3");
+      if (scene.has_soil)
+        {
+          writer.line("modulus M = K + 4/3 G at the start, mean", scene.constrained_modulus(), "Pa");
+          writer.line("wave speed, mean and largest",
+                      rounded(groups.wave_speed) + " and " + rounded(scene.fastest.speed()) + " m/s");
+        }
+      if (scene.has_soil && scene.gravity > 0)
+        {
+          writer.line("strain by own weight rho g H/M", groups.own_strain, "");
+          if (groups.shear_stress_ratio > 0)
+            writer.line("weight over shear modulus rho g H/G", groups.shear_stress_ratio, "");
+          writer.line("Mach number of the motion sqrt(g H)/c", groups.mach_number, "");
+        }
+    }
+
+
+    void write_water(const Scene &scene, const double step, Writer &writer)
+    {
+      const Groups groups = groups_of(scene);
+      writer.title("Soil and water");
+      writer.line("consolidation coefficient c_v = k M/(rho_w g)", groups.consolidation_coefficient, "m^2/s");
+      writer.line("drainage time H^2/c_v", groups.drainage_time, "s");
+      writer.line("drainage time over time of motion", groups.drainage, "");
+      writer.line("end time over drainage time, T_v", groups.time_factor, "");
+      writer.line("drag takes the slip in", groups.drag_time, "s");
+      writer.line("drag time over step", groups.drag_time / step, "(any is stable: drag is implicit)");
+      writer.line("drained serves a load above k =", conductivity_for(scene, thresholds::drained_below), "m/s");
+      writer.line("undrained serves the motion below k =", conductivity_for(scene, thresholds::undrained_above), "m/s");
+    }
+
+
+    void write_size(const Advice &advice, const RunCost &cost, Writer &writer)
+    {
+      const Scene &scene = advice.scene;
+      writer.title("Size");
+      writer.line("cells of the box; with points", rounded(scene.n_cells) + "; " + rounded(scene.n_occupied));
+      writer.line("cells over the height H/h", groups_of(scene).cells_over_height, "");
+      if (scene.has_soil)
+        writer.line("soil points", scene.n_soil_points, scene.is_single_point ? "(they carry the water)" : "");
+      if (scene.n_water_points > 0)
+        writer.line("water points", scene.n_water_points, "");
+      writer.line("memory", megabytes(cost.memory));
+    }
+
+
+    void write_cost(const Advice &advice, const RunCost &cost, Writer &writer)
+    {
+      const Scene &scene = advice.scene;
+      writer.title("Cost of the case as it stands");
+      writer.line("step at the start; mean expected", rounded(cost.first_step) + "; " + rounded(cost.mean_step) + " s");
+      writer.line("steps to " + rounded(scene.end_time) + " s", cost.n_steps, "");
+      writer.line("a step here (" + rounded(advice.first_steps.n_steps) + " steps taken)",
+                  rounded(1e9 * advice.first_steps.seconds / scene.n_points()) + " ns a point" +
+                      (advice.coarser > 1 ? ", with cells " + std::to_string(advice.coarser) + " times as wide" : ""));
+      for (const auto &[part, seconds] : advice.first_steps.parts)
+        if (seconds >= 0.02 * advice.first_steps.seconds)
+          writer.line("  " + part, 1e9 * seconds / scene.n_points(), "ns a point");
+      writer.line("output", cost.output_seconds, "core-seconds");
+      writer.line("run", core_time(cost.seconds()));
+      if (advice.n_ranks > 1)
+        writer.line("on " + std::to_string(advice.n_ranks) + " ranks", cost.seconds() / advice.n_ranks, "s");
+      if (advice.settling_time > 0)
+        writer.line("settling, at most", core_time(cost.step_seconds / scene.end_time * advice.settling_time));
+    }
+
+
+    void write_recommendation(const Advice &advice, Writer &writer)
+    {
+      const Scene &scene  = advice.scene;
+      const Regime regime = regime_of(scene);
+      const ErrorLaw law  = error_law_of(scene);
+      writer.title("Recommendation for a relative error of " + rounded(advice.accuracy) + ' ' + law.measure);
+      writer.line("model", name_of(regime) + ": " + reason_for(regime, scene));
+      if (scene.has_water && scene.has_soil)
+        {
+          const PointSetChoice choice = point_sets_for(regime, scene);
+          writer.line("water points",
+                      (choice.sets == PointSets::double_point ? "double: " : "single: ") + choice.reason);
+        }
+      const double cells = law.cells_over_height(advice.accuracy);
+      const double size  = cell_size_for(advice.grid, scene.height, cells);
+      writer.line("cell size",
+                  rounded(size) + " m, H/h = " + rounded(scene.height / size) + " (now " + rounded(scene.cell_size) +
+                      " m: error about " + rounded(law.error(scene.height / scene.cell_size)) + ")");
+      const Scene wanted   = with_cell_size(scene, size);
+      const StepCost steps = with_cell_size(advice.first_steps, scene, size);
+      Schedule schedule    = advice.schedule;
+      schedule.time_step   = time_step_for(wanted, schedule.time_step);
+      schedule.longest_step *= size * size / (scene.cell_size * scene.cell_size);
+      const RunCost cost = cost_of_run(wanted, steps, schedule);
+      writer.line("step",
+                  "about " + rounded(cost.mean_step) +
+                      " s, with Courant number = " + rounded(schedule.time_step.courant_number) +
+                      ", Maximum time step = " + rounded(schedule.time_step.maximum_time_step));
+      writer.line("points", wanted.n_points(), "");
+      writer.line("memory", megabytes(cost.memory));
+      writer.line("run", core_time(cost.seconds()));
+      if (regime == Regime::drained || regime == Regime::undrained)
+        {
+          Scene soil          = wanted;
+          soil.n_water_points = 0;
+          writer.line("run of the soil alone",
+                      core_time(cost_of_run(soil, without_water(steps, wanted), schedule).seconds()));
+        }
+    }
+  } // namespace
+
+
+  void write_report(const Advice &advice, std::ostream &out)
+  {
+    Writer writer(out);
+    const Scene &scene = advice.scene;
+    const RunCost cost = cost_of_run(scene, advice.first_steps, advice.schedule);
+    out << scene.dim << "D, " << name_of(regime_of(scene)) << '\n';
+    write_groups(scene, writer);
+    if (scene.has_soil && scene.has_water)
+      write_water(scene, cost.mean_step, writer);
+    write_size(advice, cost, writer);
+    write_cost(advice, cost, writer);
+    write_recommendation(advice, writer);
+  }
+} // namespace scree

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/advice/survey.h>
+#include <scree/output/measures.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Calls `act(location, properties)` for the points of a set on this rank.
+    template <int dim, typename Function>
+    void for_points(const PointSet<dim> &points, const Function &act)
+    {
+      for (const auto &cell : points.cells())
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          act(cell.location[p], static_cast<const double *>(cell.properties) + p * points.stride());
+    }
+
+    /// The smallest box around points of all ranks.
+    template <int dim>
+    class Extent
+    {
+    public:
+      void add(const Point<dim> &x)
+      {
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            ends[2 * a]     = std::max(ends[2 * a], x[a]);
+            ends[2 * a + 1] = std::max(ends[2 * a + 1], -x[a]);
+          }
+      }
+      void unite_ranks(const MPI_Comm communicator)
+      {
+        Utilities::MPI::max(ends, communicator, ends);
+      }
+      /// 0 without points.
+      double length(const unsigned int axis) const
+      {
+        return std::max(0., ends[2 * axis] + ends[2 * axis + 1]);
+      }
+      double longest_side() const
+      {
+        double longest = 0;
+        for (unsigned int a = 0; a < dim; ++a)
+          longest = std::max(longest, length(a));
+        return longest;
+      }
+
+    private:
+      // largest coordinate and minus the smallest, for each axis
+      std::vector<double> ends = std::vector<double>(2 * dim, -std::numeric_limits<double>::infinity());
+    };
+
+
+    template <int dim>
+    class Surveyor
+    {
+    public:
+      Surveyor(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator)
+          : simulation(simulation)
+          , parameters(parameters)
+          , grid(simulation.background_grid())
+          , communicator(communicator)
+          , axis(dim - 1) // without gravity nothing depends on it
+          , occupied(grid.triangulation().n_active_cells(), 0)
+      {
+        for (unsigned int a = 0; a < dim; ++a)
+          if (std::abs(parameters.gravity[a]) > std::abs(parameters.gravity[axis]))
+            axis = a;
+      }
+
+      Scene look()
+      {
+        read_entries();
+        find_height();
+        for (const auto &phase : simulation.bodies())
+          look_at_soil(phase);
+        for (const auto &part : simulation.water_phases())
+          look_at_water(part);
+        finish();
+        return scene;
+      }
+
+    private:
+      void read_entries()
+      {
+        scene.dim      = dim;
+        scene.end_time = parameters.end_time;
+        scene.gravity =
+            Tensor<1, dim>(make_array_view(parameters.gravity.data(), parameters.gravity.data() + dim)).norm();
+        scene.cell_size  = grid.cell_size();
+        scene.n_cells    = grid.triangulation().n_global_active_cells();
+        scene.has_soil   = !parameters.bodies.empty();
+        scene.is_elastic = scene.has_soil;
+        for (const auto &body : parameters.bodies)
+          {
+            scene.is_elastic = scene.is_elastic && body.material.law == "linear elastic";
+            if (body.material.law == "Nor-Sand")
+              scene.substep_strain = std::min(scene.substep_strain, body.material.nor_sand.substep_strain);
+          }
+        scene.has_water = parameters.has_water;
+        if (!scene.has_water)
+          return;
+        scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;
+        scene.water_fills_soil = parameters.water.region == "same";
+        scene.water_density    = parameters.water.density;
+        scene.conductivity     = parameters.water.conductivity;
+      }
+
+      /// m, against gravity, above the lowest wall of the box.
+      double height_of(const Point<dim> &x) const
+      {
+        return parameters.gravity[axis] > 0 ? grid.upper_corner()[axis] - x[axis] : x[axis] - grid.lower_corner()[axis];
+      }
+
+      void find_height()
+      {
+        Extent<dim> extent;
+        const auto add = [&](const Point<dim> &x, const double *) { extent.add(x); };
+        for (const auto &phase : simulation.bodies())
+          for_points(phase.points, add);
+        if (!scene.has_soil)
+          for (const auto &part : simulation.water_phases())
+            for_points(part.points(), add);
+        extent.unite_ranks(communicator);
+        // Outer points stand half a spacing inside the surface.
+        const double spacing = scene.cell_size / (scene.has_soil ? parameters.bodies[0].seeding.points_per_cell
+                                                                 : parameters.water.points_per_cell);
+        scene.height         = (scene.gravity > 0 ? extent.length(axis) : extent.longest_side()) + spacing;
+      }
+
+      void look_at_soil(const Phase<dim> &phase)
+      {
+        const Material<dim> &law = *phase.material;
+        scene.stiffens           = scene.stiffens || law.initial_bulk_modulus(2e4) > law.initial_bulk_modulus(1e4);
+        // Soil without stress gets its first one from its weight.
+        const double first_pressure = 2. / 3. * phase.density * scene.gravity * scene.height;
+        for_points(phase.points, [&](const Point<dim> &x, const double *properties) {
+          const double mass = properties[phase.layout.mass], volume = properties[phase.layout.volume];
+          const double at_start = mean_effective_stress(properties + phase.layout.stress);
+          const double pressure = at_start > 0 ? at_start : first_pressure;
+          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus(), phase.density, pressure };
+          if (medium.speed() > scene.fastest.speed())
+            scene.fastest = medium;
+          keep_speed(properties + phase.layout.velocity);
+          ++soil_points;
+          soil_mass += mass;
+          soil_volume += volume;
+          grain_volume += mass / phase.grain_density;
+          pressure_sum += volume * pressure;
+          bulk_sum += volume * medium.bulk_modulus;
+          shear_sum += volume * medium.shear_modulus;
+          height_moment += mass * height_of(x);
+        });
+        occupy(phase.points);
+      }
+
+      void look_at_water(const WaterPhase<dim> &part)
+      {
+        for_points(part.points(), [&](const Point<dim> &x, const double *properties) {
+          keep_speed(properties + part.layout.velocity);
+          water_points += part.carrier() == nullptr;
+          water_mass += properties[part.layout.mass];
+          water_volume += properties[part.layout.volume];
+          height_moment += properties[part.layout.mass] * height_of(x);
+        });
+        occupy(part.points());
+      }
+
+      void keep_speed(const double *velocity)
+      {
+        scene.initial_speed =
+            std::max(scene.initial_speed, Tensor<1, dim>(make_array_view(velocity, velocity + dim)).norm());
+      }
+
+      void occupy(const PointSet<dim> &points)
+      {
+        for (const auto &cell : points.cells())
+          occupied[cell.cell] = 1;
+      }
+
+      void finish()
+      {
+        double n_occupied = std::count(occupied.begin(), occupied.end(), 1);
+        for (double *sum : { &soil_points,
+                             &soil_mass,
+                             &soil_volume,
+                             &grain_volume,
+                             &pressure_sum,
+                             &bulk_sum,
+                             &shear_sum,
+                             &water_points,
+                             &water_mass,
+                             &water_volume,
+                             &height_moment,
+                             &n_occupied })
+          *sum = Utilities::MPI::sum(*sum, communicator);
+        scene.initial_speed  = Utilities::MPI::max(scene.initial_speed, communicator);
+        scene.n_soil_points  = soil_points;
+        scene.n_water_points = water_points;
+        scene.n_occupied     = n_occupied;
+        if (scene.has_soil)
+          {
+            scene.mean = {
+              bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume, pressure_sum / soil_volume
+            };
+            scene.grain_density = soil_mass / grain_volume;
+            scene.porosity      = 1. - grain_volume / soil_volume;
+          }
+        // The rank with the fastest wave tells its soil.
+        const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);
+        std::vector<double> fastest{
+          scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density, scene.fastest.pressure
+        };
+        fastest       = Utilities::MPI::broadcast(communicator, fastest, speeds.max_index);
+        scene.fastest = { fastest[0], fastest[1], fastest[2], fastest[3] };
+
+        // Level in the box, soil and the water that finds no room in its pores have their centre at half their height.
+        const double box_height = grid.upper_corner()[axis] - grid.lower_corner()[axis];
+        const double floor      = scene.n_cells * Utilities::fixed_power<dim>(scene.cell_size) / box_height;
+        const double free_water = std::max(0., water_volume - (soil_volume - grain_volume));
+        const double level      = (soil_volume + free_water) / floor;
+        scene.fall              = std::max(0., height_moment / (soil_mass + water_mass) - 0.5 * level);
+      }
+
+      const Simulation<dim> &simulation;
+      const Parameters &parameters;
+      const BackgroundGrid<dim> &grid;
+      const MPI_Comm communicator;
+      unsigned int axis; // of gravity
+      Scene scene;
+
+      std::vector<char> occupied; // cells, on this rank
+      // Sums over the points, SI units; pressure and moduli times volume.
+      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, pressure_sum = 0, bulk_sum = 0,
+             shear_sum    = 0;
+      double water_points = 0, water_mass = 0, water_volume = 0;
+      double height_moment = 0; // kg m
+    };
+  } // namespace
+
+
+  template <int dim>
+  Scene survey(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator)
+  {
+    return Surveyor<dim>(simulation, parameters, communicator).look();
+  }
+
+  template Scene survey(const Simulation<2> &, const Parameters &, const MPI_Comm);
+  template Scene survey(const Simulation<3> &, const Parameters &, const MPI_Comm);
+} // namespace scree

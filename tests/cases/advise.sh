@@ -1,0 +1,37 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# advise.sh SCREE LAUNCHER: every case of prm/ gets an advice with all its parts, and nothing is left behind; two ranks count the same points.
+set -e
+prm=$(cd -- "$(dirname -- "$0")/../../prm" && pwd)
+scree=$1
+launcher=$2 # several words
+rm -rf prm results advice
+mkdir advice
+cp -r "$prm" . # cases include each other from where scree is started
+export TMPDIR="$PWD/advice"
+
+for case in prm/*.prm prm/benchmarks/*.prm; do
+  "$scree" --advise "$case" >text
+  for part in Scales Size "Cost of the case as it stands" "Recommendation for a relative error of 0.05"; do
+    grep -q "^$part" text || { echo "$case: no part \"$part\""; exit 1; }
+  done
+  # Numbers of steps, seconds and memory, and the recommended cell, are there and above 0.
+  for line in "steps to" "run  " "memory" "cell size"; do
+    awk -v line="  $line" 'index($0, line) == 1 { found = 1; match($0, / [0-9.e+-]+( |$)/) || bad = 1
+      value = line ~ /steps to/ ? $NF : $(line ~ /cell size/ ? 3 : 2); if (!(value > 0)) bad = 1 } END { exit bad || !found }' text ||
+      { echo "$case: line \"$line\" has no number"; cat text; exit 1; }
+  done
+  wet=0
+  grep -q "^Soil and water" text && wet=1
+  awk '/^subsection Water/ { water = 1 } /^set Bodies *= none/ { none = 1 } /^include/ { water = 1 } END { exit !(water && !none) }' "$case" && wanted=1 || wanted=0
+  [ $wet -eq $wanted ] || { echo "$case: a part of soil and water: $wet, wanted $wanted"; exit 1; }
+done
+
+count="^  (soil points|water points|cells of|steps to|cell size)"
+"$scree" --advise prm/column_saturated.prm --accuracy 0.1 | grep -E "$count" >one_rank
+$launcher 2 "$scree" --advise prm/column_saturated.prm --accuracy 0.1 | grep -E "$count" >two_ranks
+diff one_rank two_ranks
+grep -q "H/h = 2[0-9]" one_rank # ten per cent of the run-out: 2.3 (h/H) = 0.1
+
+[ ! -e results ] || { echo "a run folder was made"; exit 1; }
+[ -z "$(ls advice)" ] || { echo "left behind: $(ls advice)"; exit 1; }

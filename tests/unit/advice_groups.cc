@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The numbers of an advice that follow from those of a scene: groups against hand calculation, regimes over the
+// conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
+
+#include <scree/advice/cost.h>
+#include <scree/advice/regime.h>
+#include <scree/advice/resolution.h>
+
+#include <cmath>
+#include <iostream>
+
+using namespace scree;
+
+/// prm/terzaghi.prm: c_v = 0.11326 m^2/s, drainage time 8.829 s, T_v = 1 at the end.
+Scene terzaghi()
+{
+  Scene scene;
+  scene.gravity          = 0;
+  scene.end_time         = 8.829;
+  scene.height           = 1;
+  scene.has_soil         = true;
+  scene.is_elastic       = true;
+  scene.mean             = { 1e6 / (3 * (1 - 2 * 0.2)), 1e6 / (2 * 1.2), 1590 };
+  scene.fastest          = scene.mean;
+  scene.grain_density    = 2650;
+  scene.porosity         = 0.4;
+  scene.has_water        = true;
+  scene.water_fills_soil = true;
+  scene.conductivity     = 1e-3;
+  scene.cell_size        = 0.05;
+  scene.n_cells          = 48;
+  scene.n_occupied       = 40;
+  scene.n_soil_points    = 640;
+  scene.n_water_points   = 640;
+  return scene;
+}
+
+/// A saturated slope, 2 m high, of soil that flows and stiffens with its pressure.
+Scene slope()
+{
+  Scene scene          = terzaghi();
+  scene.gravity        = 9.81;
+  scene.end_time       = 12;
+  scene.height         = 2;
+  scene.fall           = 0.3;
+  scene.is_elastic     = false;
+  scene.stiffens       = true;
+  scene.substep_strain = 1e-3;
+  scene.mean           = { 4e6, 4e6, 1500 };
+  scene.fastest        = { 7e6, 4e6, 1500, 14e3 };
+  scene.conductivity   = 5e-3;
+  return scene;
+}
+
+void test_groups()
+{
+  const Groups column = groups_of(terzaghi());
+  std::cout << "Terzaghi: c_v " << column.consolidation_coefficient << " m^2/s, drainage time " << column.drainage_time
+            << " s, T_v " << column.time_factor << ", cells " << column.cells_over_height << '\n';
+  // Q = n^2 rho_w g/k = 1.5696e6 N s/m^4; soil 1590, water 400 kg/m^3
+  std::cout << "  drag time over (1590 400/1990)/1.5696e6 s: " << column.drag_time / (1590. * 400. / 1990. / 1.5696e6)
+            << "; wave H/c over 1/sqrt(1.1111e6/1590): " << column.motion_time * std::sqrt(1e6 / 0.9 / 1590) << '\n';
+
+  const Scene scene   = slope();
+  const Groups groups = groups_of(scene);
+  // M = 9.3333e6 Pa, rho = 1500 + 400 kg/m^3
+  std::cout << "Slope: sqrt(H/g) " << groups.motion_time << " s, rho g H/M in per mille " << 1e3 * groups.own_strain
+            << ", rho g H/G " << 1e3 * groups.shear_stress_ratio << ", Mach number in per cent "
+            << 100 * groups.mach_number << ", drainage over motion " << groups.drainage << '\n';
+
+  Scene dry     = scene;
+  dry.has_water = false;
+  std::cout << "Dry: density " << dry.density() << ", drainage " << groups_of(dry).drainage << '\n';
+}
+
+void test_regimes()
+{
+  std::cout << "Regimes of the slope over k:";
+  Scene scene = slope();
+  for (int exponent = 1; exponent >= -9; exponent -= 2)
+    {
+      scene.conductivity = std::pow(10., exponent);
+      std::cout << " 1e" << exponent << ' ' << name_of(regime_of(scene));
+    }
+  std::cout << '\n';
+
+  // At the thresholds' own conductivities the regime of elastic soil changes.
+  scene.end_time   = 0.01;
+  scene.is_elastic = true;
+  for (const double threshold : { thresholds::drained_below, thresholds::undrained_above })
+    {
+      scene.conductivity = conductivity_for(slope(), threshold);
+      std::cout << "At the threshold: drainage over threshold " << groups_of(scene).drainage / threshold << ',';
+      for (const double factor : { 1.01, 0.99 })
+        {
+          Scene beside        = scene;
+          beside.conductivity = factor * scene.conductivity;
+          std::cout << ' ' << name_of(regime_of(beside));
+        }
+      std::cout << '\n';
+    }
+  // Undrained in its motion, but the run lasts until the pressure leaves.
+  scene.conductivity /= 2;
+  scene.end_time = 100;
+  std::cout << "The same for 100 s: " << name_of(regime_of(scene)) << '\n';
+
+  Scene dry      = slope();
+  dry.has_water  = false;
+  Scene water    = slope();
+  water.has_soil = false;
+  std::cout << "Without water: " << name_of(regime_of(dry)) << "; without soil: " << name_of(regime_of(water)) << '\n';
+
+  const auto points = [](const Scene &scene) {
+    return point_sets_for(regime_of(scene), scene).sets == PointSets::double_point ? "double" : "single";
+  };
+  Scene reservoir            = terzaghi();
+  reservoir.water_fills_soil = false;
+  Scene tight                = slope();
+  tight.conductivity         = 1e-9;
+  std::cout << "Points of water: slope " << points(slope()) << ", tight slope " << points(tight) << ", Terzaghi "
+            << points(terzaghi()) << ", with a reservoir " << points(reservoir) << '\n';
+}
+
+void test_resolution()
+{
+  for (const Scene &scene : { slope(), terzaghi() })
+    {
+      const ErrorLaw law = error_law_of(scene);
+      std::cout << "Error " << law.measure << ": law and its inverse " << law.error(law.cells_over_height(0.02)) / 0.02
+                << ", halved cells " << law.error(20) / law.error(40) << '\n';
+    }
+  GridParameters grid;
+  grid.lower_corner = { 0, 0 };
+  grid.upper_corner = { 10, 2.5 };
+  grid.cell_size    = 0.05;
+  for (const double cells : { 1., 20., 46., 115. })
+    {
+      const double size = cell_size_for(grid, 2, cells);
+      std::cout << "At least " << cells << " cells over 2 m: " << 2 / size << "; over the box " << 10 / size << " x "
+                << 2.5 / size << '\n';
+    }
+  grid.upper_corner = { 0.7, 1.3 };
+  grid.cell_size    = 0.1;
+  std::cout << "A box of 7 x 13 cells, at least 25 over 1 m: " << 1 / cell_size_for(grid, 1, 25) << '\n';
+  TimeStepParameters step;
+  Scene water    = slope();
+  water.has_soil = false;
+  std::cout << "Courant number: slope " << time_step_for(slope(), step).courant_number << ", Terzaghi "
+            << time_step_for(terzaghi(), step).courant_number << "; step of free water over cell "
+            << time_step_for(water, step).maximum_time_step / water.cell_size << '\n';
+}
+
+/// Steps of a clock that always may take `step`.
+double clock_steps(const Schedule &schedule, const double end, const double step)
+{
+  Clock clock(schedule.time_step);
+  double next = schedule.output.interval;
+  while (clock.time() < end * (1 - 1e-12))
+    {
+      const double appointment = std::min(end, next);
+      clock.advance(clock.next_step(step, appointment), appointment);
+      if (clock.time() >= next * (1 - 1e-12))
+        next += schedule.output.interval;
+    }
+  return clock.step();
+}
+
+void test_cost()
+{
+  StepCost steps;
+  steps.seconds = 1e-3;
+  steps.memory  = 2e8;
+  steps.parts   = { { "grid to points, stress", 5e-4 },
+                    { "points to grid", 2e-4 },
+                    { "pressure: solve", 2e-4 },
+                    { "sort into cells and ranks", 1e-4 } };
+  Schedule schedule;
+  schedule.output.interval = 0.7;
+  const Scene column       = terzaghi();
+  const RunCost cost       = cost_of_run(column, steps, schedule);
+  std::cout << "Terzaghi: step over 0.6 h/c " << cost.first_step / (0.6 * 0.05 / column.fastest.speed())
+            << ", steps over the clock's " << cost.n_steps / clock_steps(schedule, column.end_time, cost.first_step)
+            << ", seconds of steps over steps times step " << cost.step_seconds / cost.n_steps / steps.seconds << '\n';
+
+  const RunCost of_slope = cost_of_run(slope(), steps, schedule);
+  std::cout << "Slope: later steps are shorter (" << (of_slope.mean_step < 0.99 * of_slope.first_step)
+            << ") and dearer (" << (of_slope.step_seconds > of_slope.n_steps * steps.seconds) << ")\n";
+
+  Scene long_dry     = slope();
+  long_dry.has_water = false;
+  long_dry.end_time  = 1000;
+  const RunCost rest = cost_of_run(long_dry, steps, schedule);
+  std::cout << "Dry slope, long after: cheaper steps (" << (rest.step_seconds < rest.n_steps * steps.seconds)
+            << "), as long as the first (" << (rest.mean_step > 0.99 * rest.first_step) << ")\n";
+
+  Scene block             = slope();
+  block.dim               = 3;
+  const Scene finer       = with_cell_size(block, 0.025);
+  const StepCost of_finer = with_cell_size(steps, block, 0.025);
+  std::cout << "Halved cells in 3D: points " << finer.n_points() / block.n_points() << ", time of a step "
+            << of_finer.seconds / steps.seconds << ", steps "
+            << std::round(cost_of_run(finer, of_finer, schedule).n_steps / cost_of_run(block, steps, schedule).n_steps)
+            << '\n';
+  // All of the law, half of the transfer and the sort, nothing of the pressure.
+  std::cout << "Soil without its water: " << without_water(steps, column).seconds / steps.seconds
+            << " of the cost of a step\n";
+}
+
+int main()
+{
+  test_groups();
+  test_regimes();
+  test_resolution();
+  test_cost();
+}
