@@ -1,6 +1,8 @@
-"""An elastic bar between two walls swings in its first mode at small strain: v = V sin(pi x) cos(pi c t). No point crosses a
-cell. Error: rms over velocity and stress of their relative L2 errors over the points at 2.125 periods, where both are far from 0; velocities are those of half a step before, as symplectic Euler
-has them. Runs whose error is above 1 have blown up and are not drawn. Methods differ from `prm/vibrating_bar.prm` (splines, FLIP without PIC rate, 4 x 4 points a cell, Courant number 0.6, no F-bar) in one thing."""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""An elastic bar between two walls swings in its first mode at small strain: v = V sin(pi x) cos(pi c t). No point crosses a cell. Error: rms over
+velocity and stress of their relative L2 errors over the points at 2.125 periods, where both are far from 0; velocities are those of half a step
+before, as symplectic Euler has them. Runs whose error is above 1 have blown up and are not drawn. Methods differ from `prm/vibrating_bar.prm`
+(splines, FLIP without PIC rate, 4 x 4 points a cell, Courant number 0.6, no F-bar) in one thing."""
 
 import math
 

@@ -1,7 +1,9 @@
-"""Dam break on a smooth floor (`prm/dam_break.prm`, to T = 3 of t sqrt(2 g/a)). The reference is the case's own method with h = 1/60 m. Error: rms over time (each 0.04 s from 0.2 s on) and over three lengths, the fronts that hold 90 and 99 % of the
-water and the height of its centre of mass, of their distance to the reference, over what each has moved in it by the end. Methods
-differ from the case (TPIC, splines, 4 x 4 points a cell, steps of at most 0.04 s/m times the cell size and Advection number 0.3, volume
-correction 0.05, relative tolerance of the pressure 1e-6) in one thing."""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Dam break on a smooth floor (`prm/dam_break.prm`, to T = 3 of t sqrt(2 g/a)). The reference is the case's own method with h = 1/60 m. Error: rms
+over time (each 0.04 s from 0.2 s on) and over three lengths, the fronts that hold 90 and 99 % of the water and the height of its centre of mass,
+of their distance to the reference, over what each has moved in it by the end. Methods differ from the case (TPIC, splines, 4 x 4 points a cell,
+steps of at most 0.04 s/m times the cell size and Advection number 0.3, volume correction 0.05, relative tolerance of the pressure 1e-6) in one
+thing."""
 
 import math
 

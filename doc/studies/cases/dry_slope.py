@@ -1,8 +1,9 @@
-"""A slope of dense dry sand fails and runs out (`prm/slope_dense.prm`, its first 1.5 s). There is no exact solution: the reference is the
-defaults' run on a finer mesh, h = 0.04 m, so that what all meshes have in common, the base above all, does not show. Error: rms over time (each
-0.1 s from 0.5 s on) and over three lengths, the fronts that hold 90 and 99 % of the mass and the height of the centre of mass, of their distance to the
-reference, over what each has moved in it by the end. Methods differ from the defaults (splines, FLIP with a PIC rate of 5 1/s, 4 x 4 points a cell,
-Courant number 0.6, modified F-bar) in one thing."""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A slope of dense dry sand fails and runs out (`prm/slope_dense.prm`, its first 1.5 s). There is no exact solution: the reference is the defaults'
+run on a finer mesh, h = 0.04 m, so that what all meshes have in common, the base above all, does not show. Error: rms over time (each 0.1 s from
+0.5 s on) and over three lengths, the fronts that hold 90 and 99 % of the mass and the height of the centre of mass, of their distance to the
+reference, over what each has moved in it by the end. Methods differ from the defaults (splines, FLIP with a PIC rate of 5 1/s, 4 x 4 points a
+cell, Courant number 0.6, modified F-bar) in one thing or two."""
 
 import math
 

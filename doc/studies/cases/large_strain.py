@@ -1,7 +1,8 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Soft mud settles under its own weight below water (`prm/large_strain_consolidation.prm`, to T_v = 1): strain 24 % at the base, points cross cells,
-and water leaves the soil. Error: rms over T_v = 0.25, 0.5, 1 of the L2 errors of the excess pressure inside the soil, over its buoyant weight, and of
-the heights of the points' rows, over the final settlement; against finite differences in the material height (`doc/closed_forms.py`). Methods
-differ from the case (double-point, splines, TPIC, 4 x 4 points a cell and phase, Courant number 0.6, no F-bar) in one thing."""
+and water leaves the soil. Error: rms over T_v = 0.25, 0.5, 1 of the L2 errors of the excess pressure inside the soil, over its buoyant weight,
+and of the heights of the points' rows, over the final settlement; against finite differences in the material height (`doc/closed_forms.py`).
+Methods differ from the case (double-point, splines, TPIC, 4 x 4 points a cell and phase, Courant number 0.6, no F-bar) in one thing."""
 
 import functools
 import math

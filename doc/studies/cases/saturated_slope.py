@@ -1,13 +1,17 @@
-"""A saturated slope of loose sand slides (`prm/slope_saturated_loose.prm`, its first 1.5 s). The reference is the case's own method on a finer mesh,
-h = 0.05 m with 3 x 3 points a cell. Error: as in the study of the dry slope, of the fronts that hold 90 and 99 % of the soil and of the height of the centre of mass of
-soil and water. Methods differ from the case (double-point, TPIC, splines, 4 x 4 points a cell and phase, Courant number 0.6 and steps of
-at most 1e-3 s, modified F-bar, relative tolerance of the pressure 1e-6) in one thing."""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A saturated slope of loose sand slides (`prm/slope_saturated_loose.prm`, its first 1.5 s). There is no exact solution: all fronts grow as the mesh
+is refined, and those of FLIP are the farthest on every mesh, so that FLIP with h = 0.05 m and 3 x 3 points a cell is the reference. (The case's
+TPIC on that mesh gets hardly farther than FLIP with h = 0.1 m.) Error: as in the study of the dry slope, of the fronts that hold 90 and 99 % of
+the soil and of the height of the centre of mass of soil and water. Methods differ from the case (double-point, TPIC, splines, 4 x 4 points a cell
+and phase, Courant number 0.6 and steps of at most 1e-3 s, modified F-bar, relative tolerance of the pressure 1e-6) in one thing or two."""
+
+import math
 
 import numpy as np
 
 import dry_slope
 from charts import WorkPrecision
-from precision import DEFAULTS, costs, listed, order, ratio
+from precision import DEFAULTS, costs, curve, listed, order, ratio
 from study import Claim, Study, axis, product
 
 
@@ -22,33 +26,39 @@ METHODS = {
     "2 x 2 points": points(2),
     "3 x 3 points": points(3),
     "FLIP": {"Transfer/Method": "FLIP"},
+    "FLIP, PIC rate 20": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 20},
     "FLIP, 3 x 3 points": {"Transfer/Method": "FLIP", **points(3)},
     "APIC": {"Transfer/Method": "APIC"},
     "tolerance 1e-3": {"Water/Pressure/Relative tolerance": 1e-3},
     "Courant number 0.3": {"Time step/Courant number": 0.3},
     "Courant number 0.9": {"Time step/Courant number": 0.9},
 }
-FINEST = (DEFAULTS, "3 x 3 points", "FLIP", "FLIP, 3 x 3 points")  # run on a fourth mesh
+FINEST = (DEFAULTS, "3 x 3 points", "FLIP", "FLIP, 3 x 3 points", "FLIP, PIC rate 20")  # run on a fourth mesh
 
 
 def measure(run):
-    return {**dry_slope.measure(run), "mean p oscillation": np.mean(run.statistics("^p oscillation")[1:]),
-            "CG iterations": np.mean(run.statistics("^CG iterations")[1:])}
+    return {**dry_slope.measure(run), "median p oscillation": np.median(run.statistics("^p oscillation")[1:]),
+            "largest p, kPa": np.max(run.statistics("^largest p ")) / 1e3, "CG iterations": np.mean(run.statistics("^CG iterations")[1:])}
 
 
 def verdict(rows):
-    found, candidate = costs(rows), "FLIP, 3 x 3 points"
+    candidate = "FLIP, 3 x 3 points"
+    coarse = next(iter(curve(rows, candidate).values()), dict.fromkeys(rows[0], math.nan))
+    fine = list(curve(rows).values())[-1]
     return [
-        Claim(f"FLIP (PIC rate 5 1/s) is better than the TPIC of the case: {ratio(rows, 'FLIP'):.2g} times the error on the same mesh, even against a reference that "
-              f"is TPIC's, for {ratio(rows, 'FLIP', 'core-seconds'):.2g} times the time; p oscillates {ratio(rows, 'FLIP', 'mean p oscillation'):.2g} times and the "
-              f"stress {ratio(rows, 'FLIP', 'mean oscillation'):.2g} times as much, and no more energy is gained.",
-              ratio(rows, "FLIP") < 0.75 and ratio(rows, "FLIP", "mean p oscillation") < 1.5),
+        Claim(f"FLIP (PIC rate 5 1/s) runs out better than the TPIC of the case: {ratio(rows, 'FLIP'):.2g} times the error on the same mesh, for "
+              f"{ratio(rows, 'FLIP', 'core-seconds'):.2g} times the time, without a gain of energy.",
+              ratio(rows, "FLIP") < 0.75 and max(row["energy gained"] for row in rows if row["method"] == "FLIP") < 0.005),
+        Claim(f"FLIP's pressure is rougher: single peaks reach {_largest(rows, 'FLIP'):.0f} kPa ({_largest(rows, 'FLIP, 3 x 3 points'):.0f} with 3 x 3 points), where TPIC's largest "
+              f"is {_largest(rows, DEFAULTS):.0f} kPa. A PIC rate of 20 1/s lies between: {ratio(rows, 'FLIP, PIC rate 20'):.2g} times the error of TPIC, peaks of "
+              f"{_largest(rows, 'FLIP, PIC rate 20'):.0f} kPa. Most of the time FLIP's oscillation is TPIC's ({ratio(rows, 'FLIP', 'median p oscillation'):.2g} times).",
+              _largest(rows, "FLIP") > 1.2 * _largest(rows, DEFAULTS) and ratio(rows, "FLIP", "median p oscillation") < 1.5, quick=False),
         Claim(f"TPIC filters once a step: Courant number 0.3 instead of 0.6 makes {ratio(rows, 'Courant number 0.3'):.2g} times the error, for "
               f"{ratio(rows, 'Courant number 0.3', 'core-seconds'):.2g} times the time; 0.9 {ratio(rows, 'Courant number 0.9'):.2g} times.",
               ratio(rows, "Courant number 0.3") > 1.05, quick=False),
         Claim(f"3 x 3 points suffice: {ratio(rows, '3 x 3 points'):.2g} times the error for {ratio(rows, '3 x 3 points', 'core-seconds'):.2g} times the time, p "
-              f"oscillation {ratio(rows, '3 x 3 points', 'mean p oscillation'):.3g} times.",
-              ratio(rows, "3 x 3 points") < 1.1 and ratio(rows, "3 x 3 points", "mean p oscillation") < 1.2),
+              f"oscillation {ratio(rows, '3 x 3 points', 'median p oscillation'):.3g} times.",
+              ratio(rows, "3 x 3 points") < 1.1 and ratio(rows, "3 x 3 points", "median p oscillation") < 1.2),
         Claim(f"Single-point water has the same fronts ({ratio(rows, 'single-point'):.2g} times the error) for {ratio(rows, 'single-point', 'core-seconds'):.2g} times the "
               f"time, but gains energy: {100 * max(row['energy gained'] for row in rows if row['method'] == 'single-point'):.0f} % of what is released, double-point "
               f"{100 * max(row['energy gained'] for row in rows if row['method'] == DEFAULTS):.1g} %.",
@@ -57,16 +67,24 @@ def verdict(rows):
               "as large.", ratio(rows, "no F-bar", "mean oscillation") > 1.3, quick=False),
         Claim(f"A relative tolerance of the pressure of 1e-3 instead of 1e-6 does not show ({ratio(rows, 'tolerance 1e-3'):.4g} times the error), but hardly pays: "
               f"{ratio(rows, 'tolerance 1e-3', 'core-seconds'):.2g} times the time.", abs(ratio(rows, "tolerance 1e-3") - 1) < 0.01, quick=False),
-        Claim(f"Core-seconds for the same error (order {order(rows):.2g} only), over those of the defaults: " + listed(found)
-              + f". The case is not on the front; {candidate} is.", found.get(candidate, 1) < 0.5, quick=False),
+        Claim(f"Core-seconds for the same error, over those of the case, among methods with its slow convergence (order {order(rows):.2g}): "
+              + listed({method: cost for method, cost in costs(rows).items() if not method.startswith("FLIP")})
+              + f". The case is not on the front: {candidate} has on h = {coarse['h']:.2g} m, for {coarse['core-seconds']:.2g} s, "
+              f"{coarse['error'] / fine['error']:.2g} times the error that TPIC with 4 x 4 has on h = {fine['h']:.2g} m, for {fine['core-seconds']:.2g} s.",
+              coarse["error"] < 1.1 * fine["error"] and coarse["core-seconds"] < 0.3 * fine["core-seconds"], quick=False),
     ]
+
+
+def _largest(rows, method):
+    """Largest pressure of all runs of a method, kPa."""
+    return max((row["largest p, kPa"] for row in rows if row["method"] == method and math.isfinite(row.get("largest p, kPa", math.nan))), default=math.nan)
 
 
 STUDY = Study(
     title="Saturated slope of loose sand: error over cost", base="prm/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15]))
     + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 10])),
-    reference={"Mesh/Cell size": 0.05, **points(3)}, quick_reference={"Mesh/Cell size": 2 / 15, **points(3)}, default={"method": DEFAULTS},
+    reference={"Mesh/Cell size": 0.05, **METHODS["FLIP, 3 x 3 points"]}, quick_reference={"Mesh/Cell size": 2 / 15, **points(3)}, default={"method": DEFAULTS},
     quick=lambda labels: labels["h"] > 0.19 and labels["method"] in (DEFAULTS, "single-point", "3 x 3 points", "FLIP"),
     measure=measure, verdict=verdict,
     chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of fronts and centre of mass (-)"))

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Terzaghi's consolidation (`prm/terzaghi.prm`) with a tenth of the case's load: strain is small, and a settlement of 9e-4 of the height alone would
 change p/q by 5e-4. Error: rms of the L2 errors of p/q over the water's points at T_v = 0.1, 0.5 and 1, against the series; the table also has
 that against the solution with inertia (`doc/closed_forms.py`), which Terzaghi's leaves out, so that orders of convergence are not hidden by it,
