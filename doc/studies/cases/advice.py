@@ -23,7 +23,8 @@ FACTOR = 1.5
 PARTS = {"column_loose": 1.5, "column_saturated_3d": 0.75, "porous_dam": 1, "submerged_column": 0.8, "quickstart": 0.6, "slope_dense": 0.3,
          "slope_loose": 0.6, "slope_dense_fine": 0.03, "slope_loose_fine": 0.03, "slope_saturated_dense": 0.3, "slope_saturated_dense_single": 0.15,
          "slope_saturated_dense_porosity": 0.1, "slope_saturated_loose": 0.5, "slope_saturated_loose_single": 0.15,
-         "slope_saturated_loose_porosity": 0.1, "slope_saturated_mohr_coulomb": 0.3, "nor_sand_slope_2d": 0.1}
+         "slope_saturated_loose_porosity": 0.1, "slope_saturated_mohr_coulomb": 0.3, "nor_sand_slope_2d": 0.1, "slope_dense_friction": 0.3,
+         "slope_loose_friction": 0.3, "slope_saturated_dense_friction": 0.1, "slope_saturated_loose_friction": 0.1}
 TINY = {"terzaghi", "saturated_rest", "dam_break"}
 
 
@@ -57,8 +58,8 @@ def verdict(rows):
     costs, steps = [off(row["cost ratio"]) for row in rows], [off(row["steps ratio"]) for row in rows]
     worst, worst_steps = rows[costs.index(max(costs))], rows[steps.index(max(steps))]
     geometric = math.exp(sum(math.log(factor) for factor in costs) / len(costs))
-    return [Claim(f"The predicted core-seconds of all {len(rows)} cases are within a factor {FACTOR:g} of the measured ones: at worst {max(costs):.2f} "
-                  f"({worst['case']}), in the geometric mean {geometric:.2f}.", holds=max(costs) <= FACTOR, quick=False),
+    return [Claim(f"The predicted core-seconds of all cases are within a factor {FACTOR:g} of the measured ones: {sum(cost <= FACTOR for cost in costs)} of "
+                  f"{len(rows)} are, at worst it is {max(costs):.2f} ({worst['case']}), in the geometric mean {geometric:.2f}.", holds=max(costs) <= FACTOR, quick=False),
             Claim(f"The predicted steps are within a factor 1.3: at worst {max(steps):.2f} ({worst_steps['case']}).", holds=max(steps) <= 1.3)]
 
 
