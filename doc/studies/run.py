@@ -28,6 +28,7 @@ sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(_
 
 from study import ROOT, Run, Variant, prm_files  # noqa: E402
 
+INTERRUPTED = {sign * number + base for number in (2, 9, 15) for sign, base in ((-1, 0), (1, 128))}  # SIGINT, SIGKILL, SIGTERM: such a run is not kept
 START_UP = 1.  # s of a run before its first step
 
 STUDIES = ROOT / "doc" / "studies"
@@ -81,6 +82,8 @@ def make_run(study, variant, folder, arguments):
         _, status, usage = os.wait4(process.pid, 0)
     code = os.waitstatus_to_exitcode(status)
     process.returncode = code  # it has been waited for
+    if code in INTERRUPTED:
+        raise RuntimeError(f"{prm} was interrupted; {screen} has what it said. Start the study again: it goes on from here.")
     record = {"exit_code": code, "core_seconds": usage.ru_utime + usage.ru_stime, "wall_seconds": time.monotonic() - start}
     (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
     return Run(folder, variant.labels, **record)

@@ -2,8 +2,9 @@
 """A slope of dense dry sand fails and runs out (`prm/slope_dense.prm`, its first 1.5 s). There is no exact solution: the reference is the defaults'
 run on a finer mesh, h = 0.04 m, so that what all meshes have in common, the base above all, does not show. Error: rms over time (each 0.1 s from
 0.5 s on) and over three lengths, the fronts that hold 90 and 99 % of the mass and the height of the centre of mass, of their distance to the
-reference, over what each has moved in it by the end. Methods differ from the defaults (splines, FLIP with a PIC rate of 5 1/s, 4 x 4 points a
-cell, Courant number 0.6, modified F-bar) in one thing or two."""
+reference, over what each has moved in it by the end. Methods differ from the defaults (splines, FLIP with a PIC rate of 1 1/s, 4 x 4 points a
+cell, Courant number 0.6, modified F-bar) in one thing.
+The case itself has the rate of 5 1/s that was the default before this study."""
 
 import math
 
@@ -21,15 +22,14 @@ METHODS = {
     "2 x 2 points": {"Soil/Points per cell": 2},
     "3 x 3 points": {"Soil/Points per cell": 3},
     "PIC rate 0": {"Transfer/PIC rate": 0},
-    "PIC rate 1": {"Transfer/PIC rate": 1},
+    "PIC rate 5": {"Transfer/PIC rate": 5},
     "PIC rate 20": {"Transfer/PIC rate": 20},
     "APIC": {"Transfer/Method": "APIC"},
     "TPIC": {"Transfer/Method": "TPIC"},
     "Courant number 0.3": {"Time step/Courant number": 0.3},
     "Courant number 0.9": {"Time step/Courant number": 0.9},
-    "3 x 3 points, PIC rate 1": {"Soil/Points per cell": 3, "Transfer/PIC rate": 1},
 }
-FINEST = (DEFAULTS, "3 x 3 points", "TPIC", "3 x 3 points, PIC rate 1")  # run on a fourth mesh
+FINEST = (DEFAULTS, "3 x 3 points", "TPIC", "PIC rate 5")  # run on a fourth mesh
 
 
 def lengths(run, gravity=9.81):
@@ -53,16 +53,16 @@ def measure(run):
 
 
 def verdict(rows):
-    found, candidate = costs(rows), "3 x 3 points, PIC rate 1"
+    found = costs(rows)
+    others = {method: cost for method, cost in found.items() if "points" not in method}
     return [
-        Claim(f"FLIP with a low PIC rate runs out best: without it {ratio(rows, 'PIC rate 0'):.2g} times the error of the default 5 1/s, TPIC "
+        Claim(f"FLIP with a low PIC rate runs out best: 5 1/s, the default before this study, has {ratio(rows, 'PIC rate 5'):.2g} times the error of 1 1/s, TPIC "
               f"{ratio(rows, 'TPIC'):.2g} times, at the same cost a step. What filters velocities brakes the slope.",
-              ratio(rows, "PIC rate 0") < 0.85 and ratio(rows, "TPIC") > 1.2),
-        Claim(f"PIC rate 1 has {ratio(rows, 'PIC rate 1'):.2g} times the error of 5, and on h = 0.1 m a numerical dissipation of "
-              f"{100 * _at(rows, 'PIC rate 1', 0.1)['numerical dissipation']:.0f} % of the released energy instead of "
-              f"{100 * _at(rows, DEFAULTS, 0.1)['numerical dissipation']:.0f} % (rate 0: {100 * _at(rows, 'PIC rate 0', 0.1)['numerical dissipation']:.0f} %); its stress "
-              f"oscillates {ratio(rows, 'PIC rate 1', 'mean oscillation'):.2f} times as much.",
-              ratio(rows, "PIC rate 1") < 0.9 and ratio(rows, "PIC rate 1", "mean oscillation") < 1.2, quick=False),
+              ratio(rows, "PIC rate 5") > 1.1 and ratio(rows, "TPIC") > 1.5),
+        Claim(f"On h = 0.1 m the transfer takes {100 * _at(rows, DEFAULTS, 0.1)['numerical dissipation']:.0f} % of the released energy instead of "
+              f"{100 * _at(rows, 'PIC rate 5', 0.1)['numerical dissipation']:.0f} % (rate 0: {100 * _at(rows, 'PIC rate 0', 0.1)['numerical dissipation']:.0f} %); the stress "
+              f"oscillates {1 / ratio(rows, 'PIC rate 5', 'mean oscillation'):.2f} times as much as with 5 1/s.",
+              ratio(rows, "PIC rate 5", "mean oscillation") > 0.85, quick=False),
         Claim(f"3 x 3 points suffice: {ratio(rows, '3 x 3 points'):.3g} times the error for {ratio(rows, '3 x 3 points', 'core-seconds'):.2g} times the time.",
               ratio(rows, "3 x 3 points") < 1.1),
         Claim(f"2 x 2 points: {ratio(rows, '2 x 2 points'):.2g} times the error for {ratio(rows, '2 x 2 points', 'core-seconds'):.2g} times the time, but "
@@ -76,8 +76,9 @@ def verdict(rows):
         Claim(f"The step does not matter up to Courant number 0.9: {ratio(rows, 'Courant number 0.9'):.3g} times the error, 0.3 "
               f"{ratio(rows, 'Courant number 0.3'):.3g} times.",
               abs(ratio(rows, "Courant number 0.9") - 1) < 0.05 and abs(ratio(rows, "Courant number 0.3") - 1) < 0.05, quick=False),
-        Claim(f"Core-seconds for the same error (order {order(rows):.2g}), over those of the defaults: " + listed(found) + ". The defaults are not on the front: "
-              f"{candidate} takes {found.get(candidate, math.nan):.2g} times the time.", found.get(candidate, math.nan) < 0.6, quick=False),
+        Claim(f"Core-seconds for the same error (order {order(rows):.2g}), over those of the defaults: " + listed(found) + ". But for the number of points the "
+              f"defaults are on the front within the noise of times: nothing else takes less than {min(others.values()):.2g} of their time.",
+              min(others.values()) > 0.7, quick=False),
     ]
 
 
@@ -89,10 +90,10 @@ def _at(rows, method, h):
 
 STUDY = Study(
     title="Dry slope of dense sand: error over cost", base="prm/slope_dense.prm",
-    entries={"End time": 1.5, "Mesh/Upper corner": "8, 2.4", "Output/Interval": 1.5, "Output/Statistics interval": 0.1, "Output/Graphics": "none"},
+    entries={"Transfer/PIC rate": 1, "End time": 1.5, "Mesh/Upper corner": "8, 2.4", "Output/Interval": 1.5, "Output/Statistics interval": 0.1, "Output/Graphics": "none"},
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15, 1 / 10]))
     + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 15])),
     reference={"Mesh/Cell size": 0.04}, quick_reference={"Mesh/Cell size": 0.1, "Soil/Points per cell": 3}, default={"method": DEFAULTS},
-    quick=lambda labels: labels["h"] > 0.19 and labels["method"] in (DEFAULTS, "3 x 3 points", "PIC rate 0", "TPIC"),
+    quick=lambda labels: labels["h"] > 0.19 and labels["method"] in (DEFAULTS, "3 x 3 points", "PIC rate 5", "TPIC"),
     measure=measure, verdict=verdict,
     chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of fronts and centre of mass (-)"))

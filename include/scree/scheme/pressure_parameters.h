@@ -42,7 +42,7 @@ namespace scree
   /// Subsection Pressure of subsection Water.
   struct PressureParameters
   {
-    double relative_tolerance       = 1e-6;
+    double relative_tolerance       = 1e-4;
     unsigned int maximum_iterations = 500;
     std::string splitting           = "drag in correction";
     std::string free_surface        = "distance";

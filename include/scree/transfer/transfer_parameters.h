@@ -29,7 +29,7 @@ namespace scree
   struct TransferParameters
   {
     std::string method = "FLIP";
-    double pic_rate    = 5; ///< 1/s
+    double pic_rate    = 1; ///< 1/s
 
     void add_parameters(dealii::ParameterHandler &prm);
     TransferMethod transfer_method() const;
