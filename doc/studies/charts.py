@@ -51,7 +51,7 @@ class WorkPrecision:
         mark_pareto(rows, self.error)
 
     def write(self, rows, title, target):
-        figure, axes = plt.subplots(figsize=(9, 6), layout="constrained")
+        figure, axes = plt.subplots(figsize=(11, 6), layout="constrained")
         shown = [row for row in rows if _finite(row, self.error, "core-seconds")]
         groups = {}
         for row in shown:
@@ -73,7 +73,7 @@ class WorkPrecision:
         axes.set(xscale="log", yscale="log", xlabel="core-seconds of the steps", ylabel=self.ylabel)
         axes.set_title(f"{title}; numbers: {self.annotate}", fontsize="medium")
         axes.grid(alpha=0.3, which="both")
-        axes.legend(fontsize="x-small")
+        axes.legend(fontsize="x-small", loc="upper left", bbox_to_anchor=(1.01, 1.))
         save(figure, target)
 
 

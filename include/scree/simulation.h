@@ -61,6 +61,9 @@ namespace scree
       return clock.time();
     }
 
+    /// All sets of points, in a fixed order.
+    std::vector<PointSet<dim> *> point_sets();
+
   private:
     void make_phases();
     void initialise();
@@ -74,9 +77,6 @@ namespace scree
 
     /// Soil, water and markers follow the nodes; they are not sorted yet.
     void move_points(const double time_step, std::vector<double> &largest);
-
-    /// All sets of points, in a fixed order.
-    std::vector<PointSet<dim> *> point_sets();
 
     /// Wave speed and largest speed of the points as they are, for the first step.
     void measure_speeds();

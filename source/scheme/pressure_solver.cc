@@ -338,7 +338,7 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::judge_preconditioner(const SolveReport &report)
   {
-    if (report.made_preconditioner)
+    if (report.made_preconditioner || is_worn) // worn still: nothing flowed, so that none was made
       return;
     surplus_iterations += std::max(int(report.n_iterations) - int(iterations_when_new), 0);
     is_worn = surplus_iterations > iterations_worth_a_preconditioner;

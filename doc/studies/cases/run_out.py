@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How far columns (1 m x 1 m) and slopes (crest 2 m, height 2 m, 45 degrees) of Nor-Sand run out, over the size of the cells. The front is the x below which
-90 % of the mass lies (column `Front 90 %` of a run; the rest thins out to a tongue below a cell), when the soil has come to rest: columns after 1.5 s, dry slopes after 3 s, saturated slopes after 5 s (loose) and 6 s (dense, permeable:
+90 % of the mass lies (column `Front 90 %` of a run; the rest thins out to a tongue below a cell), when the soil has come to rest:
+columns after 1.5 s, dry slopes after 3 s, saturated slopes after 5 s (loose) and 6 s (dense, permeable:
 k = 5e-2 m/s); the dense slope with k = 5e-3 m/s slides on slowly, it is measured after 9 s. Three treatments: the fixed base of `prm/slope_*.prm` and
 `prm/column_*.prm`; a base with friction of the soil's own angle at critical state in simple shear, tan(22.3 degrees) = M/sqrt(3) = .41; the same with FLIP's PIC
 rate of 1/s instead of 5 (`prm/slope_*_friction.prm`). Slopes with water travel by TPIC, which has no such rate. Columns have 3 x 3 points in a cell, slopes 2 x 2, for
-the time they take.
+the time they take, but the dry dense one of the third treatment, which scatters more, 3 x 3.
 
 Value at h = 0: the middle between the least-squares fits with errors in proportion to h and to h^2; its uncertainty is half their distance and the
 rms deviation of the worse one. Order: the exponent between 0.5 and 3 that fits best; where it is one of these two, the sizes do not tell it.

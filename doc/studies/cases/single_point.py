@@ -42,9 +42,9 @@ def verdict(rows):
         Claim(f"Single-point water makes {100 * min(made):.0f} % and more in each of {len(made)} runs; a column that only collapses makes "
               f"{100 * min(rest):.0f} to {100 * max(rest):.0f} %.", min(made) > 0.01),
         Claim(f"Where soil is thrown it may multiply: {worst['water made']:.3g} times its mass at {worst['speed']:g} m/s, friction "
-              f"{worst['friction']:g} degrees and k = {worst['k']:g} m/s.", worst["water made"] > 1 and worst["speed"] > 0),
+              f"{worst['friction']:g} degrees and k = {worst['k']:g} m/s.", worst["water made"] > 1 and worst["speed"] > 0, quick=False),
         Claim(f"That water brings energy: {gains} of {len(single)} single-point runs gain more than .005 of what is released, up to "
-              f"{max(row['gain'] for row in single):.2g}.", gains > 0 and max(row["gain"] for row in single) > 1),
+              f"{max(row['gain'] for row in single):.2g}.", gains > 0 and max(row["gain"] for row in single) > 1, quick=False),
     ]
 
 
