@@ -62,7 +62,7 @@ class WorkPrecision:
                       marker="os^Dv<>"[index // 10 % 7], linestyle=["-", "--", ":"][index // 10 % 3], markersize=4, linewidth=1, label=label)
             for row in group:
                 text = row[self.annotate]
-                axes.annotate(f"{text:g}" if isinstance(text, float) else text, (row["core-seconds"], row[self.error]),
+                axes.annotate(f"{text:.3g}" if isinstance(text, float) else text, (row["core-seconds"], row[self.error]),
                               textcoords="offset points", xytext=(4, 3), fontsize="x-small", color="0.4")
         for column, style in (("Pareto", {"marker": "o", "markersize": 11, "markeredgecolor": "k", "label": "not beaten in both (Pareto)"}),
                               ("default", {"marker": "*", "markersize": 15, "markeredgecolor": "r", "label": "defaults"})):

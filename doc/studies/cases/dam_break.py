@@ -2,7 +2,7 @@
 """Dam break on a smooth floor (`prm/dam_break.prm`, to T = 3 of t sqrt(2 g/a)). The reference is the case's own method with h = 1/60 m. Error: rms
 over time (each 0.04 s from 0.2 s on) and over three lengths, the fronts that hold 90 and 99 % of the water and the height of its centre of mass,
 of their distance to the reference, over what each has moved in it by the end. Methods differ from the case (TPIC, splines, 4 x 4 points a cell,
-steps of at most 0.04 s/m times the cell size and Advection number 0.3, volume correction 0.05, relative tolerance of the pressure 1e-6) in one
+steps of at most 0.04 s/m times the cell size and Advection number 0.3, volume correction 0.05, relative tolerance of the pressure 1e-4) in one
 thing."""
 
 import math
@@ -27,7 +27,7 @@ METHODS = {
     "half the step": {"Time step/Advection number": 0.15},
     "twice the step": {"Time step/Advection number": 0.6},
     "tolerance 1e-2": {"Water/Pressure/Relative tolerance": 1e-2},
-    "tolerance 1e-4": {"Water/Pressure/Relative tolerance": 1e-4},
+    "tolerance 1e-6": {"Water/Pressure/Relative tolerance": 1e-6},
     "tolerance 1e-9": {"Water/Pressure/Relative tolerance": 1e-9},
     "no volume correction": {"Water/Volume correction": 0},
 }
@@ -70,10 +70,10 @@ def verdict(rows):
               f"right: half of it {ratio(rows, 'half the step'):.2g} times the error for {ratio(rows, 'half the step', 'core-seconds'):.2g} times the time, twice "
               f"{ratio(rows, 'twice the step'):.2g} times for {ratio(rows, 'twice the step', 'core-seconds'):.2g}.",
               order(rows) > 1.3 and ratio(rows, "half the step") > 0.9 and ratio(rows, "twice the step") > 1.2, quick=False),
-        Claim(f"A relative tolerance of the pressure of 1e-4, even 1e-2, has the same error as 1e-6 ({ratio(rows, 'tolerance 1e-4'):.4g} and "
-              f"{ratio(rows, 'tolerance 1e-2'):.4g} times), with {ratio(rows, 'tolerance 1e-4', 'CG iterations'):.2g} and "
-              f"{ratio(rows, 'tolerance 1e-2', 'CG iterations'):.2g} times the iterations.",
-              abs(ratio(rows, "tolerance 1e-4") - 1) < 0.005 and abs(ratio(rows, "tolerance 1e-2") - 1) < 0.02
+        Claim(f"A relative tolerance of the pressure of 1e-6, the default before this study, has {ratio(rows, 'tolerance 1e-6'):.4g} times the error for "
+              f"{ratio(rows, 'tolerance 1e-6', 'CG iterations'):.2g} times the iterations; 1e-2 has {ratio(rows, 'tolerance 1e-2'):.4g} times the error for "
+              f"{ratio(rows, 'tolerance 1e-2', 'CG iterations'):.2g} times.",
+              abs(ratio(rows, "tolerance 1e-6") - 1) < 0.005 and ratio(rows, "tolerance 1e-6", "CG iterations") > 1.15 and abs(ratio(rows, "tolerance 1e-2") - 1) < 0.02
               and ratio(rows, "tolerance 1e-2", "CG iterations") < 0.6),
         Claim(f"3 x 3 points are as accurate as 4 x 4 ({ratio(rows, '3 x 3 points'):.2g} times the error) with a volume error of "
               f"{100 * at_finest(rows, '3 x 3 points', 'largest volume error'):.0f} instead of {100 * at_finest(rows, DEFAULTS, 'largest volume error'):.0f} %; "
@@ -84,8 +84,8 @@ def verdict(rows):
               0.9 < ratio(rows, "APIC") < 1.1 and ratio(rows, "FLIP") < 1.5 and ratio(rows, "linear") < 1.1),
         Claim(f"The volume correction takes a second solve ({ratio(rows, 'no volume correction', 'core-seconds'):.2g} times the time without it) and does not change "
               f"the fronts ({ratio(rows, 'no volume correction'):.2g} times the error).", 0.85 < ratio(rows, "no volume correction") < 1.2),
-        Claim("Core-seconds for the same error, over those of the defaults: " + listed(found) + ". Within the noise of the times the defaults are on the front, but "
-              "for the tolerance.", found["tolerance 1e-4"] < 0.95 and found["2 x 2 points"] > 1.5 and found["half the step"] > 1.5, quick=False),
+        Claim("Core-seconds for the same error, over those of the defaults: " + listed(found) + ". Within the noise of the times the defaults are on the front of "
+              "those that serve soil, too.", found["tolerance 1e-6"] > 0.9 and found["2 x 2 points"] > 1.5 and found["half the step"] > 1.5, quick=False),
     ]
 
 
