@@ -67,3 +67,13 @@ def costs(rows):
 def listed(found):
     """"a 0.81, b 1.2": methods with their numbers."""
     return ", ".join(f"{method} {cost:.2g}" for method, cost in found.items())
+
+
+def position_of_defaults(rows):
+    """On how many meshes no run beats the defaults in both, and each other method's error and time over theirs on the same meshes."""
+    own = curve(rows).values()
+    others = {}
+    for method in dict.fromkeys(row["method"] for row in rows if row["method"] != DEFAULTS):
+        fails = " (fails on a mesh)" if failed(rows, method) else ""
+        others[method] = f"{method} {ratio(rows, method):.2g} / {ratio(rows, method, 'core-seconds'):.2g}{fails}"
+    return f"{sum(row['Pareto'] for row in own)} of {len(own)}", ", ".join(others.values())
