@@ -107,41 +107,55 @@ def _estimate(labels, expected):
     return START_UP + known[0] if known else START_UP + sum(others) / len(others) if others else math.nan
 
 
+class Plan:
+    """The runs of a study, the reference's first; which of them are missing, and how long those will take."""
+
+    def __init__(self, name, study, arguments):
+        self.variants = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
+        reference = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
+        self.has_reference = reference is not None
+        if self.has_reference:
+            self.variants.insert(0, Variant({"reference": "reference"}, reference))
+        self.folders = [folder_of(study, variant, arguments.results) for variant in self.variants]
+        self.missing = {folder: variant for variant, folder in zip(self.variants, self.folders)
+                        if arguments.again or load_run(folder, variant.labels) is None}
+        self.jobs = 1 if study.chart.timed else max(1, arguments.jobs // study.ranks)
+        expected = expected_seconds(name)
+        self.left = {folder: _estimate(variant.labels, expected) for folder, variant in self.missing.items()}
+
+    @property
+    def seconds_left(self):
+        """nan without earlier times."""
+        known = [seconds for seconds in self.left.values() if math.isfinite(seconds)]
+        return sum(known) * len(self.left) / len(known) / self.jobs if known else math.nan
+
+
 def make_runs(name, study, arguments):
-    """The runs of all variants, in their order; the reference's first, with progress and the time left."""
-    wanted = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
-    reference_entries = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
-    if reference_entries is not None:
-        wanted.insert(0, Variant({"reference": "reference"}, reference_entries))
-    folders = [folder_of(study, variant, arguments.results) for variant in wanted]
-    missing = {folder: variant for variant, folder in zip(wanted, folders) if arguments.again or load_run(folder, variant.labels) is None}
-    expected = expected_seconds(name)
-    left = {folder: _estimate(variant.labels, expected) for folder, variant in missing.items()}
-    jobs = 1 if study.chart.timed else max(1, arguments.jobs // study.ranks)
-    print(f"{name}: {len(set(folders))} runs, {len(set(folders)) - len(missing)} of them are there" + (f"; {_duration(left, jobs)}" if missing else ""), flush=True)
+    """The runs of all variants, in their order, each with the reference's; with progress and the time left."""
+    plan = Plan(name, study, arguments)
+    n_runs, n_missing = len(set(plan.folders)), len(plan.missing)
+    print(f"{name}: {n_runs} runs, {n_runs - n_missing} of them are there" + (f"; {_duration(plan.seconds_left)}" if n_missing else ""), flush=True)
 
     def make(folder):
-        variant = missing[folder]
+        variant = plan.missing[folder]
         run = make_run(study, variant, folder, arguments)
-        del left[folder]
-        print(f"  {len(missing) - len(left)} of {len(missing)}: " + ", ".join(f"{key} {value}" for key, value in variant.labels.items())
-              + f": {folder.name}" + ("" if run.ended else f" (ended with {run.exit_code})") + (f"; {_duration(left, jobs)}" if left else ""), flush=True)
-        return run
+        del plan.left[folder]
+        print(f"  {n_missing - len(plan.left)} of {n_missing}: " + ", ".join(f"{key} {value}" for key, value in variant.labels.items())
+              + f": {folder.name}" + ("" if run.ended else f" (ended with {run.exit_code})")
+              + (f"; {_duration(plan.seconds_left)}" if plan.left else ""), flush=True)
 
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(make, missing))
-    runs = [load_run(folder, variant.labels) for variant, folder in zip(wanted, folders)]
-    reference = runs.pop(0) if reference_entries is not None else None
+    with concurrent.futures.ThreadPoolExecutor(plan.jobs) as pool:
+        list(pool.map(make, plan.missing))
+    runs = [load_run(folder, variant.labels) for variant, folder in zip(plan.variants, plan.folders)]
+    reference = runs.pop(0) if plan.has_reference else None
     for run in runs:
         run.reference = reference
     return runs
 
 
-def _duration(left, jobs):
-    known = [seconds for seconds in left.values() if math.isfinite(seconds)]
-    if not known:
+def _duration(seconds):
+    if not math.isfinite(seconds):
         return "no earlier times to tell how long it takes"
-    seconds = sum(known) * len(left) / len(known) / jobs
     return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {max(1, seconds):.0f} s left"
 
 
@@ -290,6 +304,10 @@ def parse():
 def main():
     arguments = parse()
     names = names_of_studies() if "all" in arguments.names else arguments.names
+    if len(names) > 1 and not arguments.page:
+        plans = [Plan(name, importlib.import_module(name).STUDY, arguments) for name in names]
+        seconds = sum(plan.seconds_left for plan in plans if math.isfinite(plan.seconds_left))
+        print(f"{len(names)} studies, {sum(len(plan.missing) for plan in plans)} runs are missing; {_duration(seconds)}", flush=True)
     held = [run_study(name, arguments) for name in names]
     if not arguments.quick:
         write_index()
