@@ -57,10 +57,14 @@ def cost_at_equal_error(rows, method):
     return ratio(rows, method, "core-seconds") * ratio(rows, method)**price
 
 
+def other_methods(rows):
+    """All methods but the defaults, in the order of the rows."""
+    return list(dict.fromkeys(row["method"] for row in rows if row["method"] != DEFAULTS))
+
+
 def costs(rows):
     """{method: cost_at_equal_error} of the other methods, the cheapest first; without those that failed on a mesh."""
-    methods = dict.fromkeys(row["method"] for row in rows if row["method"] != DEFAULTS)
-    found = {method: cost_at_equal_error(rows, method) for method in methods if not failed(rows, method)}
+    found = {method: cost_at_equal_error(rows, method) for method in other_methods(rows) if not failed(rows, method)}
     return dict(sorted(found.items(), key=lambda item: item[1]))
 
 
@@ -72,8 +76,6 @@ def listed(found):
 def position_of_defaults(rows):
     """On how many meshes no run beats the defaults in both, and each other method's error and time over theirs on the same meshes."""
     own = curve(rows).values()
-    others = {}
-    for method in dict.fromkeys(row["method"] for row in rows if row["method"] != DEFAULTS):
-        fails = " (fails on a mesh)" if failed(rows, method) else ""
-        others[method] = f"{method} {ratio(rows, method):.2g} / {ratio(rows, method, 'core-seconds'):.2g}{fails}"
-    return f"{sum(row['Pareto'] for row in own)} of {len(own)}", ", ".join(others.values())
+    others = [f"{method} {ratio(rows, method):.2g} / {ratio(rows, method, 'core-seconds'):.2g}" + (" (fails on a mesh)" if failed(rows, method) else "")
+              for method in other_methods(rows)]
+    return f"{sum(row['Pareto'] for row in own)} of {len(own)}", ", ".join(others)

@@ -4,9 +4,9 @@
 
 /usr/bin/python3 doc/studies/run.py NAME... | all [--quick] [--list] [--again]
 
-A study is a file of doc/studies/cases. Its runs are kept in folders of results/studies named by the content of their parameter files: a second call makes
-what is missing or has changed, so that an interrupted study goes on where it was. The table, the chart and the page go to
-doc/studies/pages; with --quick, a short version is run and checked, and nothing under doc/ is written.
+A study is a file of doc/studies/cases. Its runs are kept in folders of results/studies named by the content of their parameter
+files: a second call makes what is missing or has changed, so that an interrupted study goes on where it was. The table, the
+chart and the page go to doc/studies/pages; with --quick, a short version is run and checked, and nothing under doc/ is written.
 """
 
 import argparse
@@ -30,7 +30,7 @@ from charts import WorkPrecision  # noqa: E402
 from precision import position_of_defaults  # noqa: E402
 from study import ROOT, Run, Variant, prm_files  # noqa: E402
 
-INTERRUPTED = {sign * number + base for number in (2, 9, 15) for sign, base in ((-1, 0), (1, 128))}  # SIGINT, SIGKILL, SIGTERM: such a run is not kept
+INTERRUPTED = {-2, -9, -15, 130, 137, 143}  # by SIGINT, SIGKILL, SIGTERM, itself or below `timeout`: such a run is not kept
 START_UP = 1.  # s of a run before its first step
 
 STUDIES = ROOT / "doc" / "studies"
