@@ -35,7 +35,7 @@ namespace scree
     /// One step of `time_step` s.
     void advance(const double time_step);
 
-    const std::list<Phase<dim>> &bodies() const
+    const std::list<SoilBody<dim>> &bodies() const
     {
       return phases;
     }
@@ -106,7 +106,7 @@ namespace scree
     Transfer<dim> transfer;
     Forcing<dim> forcing;
     ExplicitScheme<dim> scheme;
-    std::list<Phase<dim>> phases;
+    std::list<SoilBody<dim>> phases;
     std::unique_ptr<SurfaceLoad<dim>> load; // null without
 
     // Of a scene with water; else null and empty.

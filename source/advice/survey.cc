@@ -79,8 +79,8 @@ namespace scree
       {
         read_entries();
         find_height();
-        for (const auto &phase : simulation.bodies())
-          look_at_soil(phase);
+        for (const auto &body : simulation.bodies())
+          look_at_soil(body);
         for (const auto &part : simulation.water_phases())
           look_at_water(part);
         finish();
@@ -123,8 +123,8 @@ namespace scree
       {
         Extent<dim> extent;
         const auto add = [&](const Point<dim> &x, const double *) { extent.add(x); };
-        for (const auto &phase : simulation.bodies())
-          for_points(phase.points, add);
+        for (const auto &body : simulation.bodies())
+          for_points(body.points, add);
         if (!scene.has_soil)
           for (const auto &part : simulation.water_phases())
             for_points(part.points(), add);
@@ -135,30 +135,30 @@ namespace scree
         scene.height         = (scene.gravity > 0 ? extent.length(axis) : extent.longest_side()) + spacing;
       }
 
-      void look_at_soil(const Phase<dim> &phase)
+      void look_at_soil(const SoilBody<dim> &body)
       {
-        const Material<dim> &law = *phase.material;
+        const Material<dim> &law = *body.material;
         scene.stiffens           = scene.stiffens || law.initial_bulk_modulus(2e4) > law.initial_bulk_modulus(1e4);
         // Soil without stress gets its first one from its weight.
-        const double first_pressure = 2. / 3. * phase.density * scene.gravity * scene.height;
-        for_points(phase.points, [&](const Point<dim> &x, const double *properties) {
-          const double mass = properties[phase.layout.mass], volume = properties[phase.layout.volume];
-          const double at_start = mean_effective_stress(properties + phase.layout.stress);
+        const double first_pressure = 2. / 3. * body.density * scene.gravity * scene.height;
+        for_points(body.points, [&](const Point<dim> &x, const double *properties) {
+          const double mass = properties[body.layout.mass], volume = properties[body.layout.volume];
+          const double at_start = mean_effective_stress(properties + body.layout.stress);
           const double pressure = at_start > 0 ? at_start : first_pressure;
-          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus(), phase.density, pressure };
+          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus(), body.density, pressure };
           if (medium.speed() > scene.fastest.speed())
             scene.fastest = medium;
-          keep_speed(properties + phase.layout.velocity);
+          keep_speed(properties + body.layout.velocity);
           ++soil_points;
           soil_mass += mass;
           soil_volume += volume;
-          grain_volume += mass / phase.grain_density;
+          grain_volume += mass / body.grain_density;
           pressure_sum += volume * pressure;
           bulk_sum += volume * medium.bulk_modulus;
           shear_sum += volume * medium.shear_modulus;
           height_moment += mass * height_of(x);
         });
-        occupy(phase.points);
+        occupy(body.points);
       }
 
       void look_at_water(const WaterPhase<dim> &part)

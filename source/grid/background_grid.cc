@@ -47,7 +47,7 @@ namespace scree
         "Cell size", cell_size, "Width of the cubic cells, m; must divide the box.", Patterns::Double(1e-12));
     prm.add_parameter("Basis",
                       basis,
-                      "Shape functions: spline (C1 quadratic B-splines), quadratic (C0) or linear (hat functions).",
+                      "Shape functions: spline (C1 quadratic B-splines), quadratic (C0) or linear.",
                       Patterns::Selection("spline|quadratic|linear"));
     prm.leave_subsection();
   }

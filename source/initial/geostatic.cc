@@ -98,30 +98,30 @@ namespace scree
   {
     /// Gives each point the state with the stress components that `fill_stress(location, components)` writes.
     template <int dim, typename Function>
-    void set_stress(Phase<dim> &phase, const Function &fill_stress)
+    void set_stress(SoilBody<dim> &body, const Function &fill_stress)
     {
-      for (const auto &cell : phase.points.cells())
+      for (const auto &cell : body.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
             double stress[n_symmetric_components<dim>] = {};
             fill_stress(cell.location[p], stress);
-            double *properties = cell.properties + p * phase.points.stride();
-            phase.material->initialise(stress,
-                                       properties + phase.layout.left_cauchy_green,
-                                       properties + phase.layout.stress,
-                                       properties + phase.layout.internal_variables);
+            double *properties = cell.properties + p * body.points.stride();
+            body.material->initialise(stress,
+                                       properties + body.layout.left_cauchy_green,
+                                       properties + body.layout.stress,
+                                       properties + body.layout.internal_variables);
           }
     }
   } // namespace
 
 
   template <int dim>
-  void set_k0_stress(Phase<dim> &phase, Overburden<dim> &overburden, const double k0)
+  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0)
   {
     std::string fault; // The law may refuse the stress of points on one rank only.
     try
       {
-        set_stress(phase, [&](const Point<dim> &x, double *stress) {
+        set_stress(body, [&](const Point<dim> &x, double *stress) {
           const double vertical = -overburden.weight_above(x);
           for (unsigned int a = 0; a < 3; ++a)
             stress[a] = (a == overburden.vertical_axis() ? 1. : k0) * vertical;
@@ -129,22 +129,22 @@ namespace scree
       }
     catch (const ExceptionBase &error)
       {
-        fault = entry_name(phase.name + "/Initial state", "K0") + " = " + number_text(k0) + ": " + plain_text(error);
+        fault = entry_name(body.name + "/Initial state", "K0") + " = " + number_text(k0) + ": " + plain_text(error);
       }
     throw_on_all_ranks(fault, overburden.communicator());
   }
 
 
   template <int dim>
-  void set_isotropic_stress(Phase<dim> &phase, const double pressure)
+  void set_isotropic_stress(SoilBody<dim> &body, const double pressure)
   {
-    set_stress(phase, [&](const Point<dim> &, double *stress) { std::fill_n(stress, 3, -pressure); });
+    set_stress(body, [&](const Point<dim> &, double *stress) { std::fill_n(stress, 3, -pressure); });
   }
 
   template class Overburden<2>;
   template class Overburden<3>;
-  template void set_k0_stress(Phase<2> &, Overburden<2> &, const double);
-  template void set_k0_stress(Phase<3> &, Overburden<3> &, const double);
-  template void set_isotropic_stress(Phase<2> &, const double);
-  template void set_isotropic_stress(Phase<3> &, const double);
+  template void set_k0_stress(SoilBody<2> &, Overburden<2> &, const double);
+  template void set_k0_stress(SoilBody<3> &, Overburden<3> &, const double);
+  template void set_isotropic_stress(SoilBody<2> &, const double);
+  template void set_isotropic_stress(SoilBody<3> &, const double);
 } // namespace scree

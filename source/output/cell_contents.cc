@@ -17,24 +17,24 @@ namespace scree
 
 
   template <int dim>
-  std::vector<CellContents> contents_of_cells(const std::list<Phase<dim>> &phases,
+  std::vector<CellContents> contents_of_cells(const std::list<SoilBody<dim>> &bodies,
                                               const std::list<WaterPhase<dim>> &water,
                                               const BackgroundGrid<dim> &grid)
   {
     std::vector<CellContents> contents(grid.triangulation().n_active_cells());
-    for (const auto &phase : phases)
-      for (const auto &cell : phase.points.cells())
+    for (const auto &body : bodies)
+      for (const auto &cell : body.points.cells())
         {
           CellContents &sums = contents[cell.cell];
           sums.n_soil_points += cell.n_points;
           for (unsigned int p = 0; p < cell.n_points; ++p)
             {
-              const double *properties = cell.properties + p * phase.points.stride();
-              const double volume      = properties[phase.layout.volume];
-              sums.soil_mass += properties[phase.layout.mass];
+              const double *properties = cell.properties + p * body.points.stride();
+              const double volume      = properties[body.layout.volume];
+              sums.soil_mass += properties[body.layout.mass];
               sums.soil_volume += volume;
-              sums.grain_volume += properties[phase.layout.mass] / phase.grain_density;
-              sums.soil_pressure += volume * mean_effective_stress(properties + phase.layout.stress);
+              sums.grain_volume += properties[body.layout.mass] / body.grain_density;
+              sums.soil_pressure += volume * mean_effective_stress(properties + body.layout.stress);
             }
         }
     for (const auto &one : water)
@@ -53,7 +53,7 @@ namespace scree
   }
 
   template std::vector<CellContents>
-  contents_of_cells(const std::list<Phase<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  contents_of_cells(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
   template std::vector<CellContents>
-  contents_of_cells(const std::list<Phase<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  contents_of_cells(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
 } // namespace scree

@@ -21,7 +21,7 @@ namespace scree
 
 
   template <int dim>
-  void Graphics<dim>::write(const std::list<Phase<dim>> &phases,
+  void Graphics<dim>::write(const std::list<SoilBody<dim>> &bodies,
                             const NodalField<dim> &field,
                             const double time,
                             const WaterView<dim> *view)
@@ -33,9 +33,9 @@ namespace scree
     Cells contents;
     const std::list<WaterPhase<dim>> no_water;
     if (with_grid || view)
-      contents = contents_of_cells(phases, view ? view->water : no_water, grid);
-    if (!phases.empty())
-      write_points(phases, field, time, view);
+      contents = contents_of_cells(bodies, view ? view->water : no_water, grid);
+    if (!bodies.empty())
+      write_points(bodies, field, time, view);
     if (view)
       write_water(field, time, *view, contents);
     if (with_grid)

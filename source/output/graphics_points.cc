@@ -50,10 +50,10 @@ namespace scree
     }
 
     template <int dim>
-    void put_state(Rows<dim> &rows, const Phase<dim> &phase, const double *properties, const unsigned int body)
+    void put_state(Rows<dim> &rows, const SoilBody<dim> &body, const double *properties, const unsigned int number)
     {
-      const double *stress = properties + phase.layout.stress;
-      rows.put(vector_of<dim>(properties + phase.layout.velocity));
+      const double *stress = properties + body.layout.stress;
+      rows.put(vector_of<dim>(properties + body.layout.velocity));
       // plane strain: no out-of-plane shear
       const double xy = stress[3], xz = dim == 3 ? stress[dim + 1] : 0., yz = dim == 3 ? stress[dim + 2] : 0.;
       for (const double value : { stress[0], xy, xz, xy, stress[1], yz, xz, yz, stress[2] })
@@ -62,9 +62,9 @@ namespace scree
       rows.put(P);
       rows.put(q);
       rows.put(P > 0 ? q / P : 0.);
-      rows.put(properties[phase.layout.mass]);
-      rows.put(properties[phase.layout.volume]);
-      rows.put(body);
+      rows.put(properties[body.layout.mass]);
+      rows.put(properties[body.layout.volume]);
+      rows.put(number);
     }
 
     /// The law's internal variables and derived fields of all bodies: each name has one row, whichever body's it is.
@@ -72,32 +72,32 @@ namespace scree
     class LawFields
     {
     public:
-      LawFields(const std::list<Phase<dim>> &phases, PatchOutput<0, dim> &output)
+      LawFields(const std::list<SoilBody<dim>> &bodies, PatchOutput<0, dim> &output)
           : names(output.names)
           , first_row(names.size())
       {
-        for (const auto &phase : phases)
-          for (const auto &fields : { phase.material->internal_variable_names(), phase.material->output_names() })
+        for (const auto &body : bodies)
+          for (const auto &fields : { body.material->internal_variable_names(), body.material->output_names() })
             for (const auto &field : fields)
               if (std::find(names.begin() + first_row, names.end(), field) == names.end())
                 output.add_name(field);
       }
 
       /// Prepares put() for the points of a body.
-      void begin(const Phase<dim> &phase)
+      void begin(const SoilBody<dim> &body)
       {
-        internal = rows_of(phase.material->internal_variable_names());
-        derived  = rows_of(phase.material->output_names());
+        internal = rows_of(body.material->internal_variable_names());
+        derived  = rows_of(body.material->output_names());
         values.resize(derived.size());
       }
 
-      void put(Rows<dim> &rows, const Phase<dim> &phase, const double *properties)
+      void put(Rows<dim> &rows, const SoilBody<dim> &body, const double *properties)
       {
-        const double *internals = properties + phase.layout.internal_variables;
-        phase.material->output(properties + phase.layout.left_cauchy_green,
-                               properties + phase.layout.stress,
+        const double *internals = properties + body.layout.internal_variables;
+        body.material->output(properties + body.layout.left_cauchy_green,
+                               properties + body.layout.stress,
                                internals,
-                               properties[phase.layout.volume] * phase.density / properties[phase.layout.mass],
+                               properties[body.layout.volume] * body.density / properties[body.layout.mass],
                                values.data());
         for (unsigned int i = 0; i < internal.size(); ++i)
           rows.set(internal[i], internals[i]);
@@ -123,7 +123,7 @@ namespace scree
 
 
   template <int dim>
-  void Graphics<dim>::write_points(const std::list<Phase<dim>> &phases,
+  void Graphics<dim>::write_points(const std::list<SoilBody<dim>> &bodies,
                                    const NodalField<dim> &field,
                                    const double time,
                                    const WaterView<dim> *view)
@@ -140,34 +140,34 @@ namespace scree
         output.add_name("pore_pressure");
         output.add_vector("seepage_velocity");
       }
-    LawFields<dim> law_fields(phases, output);
+    LawFields<dim> law_fields(bodies, output);
 
-    unsigned int body = 0;
-    for (const auto &phase : phases)
+    unsigned int number = 0;
+    for (const auto &body : bodies)
       {
-        law_fields.begin(phase);
-        for (const auto &cell : phase.points.cells())
+        law_fields.begin(body);
+        for (const auto &cell : body.points.cells())
           {
             std::array<double, (1 << dim)> pressure;
             if (view)
               pressure = view->pressure_of_cell(cell.cell);
             for (unsigned int p = 0; p < cell.n_points; ++p)
               {
-                const double *properties = cell.properties + p * phase.points.stride();
+                const double *properties = cell.properties + p * body.points.stride();
                 Rows<dim> rows(output, cell.location[p]);
-                put_state(rows, phase, properties, body);
+                put_state(rows, body, properties, number);
                 if (view)
                   {
                     const Point<dim> &x = cell.reference_location[p];
-                    const double n      = phase.porosity(properties);
+                    const double n      = body.porosity(properties);
                     rows.put(n);
                     rows.put(pressure_at<dim>(x, pressure));
                     rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
                   }
-                law_fields.put(rows, phase, properties);
+                law_fields.put(rows, body, properties);
               }
           }
-        ++body;
+        ++number;
       }
     record("points",
            point_files,
@@ -215,9 +215,9 @@ namespace scree
   }
 
   template void
-  Graphics<2>::write_points(const std::list<Phase<2>> &, const NodalField<2> &, const double, const WaterView<2> *);
+  Graphics<2>::write_points(const std::list<SoilBody<2>> &, const NodalField<2> &, const double, const WaterView<2> *);
   template void
-  Graphics<3>::write_points(const std::list<Phase<3>> &, const NodalField<3> &, const double, const WaterView<3> *);
+  Graphics<3>::write_points(const std::list<SoilBody<3>> &, const NodalField<3> &, const double, const WaterView<3> *);
   template void Graphics<2>::write_water(const NodalField<2> &,
                                          const double,
                                          const WaterView<2> &,

@@ -216,14 +216,14 @@ namespace scree
 
 
   template <int dim>
-  std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
+  std::vector<double> mass_percentiles(const std::list<SoilBody<dim>> &bodies,
                                        const BackgroundGrid<dim> &grid,
                                        const unsigned int axis,
                                        const std::vector<double> &fractions)
   {
     Views<dim> masses;
-    for (const auto &phase : phases)
-      masses.push_back({ phase.points, phase.layout.mass });
+    for (const auto &body : bodies)
+      masses.push_back({ body.points, body.layout.mass });
     return percentiles(masses, grid, axis, fractions);
   }
 
@@ -242,11 +242,11 @@ namespace scree
 
 
   template <int dim>
-  double stress_oscillation(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid)
+  double stress_oscillation(const std::list<SoilBody<dim>> &bodies, const BackgroundGrid<dim> &grid)
   {
     Views<dim> stresses;
-    for (const auto &phase : phases)
-      stresses.push_back({ phase.points, phase.layout.stress });
+    for (const auto &body : bodies)
+      stresses.push_back({ body.points, body.layout.stress });
     return oscillation(stresses, grid, [](const double *stress) { return mean_effective_stress(stress); });
   }
 
@@ -262,24 +262,24 @@ namespace scree
 
 
   template <int dim>
-  double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases,
+  double kinetic_to_elastic_energy(const std::list<SoilBody<dim>> &bodies,
                                    const std::list<WaterPhase<dim>> &water,
                                    const MPI_Comm communicator)
   {
-    const PointSums<dim> sums(phases, water, Tensor<1, dim>(), communicator);
+    const PointSums<dim> sums(bodies, water, Tensor<1, dim>(), communicator);
     return sums.elastic > 0 ? sums.kinetic / sums.elastic : std::numeric_limits<double>::infinity();
   }
 
 
   template <int dim>
-  WaterMeasures measure_water(const std::list<Phase<dim>> &phases,
+  WaterMeasures measure_water(const std::list<SoilBody<dim>> &bodies,
                               const std::list<WaterPhase<dim>> &water,
                               const BackgroundGrid<dim> &grid)
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
     const double cell_volume    = Utilities::fixed_power<dim>(grid.cell_size());
     std::vector<double> sums(5, 0.); // water points, water mass, that outside soil, overfull volume, volume
-    for (const CellContents &cell : contents_of_cells(phases, water, grid))
+    for (const CellContents &cell : contents_of_cells(bodies, water, grid))
       {
         const double volume = cell.grain_volume + cell.water_volume;
         sums[0] += cell.n_water_points;
@@ -312,7 +312,7 @@ namespace scree
   }
 
   template double deviatoric_stress<2>(const double *);
-  template std::vector<double> mass_percentiles(const std::list<Phase<2>> &,
+  template std::vector<double> mass_percentiles(const std::list<SoilBody<2>> &,
                                                 const BackgroundGrid<2> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
@@ -321,14 +321,14 @@ namespace scree
                                                 const unsigned int,
                                                 const std::vector<double> &);
   template double
-  kinetic_to_elastic_energy(const std::list<Phase<2>> &, const std::list<WaterPhase<2>> &, const MPI_Comm);
-  template double stress_oscillation(const std::list<Phase<2>> &, const BackgroundGrid<2> &);
+  kinetic_to_elastic_energy(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const MPI_Comm);
+  template double stress_oscillation(const std::list<SoilBody<2>> &, const BackgroundGrid<2> &);
   template double pressure_oscillation(const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
   template WaterMeasures
-  measure_water(const std::list<Phase<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  measure_water(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
 
   template double deviatoric_stress<3>(const double *);
-  template std::vector<double> mass_percentiles(const std::list<Phase<3>> &,
+  template std::vector<double> mass_percentiles(const std::list<SoilBody<3>> &,
                                                 const BackgroundGrid<3> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
@@ -337,9 +337,9 @@ namespace scree
                                                 const unsigned int,
                                                 const std::vector<double> &);
   template double
-  kinetic_to_elastic_energy(const std::list<Phase<3>> &, const std::list<WaterPhase<3>> &, const MPI_Comm);
-  template double stress_oscillation(const std::list<Phase<3>> &, const BackgroundGrid<3> &);
+  kinetic_to_elastic_energy(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const MPI_Comm);
+  template double stress_oscillation(const std::list<SoilBody<3>> &, const BackgroundGrid<3> &);
   template double pressure_oscillation(const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
   template WaterMeasures
-  measure_water(const std::list<Phase<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  measure_water(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
 } // namespace scree

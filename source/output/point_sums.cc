@@ -14,16 +14,16 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  PointSums<dim>::PointSums(const std::list<Phase<dim>> &phases,
+  PointSums<dim>::PointSums(const std::list<SoilBody<dim>> &bodies,
                             const std::list<WaterPhase<dim>> &water,
                             const Tensor<1, dim> &gravity,
                             const MPI_Comm communicator)
       : height(std::numeric_limits<double>::lowest())
   {
-    for (const auto &phase : phases)
-      for (const auto &cell : phase.points.cells())
+    for (const auto &body : bodies)
+      for (const auto &cell : body.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
-          add(phase, cell.location[p], cell.properties + p * phase.points.stride(), gravity);
+          add(body, cell.location[p], cell.properties + p * body.points.stride(), gravity);
     for (const auto &one : water)
       for (const auto &cell : one.points().cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
@@ -48,21 +48,21 @@ namespace scree
 
 
   template <int dim>
-  void PointSums<dim>::add(const Phase<dim> &phase,
+  void PointSums<dim>::add(const SoilBody<dim> &body,
                            const Point<dim> &x,
                            const double *properties,
                            const Tensor<1, dim> &gravity)
   {
-    const double mass = properties[phase.layout.mass];
-    const double P    = mean_effective_stress(properties + phase.layout.stress);
+    const double mass = properties[body.layout.mass];
+    const double P    = mean_effective_stress(properties + body.layout.stress);
     soil_points += 1;
     soil_mass += mass;
-    add_motion(mass, properties + phase.layout.velocity, x, gravity);
-    elastic += mass / phase.density * phase.material->elastic_energy(properties + phase.layout.left_cauchy_green);
+    add_motion(mass, properties + body.layout.velocity, x, gravity);
+    elastic += mass / body.density * body.material->elastic_energy(properties + body.layout.left_cauchy_green);
     pressure += P;
     largest_pressure = std::max(largest_pressure, P);
     height           = std::max(height, x[dim - 1]);
-    largest_porosity = std::max(largest_porosity, phase.porosity(properties));
+    largest_porosity = std::max(largest_porosity, body.porosity(properties));
   }
 
 

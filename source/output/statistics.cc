@@ -73,7 +73,7 @@ namespace scree
 
 
   template <int dim>
-  void Statistics<dim>::collect(const std::list<Phase<dim>> &phases,
+  void Statistics<dim>::collect(const std::list<SoilBody<dim>> &bodies,
                                 const std::list<WaterPhase<dim>> &water,
                                 const RunTotals<dim> &local,
                                 const double time,
@@ -82,7 +82,7 @@ namespace scree
                                 const UpdateReport &last_step)
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const PointSums<dim> now(phases, water, gravity, communicator);
+    const PointSums<dim> now(bodies, water, gravity, communicator);
 
     const RunTotals<dim> totals     = local.sum_over_ranks(communicator);
     const StepBalance<dim> &balance = totals.balance;
@@ -114,28 +114,28 @@ namespace scree
     add("Numerical dissipation (J)",
         start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.drag_dissipation -
             totals.lost_energy + balance.load_work);
-    if (!phases.empty())
-      add_soil_columns(phases, now, totals, last_step);
+    if (!bodies.empty())
+      add_soil_columns(bodies, now, totals, last_step);
     add("Points lost", totals.n_lost);
     add("Mass lost (kg)", totals.lost_mass);
     if (!water.empty())
-      add_water_columns(phases, water, now, totals, step);
+      add_water_columns(bodies, water, now, totals, step);
     add_load_column(balance);
   }
 
 
   template <int dim>
-  void Statistics<dim>::add_soil_columns(const std::list<Phase<dim>> &phases,
+  void Statistics<dim>::add_soil_columns(const std::list<SoilBody<dim>> &bodies,
                                          const PointSums<dim> &now,
                                          const RunTotals<dim> &totals,
                                          const UpdateReport &last_step)
   {
-    const auto front = mass_percentiles(phases, grid, 0, { 0.90, 0.99, 0.995 });
+    const auto front = mass_percentiles(bodies, grid, 0, { 0.90, 0.99, 0.995 });
     add("Front 90 % (m)", front[0]);
     add("Front 99 % (m)", front[1]);
     add("Front 99.5 % (m)", front[2]);
     add("Height (m)", std::max(now.height, grid.lower_corner()[dim - 1]));
-    add("Stress oscillation (-)", stress_oscillation(phases, grid));
+    add("Stress oscillation (-)", stress_oscillation(bodies, grid));
     add("Mean P (Pa)", now.soil_points > 0 ? now.pressure / now.soil_points : 0.);
     add("Largest P (Pa)", now.largest_pressure);
     add("Separated points",
@@ -148,13 +148,13 @@ namespace scree
 
 
   template <int dim>
-  void Statistics<dim>::add_water_columns(const std::list<Phase<dim>> &phases,
+  void Statistics<dim>::add_water_columns(const std::list<SoilBody<dim>> &bodies,
                                           const std::list<WaterPhase<dim>> &water,
                                           const PointSums<dim> &now,
                                           const RunTotals<dim> &totals,
                                           const unsigned long long step)
   {
-    const WaterMeasures measures = measure_water(phases, water, grid);
+    const WaterMeasures measures = measure_water(bodies, water, grid);
     add("Water points", measures.n_points);
     add("Water mass (kg)", measures.mass);
     add("Water outside soil (kg)", measures.mass_outside_soil);
@@ -168,7 +168,7 @@ namespace scree
     add("Water front 99 % (m)", front[1]);
     add("Water front 99.5 % (m)", front[2]);
     add("Water tip (m)", measures.tip);
-    if (!phases.empty())
+    if (!bodies.empty())
       add("Largest porosity (-)", now.largest_porosity);
     add("Drag dissipation (J)", totals.balance.drag_dissipation);
 

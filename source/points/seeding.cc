@@ -69,16 +69,16 @@ namespace scree
 
 
   template <int dim>
-  void seed(Phase<dim> &phase,
+  void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,
             const Triangulation<dim> &triangulation,
             const double cell_size)
   {
-    const Region<dim> region(entry_name(phase.name, "Region"), parameters.region);
+    const Region<dim> region(entry_name(body.name, "Region"), parameters.region);
     const auto velocity =
         parameters.initial_velocity.empty()
             ? nullptr
-            : parse_expression<dim>(entry_name(phase.name, "Initial velocity"), parameters.initial_velocity, dim);
+            : parse_expression<dim>(entry_name(body.name, "Initial velocity"), parameters.initial_velocity, dim);
 
     const MPI_Comm communicator = triangulation.get_communicator();
     const auto seeds            = lattice_seeds<dim>(triangulation,
@@ -92,24 +92,24 @@ namespace scree
     for (const Seed<dim> &one : seeds)
       volume += one.volume;
     require_entry(Utilities::MPI::sum(volume, communicator) > 0,
-                  phase.name,
+                  body.name,
                   "Region",
                   parameters.region,
                   "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
 
-    const auto &layout = phase.layout;
+    const auto &layout = body.layout;
     insert_points<dim>(
-        phase.points, seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
+        body.points, seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
           if (velocity)
             for (unsigned int a = 0; a < dim; ++a)
               properties[layout.velocity + a] = velocity->value(one.location, a);
-          properties[layout.mass]   = phase.density * one.volume;
+          properties[layout.mass]   = body.density * one.volume;
           properties[layout.volume] = one.volume;
           for (unsigned int a = 0; a < 3; ++a)
             properties[layout.left_cauchy_green + a] = 1.;
         });
   }
 
-  template void seed(Phase<2> &, const SeedingParameters &, const Triangulation<2> &, const double);
-  template void seed(Phase<3> &, const SeedingParameters &, const Triangulation<3> &, const double);
+  template void seed(SoilBody<2> &, const SeedingParameters &, const Triangulation<2> &, const double);
+  template void seed(SoilBody<3> &, const SeedingParameters &, const Triangulation<3> &, const double);
 } // namespace scree

@@ -102,7 +102,7 @@ namespace scree
     template <int dim>
     void fill_pores(WaterPhase<dim> &water)
     {
-      const Phase<dim> &soil = *water.carrier();
+      const SoilBody<dim> &soil = *water.carrier();
       for (const auto &cell : water.points().cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {

@@ -61,7 +61,7 @@ namespace scree
 
 
   template <int dim>
-  double FreeSurfaceLocator<dim>::hat_volume(const unsigned int corner) const
+  double FreeSurfaceLocator<dim>::volume_under(const unsigned int corner) const
   {
     return Utilities::fixed_power<dim>(grid.cell_size()) * cells_in_box(corner) / (1 << dim);
   }
@@ -128,7 +128,7 @@ namespace scree
     const auto classify = [&](const unsigned int corner) {
       const double *sums = filling[corner];
       // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
-      const double fill = std::min(sums[filled] / hat_volume(corner), sums[wet_cells] / cells_in_box(corner));
+      const double fill = std::min(sums[filled] / volume_under(corner), sums[wet_cells] / cells_in_box(corner));
       CornerKind &kind  = kinds[corner];
       distances[corner] = distance_from_fill(fill);
       kind              = CornerKind::dry;

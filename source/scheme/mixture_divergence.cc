@@ -23,8 +23,8 @@ namespace scree
         weights[q] = gauss.weight(q);
         for (unsigned int v = 0; v < n_corners; ++v)
           {
-            hats[q][v]          = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
-            hat_gradients[q][v] = GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
+            shapes[q][v]          = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
+            shape_gradients[q][v] = GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
           }
       }
   }
@@ -98,7 +98,7 @@ namespace scree
                   divergence += slope(rows_of_flow[c], c);
                 const double weighted = -scale * weights[q] * divergence;
                 for (unsigned int v = 0; v < n_corners; ++v)
-                  integrals[v] += weighted * hats[q][v];
+                  integrals[v] += weighted * shapes[q][v];
               }
             else
               {
@@ -107,7 +107,7 @@ namespace scree
                   flux[c] = value(rows_of_flow[c]);
                 const double weight = scale * weights[q] * inverse_width;
                 for (unsigned int v = 0; v < n_corners; ++v)
-                  integrals[v] += weight * (flux * hat_gradients[q][v]);
+                  integrals[v] += weight * (flux * shape_gradients[q][v]);
               }
           }
         for (unsigned int v = 0; v < n_corners; ++v)

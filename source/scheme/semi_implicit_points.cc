@@ -27,7 +27,7 @@ namespace scree
     for (const unsigned int corner : surface.wet_corners())
       if (surface.kind(corner) == CornerKind::unknown && surface.is_free_water(corner))
         source.local_element(corner) =
-            volume_correction * (surface.fill(corner) - 1.) * surface.hat_volume(corner) / time_step;
+            volume_correction * (surface.fill(corner) - 1.) * surface.volume_under(corner) / time_step;
     count(solver.solve(source, pressure, crowding), balance);
     crowding.update_ghost_values();
     surface.extrapolate(mixture, crowding);
@@ -83,7 +83,7 @@ namespace scree
 
 
   template <int dim>
-  void SemiImplicitScheme<dim>::fluidise(Phase<dim> &soil) const
+  void SemiImplicitScheme<dim>::fluidise(SoilBody<dim> &soil) const
   {
     if (fluidisation_porosity >= 1.)
       return;
@@ -106,6 +106,6 @@ namespace scree
   template void SemiImplicitScheme<3>::correct_volume(WaterPhase<3> &, const double, StepBalance<3> &);
   template double SemiImplicitScheme<2>::largest_step() const;
   template double SemiImplicitScheme<3>::largest_step() const;
-  template void SemiImplicitScheme<2>::fluidise(Phase<2> &) const;
-  template void SemiImplicitScheme<3>::fluidise(Phase<3> &) const;
+  template void SemiImplicitScheme<2>::fluidise(SoilBody<2> &) const;
+  template void SemiImplicitScheme<3>::fluidise(SoilBody<3> &) const;
 } // namespace scree

@@ -25,7 +25,7 @@ namespace scree
 
 
   template <int dim>
-  void SemiImplicitScheme<dim>::read_pressure(const std::list<Phase<dim>> &soil,
+  void SemiImplicitScheme<dim>::read_pressure(const std::list<SoilBody<dim>> &soil,
                                               const std::list<WaterPhase<dim>> &water)
   {
     gather(soil, water);
@@ -114,14 +114,14 @@ namespace scree
   }
 
   template void SemiImplicitScheme<2>::find_pressure();
-  template void SemiImplicitScheme<2>::read_pressure(const std::list<Phase<2>> &, const std::list<WaterPhase<2>> &);
+  template void SemiImplicitScheme<2>::read_pressure(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &);
   template std::array<double, 4> SemiImplicitScheme<2>::at_corners(const CornerVector &, const unsigned int) const;
   template std::array<double, 4> SemiImplicitScheme<2>::corner_pressure(const unsigned int) const;
   template void
   SemiImplicitScheme<2>::solve_pressure(NodalField<2> &, const double, const double, TimerOutput &, StepBalance<2> &);
   template void SemiImplicitScheme<2>::count(const SolveReport &, StepBalance<2> &) const;
   template void SemiImplicitScheme<3>::find_pressure();
-  template void SemiImplicitScheme<3>::read_pressure(const std::list<Phase<3>> &, const std::list<WaterPhase<3>> &);
+  template void SemiImplicitScheme<3>::read_pressure(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &);
   template std::array<double, 8> SemiImplicitScheme<3>::at_corners(const CornerVector &, const unsigned int) const;
   template std::array<double, 8> SemiImplicitScheme<3>::corner_pressure(const unsigned int) const;
   template void

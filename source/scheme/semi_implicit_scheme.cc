@@ -76,7 +76,7 @@ namespace scree
 
 
   template <int dim>
-  void SemiImplicitScheme<dim>::gather(const std::list<Phase<dim>> &soil, const std::list<WaterPhase<dim>> &water)
+  void SemiImplicitScheme<dim>::gather(const std::list<SoilBody<dim>> &soil, const std::list<WaterPhase<dim>> &water)
   {
     mixture.clear();
     pores.clear();

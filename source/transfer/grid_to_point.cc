@@ -24,23 +24,23 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  MotionReport Transfer<dim>::move_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step)
+  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
   {
     const double width = grid.cell_size();
     const double slope = time_step / width;
     const double keep  = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
-    const auto &layout = phase.layout;
+    const auto &layout = body.layout;
 
     MotionReport report;
     double largest_square = 0;
-    for (const CellPoints<dim> &cell : phase.points.cells())
+    for (const CellPoints<dim> &cell : body.points.cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field);
         motion.resize(cell.n_points);
 
         double *properties = cell.properties;
-        for (unsigned int p = 0; p < cell.n_points; ++p, properties += phase.points.stride())
+        for (unsigned int p = 0; p < cell.n_points; ++p, properties += body.points.stride())
           {
             const CellBasis<dim, n> basis(cell.reference_location[p], open);
             const RowFactors<dim, n> rows(basis);
@@ -79,18 +79,18 @@ namespace scree
             motion.out_of_plane_stretch[p]  = 1.;
             motion.volume_change[p]         = determinant(increment);
             motion.volume[p]                = properties[layout.volume];
-            motion.reference_volume[p]      = properties[layout.mass] / phase.density;
+            motion.reference_volume[p]      = properties[layout.mass] / body.density;
           }
 
-        const auto points = phase.material_points(cell);
+        const auto points = body.material_points(cell);
         apply_f_bar(f_bar, motion, points);
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
-            double &volume = cell.properties[p * phase.points.stride() + layout.volume];
+            double &volume = cell.properties[p * body.points.stride() + layout.volume];
             volume *= motion.volume_change[p];
             motion.volume_ratio[p] = volume / motion.reference_volume[p];
           }
-        phase.material->update(points, motion.material_motion(), report.material);
+        body.material->update(points, motion.material_motion(), report.material);
       }
     report.largest_speed = std::sqrt(largest_square);
     return report;
@@ -98,19 +98,19 @@ namespace scree
 
 
   template <int dim>
-  MotionReport Transfer<dim>::to_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step)
+  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::flip:
-          return move_points<n, TransferMethod::flip>(phase, field, time_step);
+          return move_points<n, TransferMethod::flip>(body, field, time_step);
         case TransferMethod::pic:
-          return move_points<n, TransferMethod::pic>(phase, field, time_step);
+          return move_points<n, TransferMethod::pic>(body, field, time_step);
         case TransferMethod::apic:
-          return move_points<n, TransferMethod::apic>(phase, field, time_step);
+          return move_points<n, TransferMethod::apic>(body, field, time_step);
         default:
-          return move_points<n, TransferMethod::tpic>(phase, field, time_step);
+          return move_points<n, TransferMethod::tpic>(body, field, time_step);
         }
     };
     if (grid.n_nodes_1d() == 2)

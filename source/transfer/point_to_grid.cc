@@ -62,19 +62,19 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  void Transfer<dim>::add_points(const Phase<dim> &phase, NodalField<dim> &field) const
+  void Transfer<dim>::add_points(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
     constexpr bool is_affine = method == TransferMethod::apic || method == TransferMethod::tpic;
     const double width = grid.cell_size(), inverse_width = 1. / width;
-    const auto &layout = phase.layout;
+    const auto &layout = body.layout;
 
-    for (const CellPoints<dim> &cell : phase.points.cells())
+    for (const CellPoints<dim> &cell : body.points.cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         CellSums<dim, n> sums;
 
         const double *properties = cell.properties;
-        for (unsigned int p = 0; p < cell.n_points; ++p, properties += phase.points.stride())
+        for (unsigned int p = 0; p < cell.n_points; ++p, properties += body.points.stride())
           {
             const CellBasis<dim, n> basis(cell.reference_location[p], open);
             const RowFactors<dim, n> rows(basis);
@@ -115,17 +115,17 @@ namespace scree
 
 
   template <int dim>
-  void Transfer<dim>::to_grid(const Phase<dim> &phase, NodalField<dim> &field) const
+  void Transfer<dim>::to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::apic:
-          return add_points<n, TransferMethod::apic>(phase, field);
+          return add_points<n, TransferMethod::apic>(body, field);
         case TransferMethod::tpic:
-          return add_points<n, TransferMethod::tpic>(phase, field);
+          return add_points<n, TransferMethod::tpic>(body, field);
         default: // FLIP and PIC differ on the way back only.
-          return add_points<n, TransferMethod::flip>(phase, field);
+          return add_points<n, TransferMethod::flip>(body, field);
         }
     };
     if (grid.n_nodes_1d() == 2)
@@ -134,6 +134,6 @@ namespace scree
       dispatch(std::integral_constant<int, 3>());
   }
 
-  template void Transfer<2>::to_grid(const Phase<2> &, NodalField<2> &) const;
-  template void Transfer<3>::to_grid(const Phase<3> &, NodalField<3> &) const;
+  template void Transfer<2>::to_grid(const SoilBody<2> &, NodalField<2> &) const;
+  template void Transfer<3>::to_grid(const SoilBody<3> &, NodalField<3> &) const;
 } // namespace scree

@@ -188,7 +188,7 @@ namespace scree
   }
 
   template <int dim>
-  void SurfaceLoad<dim>::require_soil(const std::list<Phase<dim>> &bodies, const MPI_Comm communicator) const
+  void SurfaceLoad<dim>::require_soil(const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator) const
   {
     std::set<unsigned int> cells_with_soil;
     for (const auto &body : bodies)

@@ -14,7 +14,7 @@ namespace scree
     constexpr double standard_gravity  = 9.81; // m/s^2
     constexpr double smallest_porosity = 1e-3; // keeps the drag finite where grains overlap
 
-    /// The hat functions of a cell's corners at one of its points.
+    /// The linear functions of a cell's corners at one of its points.
     template <int dim>
     std::array<double, (1 << dim)> corner_values(const Point<dim> &x)
     {
@@ -88,7 +88,7 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void WaterTransfer<dim>::add_soil(const Phase<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const
+  void WaterTransfer<dim>::add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const
   {
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const auto &layout            = soil.layout;
@@ -265,7 +265,7 @@ namespace scree
     const double width     = grid.cell_size();
     const double keep      = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
     const auto &layout     = water.layout;
-    const Phase<dim> *soil = water.carrier();
+    const SoilBody<dim> *soil = water.carrier();
 
     double largest_square = 0;
     for (const CellPoints<dim> &cell : water.points().cells())
@@ -337,7 +337,7 @@ namespace scree
 
 
   template <int dim>
-  void WaterTransfer<dim>::soil_to_grid(const Phase<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const
+  void WaterTransfer<dim>::soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const
   {
     if (grid.n_nodes_1d() == 2)
       add_soil<2>(soil, mixture, pores);

@@ -13,7 +13,7 @@
 /// Runs the case and hands each point's location and properties to `inspect`.
 template <int dim>
 void run_case(const std::string &text,
-              const std::function<void(const scree::Phase<dim> &, const dealii::Point<dim> &, const double *)> &inspect)
+              const std::function<void(const scree::SoilBody<dim> &, const dealii::Point<dim> &, const double *)> &inspect)
 {
   const std::string file = "case.prm";
   std::ofstream(file) << text << "\nset Output directory = results\n"
@@ -21,10 +21,10 @@ void run_case(const std::string &text,
   scree::Parameters parameters(file);
   scree::Simulation<dim> simulation(parameters, scree::Start::fresh, MPI_COMM_WORLD);
   simulation.run();
-  for (const auto &phase : simulation.bodies())
-    for (const auto &cell : phase.points.cells())
+  for (const auto &body : simulation.bodies())
+    for (const auto &cell : body.points.cells())
       for (unsigned int p = 0; p < cell.n_points; ++p)
-        inspect(phase, cell.location[p], cell.properties + p * phase.points.stride());
+        inspect(body, cell.location[p], cell.properties + p * body.points.stride());
 }
 
 /// Root of mean squared errors over that of mean squared values.

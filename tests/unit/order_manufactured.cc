@@ -62,10 +62,10 @@ int main(int argc, char *argv[])
                     "\n set Material = linear elastic\n set Grain density = 1e3\n"
                     " set Initial velocity = 0.1*pi*sin(pi*x); 0.1*pi*sin(pi*y)\n"
                     " subsection Linear elastic\n  set Young's modulus = 1e4\n  set Poisson's ratio = 0\n end\nend\n",
-                [&](const auto &phase, const auto &x, const double *properties) {
+                [&](const auto &body, const auto &x, const double *properties) {
                   const double F_x = stretch(x[0], time), F_y = stretch(x[1], time);
-                  velocities.add(properties[phase.layout.velocity], velocity(x[0], time));
-                  stresses.add(properties[phase.layout.stress], E * std::log(F_x) / (F_x * F_y));
+                  velocities.add(properties[body.layout.velocity], velocity(x[0], time));
+                  stresses.add(properties[body.layout.stress], E * std::log(F_x) / (F_x * F_y));
                 });
             velocity_errors.push_back(velocities.norm());
             stress_errors.push_back(stresses.norm());

@@ -28,9 +28,9 @@ int main(int argc, char *argv[])
                   "subsection Soil\n set Region = 1\n set Material = linear elastic\n set Grain density = 1e3\n"
                   " set Initial velocity = 1e-3*sin(pi*x); 0\n"
                   " subsection Linear elastic\n  set Young's modulus = 1e4\n  set Poisson's ratio = 0\n end\nend\n",
-              [&](const auto &phase, const auto &x, const double *properties) {
-                velocity.add(properties[phase.layout.velocity], V * std::sin(pi * x[0]) * std::cos(pi * c * time));
-                stress.add(properties[phase.layout.stress], E * V / c * std::cos(pi * x[0]) * std::sin(pi * c * time));
+              [&](const auto &body, const auto &x, const double *properties) {
+                velocity.add(properties[body.layout.velocity], V * std::sin(pi * x[0]) * std::cos(pi * c * time));
+                stress.add(properties[body.layout.stress], E * V / c * std::cos(pi * x[0]) * std::sin(pi * c * time));
               });
           velocity_errors.push_back(velocity.norm());
           stress_errors.push_back(stress.norm());

@@ -19,7 +19,7 @@ template <int dim>
 struct Scene
 {
   BackgroundGrid<dim> grid;
-  std::list<Phase<dim>> phases;
+  std::list<SoilBody<dim>> bodies;
   std::list<WaterPhase<dim>> water;
 
   static GridParameters box()
@@ -40,14 +40,14 @@ struct Scene
         SeedingParameters seeding;
         seeding.region          = region;
         seeding.points_per_cell = 2;
-        phases.emplace_back("Soil",
+        bodies.emplace_back("Soil",
                             1000.,
                             1000.,
                             make_material<dim>(material),
                             PropertyLayout<dim>(0, false),
                             grid.triangulation(),
                             grid.mapping());
-        seed(phases.back(), seeding, grid.triangulation(), grid.cell_size());
+        seed(bodies.back(), seeding, grid.triangulation(), grid.cell_size());
       }
   }
 
@@ -91,11 +91,11 @@ struct Scene
   template <typename Pressure>
   void set_pressure(const Pressure &pressure)
   {
-    for (auto &phase : phases)
-      for (const auto &cell : phase.points.cells())
+    for (auto &body : bodies)
+      for (const auto &cell : body.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
-            double *stress = cell.properties + p * phase.points.stride() + phase.layout.stress;
+            double *stress = cell.properties + p * body.points.stride() + body.layout.stress;
             const double P = pressure(cell.location[p]);
             for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
               stress[c] = c < 3 ? -P + (c == 0 ? 300. : -150.) : 70.;
@@ -109,7 +109,7 @@ void test_percentiles(std::ostream &out)
 {
   const Scene<dim> scene({ "x > 0.1 && x < 0.5 && y < 0.3", "x > 0.5 && x < 0.8 && y < 0.3" });
   constexpr double half_width = 0.025;
-  const auto percentiles      = mass_percentiles(scene.phases, scene.grid, 0, { 0.005, 0.33, 0.5, 0.9, 0.99, 1. });
+  const auto percentiles      = mass_percentiles(scene.bodies, scene.grid, 0, { 0.005, 0.33, 0.5, 0.9, 0.99, 1. });
   const std::vector<double> expected{ 0.1 + 0.7 * 0.005, 0.1 + 0.7 * 0.33, 0.1 + 0.7 * 0.5,
                                       0.1 + 0.7 * 0.9,   0.1 + 0.7 * 0.99, 0.8 };
   for (unsigned int i = 0; i < expected.size(); ++i)
@@ -132,7 +132,7 @@ void test_tie(std::ostream &out)
   out << dim << "D percentiles at a tie:";
   for (unsigned int tenths = 1; tenths < 10; ++tenths)
     {
-      const double percentile = mass_percentiles(scene.phases, scene.grid, 0, { 0.1 * tenths })[0];
+      const double percentile = mass_percentiles(scene.bodies, scene.grid, 0, { 0.1 * tenths })[0];
       AssertThrow(std::abs(percentile - (0.05 * tenths - 0.025)) < 1e-9,
                   ExcMessage("The tie at " + Utilities::to_string(0.1 * tenths) + " went to " +
                              Utilities::to_string(percentile)));
@@ -153,7 +153,7 @@ void test_oscillation(std::ostream &out)
     return P;
   };
   scene.set_pressure(linear);
-  const double none = stress_oscillation(scene.phases, scene.grid);
+  const double none = stress_oscillation(scene.bodies, scene.grid);
   AssertThrow(none < 1e-10, ExcMessage("A linear pressure oscillates by " + Utilities::to_string(none)));
 
   // Neighbouring points of a full block take turns between 0 and 2: the fit is 1, the residual 1, and so is the mean.
@@ -164,7 +164,7 @@ void test_oscillation(std::ostream &out)
       sum += std::lround((x[a] + 0.3) / 0.05 - 0.5);
     return 1. + (sum % 2 ? 1. : -1.);
   });
-  const double points = stress_oscillation(block.phases, block.grid);
+  const double points = stress_oscillation(block.bodies, block.grid);
   AssertThrow(std::abs(points - 1.) < 0.05, ExcMessage("Turns of points oscillate by " + Utilities::to_string(points)));
 
   // Neighbouring cells take turns: of 3^dim cells one more has the sign of the one in the middle.
@@ -174,11 +174,11 @@ void test_oscillation(std::ostream &out)
       sum += std::lround((x[a] + 0.3) / 0.1 - 0.5);
     return 1. + (sum % 2 ? 1. : -1.);
   });
-  const double cells = stress_oscillation(block.phases, block.grid);
+  const double cells = stress_oscillation(block.bodies, block.grid);
   AssertThrow(std::abs(cells - 1.) < 0.15, ExcMessage("Turns of cells oscillate by " + Utilities::to_string(cells)));
 
   block.set_pressure([](const Point<dim> &) { return 0.; });
-  AssertThrow(stress_oscillation(block.phases, block.grid) == 0., ExcMessage("Soil without stress oscillates."));
+  AssertThrow(stress_oscillation(block.bodies, block.grid) == 0., ExcMessage("Soil without stress oscillates."));
   out << dim << "D oscillation: linear 0 OK, turns of points " << points << ", of cells " << cells << std::endl;
 }
 
@@ -204,12 +204,12 @@ template <int dim>
 void test_water(std::ostream &out)
 {
   Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
-  WaterMeasures dry = measure_water(scene.phases, scene.water, scene.grid);
+  WaterMeasures dry = measure_water(scene.bodies, scene.water, scene.grid);
   expect(dry.mass + dry.largest_pressure + dry.volume_error, 0., 0., "water of a dry scene");
 
   scene.add_water("x > 0.2 && x < 0.6 && y < 0.3", 0.8);
   scene.set_water_pressure([](const Point<dim> &x) { return 1000. * (x[0] - x[1]); });
-  const WaterMeasures wet = measure_water(scene.phases, scene.water, scene.grid);
+  const WaterMeasures wet = measure_water(scene.bodies, scene.water, scene.grid);
   const double column     = 0.6 * std::pow(1.2, dim - 2); // m, times a width in x: a volume
   expect(wet.n_points, std::pow(2., dim) * 0.4 * column / std::pow(0.1, dim), 1e-6, "number of water points");
   expect(wet.mass, 800. * 0.4 * column, 1e-8, "water mass");
@@ -224,7 +224,7 @@ void test_water(std::ostream &out)
 
   // The second time the free cells overflow, too.
   scene.add_water("x > 0.2 && x < 0.6 && y < 0.3", 1.2);
-  expect(measure_water(scene.phases, scene.water, scene.grid).volume_error,
+  expect(measure_water(scene.bodies, scene.water, scene.grid).volume_error,
          (2. * 0.2 + 1. * 0.2) / (0.4 + 2. * 0.4),
          1e-10,
          "volume error of doubly filled cells");
@@ -249,8 +249,8 @@ void test_pressure_oscillation(std::ostream &out)
     return 1. + (sum % 2 ? 1. : -1.);
   });
   expect(pressure_oscillation(scene.water, scene.grid), 1., 1e-10, "oscillation of a checkerboard");
-  expect(stress_oscillation(scene.phases, scene.grid), 0., 0., "oscillation of no soil");
-  expect(mass_percentiles(scene.phases, scene.grid, 0, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
+  expect(stress_oscillation(scene.bodies, scene.grid), 0., 0., "oscillation of no soil");
+  expect(mass_percentiles(scene.bodies, scene.grid, 0, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
   out << dim << "D oscillation of p: OK" << std::endl;
 }
 
@@ -262,14 +262,14 @@ void test_carried_water(std::ostream &out)
   MaterialParameters material;
   material.law               = "linear elastic";
   const unsigned int n_water = WaterLayout<dim>(0, true).n_properties();
-  scene.phases.emplace_back("Wet",
+  scene.bodies.emplace_back("Wet",
                             1000.,
                             2000.,
                             make_material<dim>(material),
                             PropertyLayout<dim>(0, false, n_water),
                             scene.grid.triangulation(),
                             scene.grid.mapping());
-  Phase<dim> &soil = scene.phases.back();
+  SoilBody<dim> &soil = scene.bodies.back();
   SeedingParameters seeding;
   seeding.region          = "x > 0.5 && x < 0.8 && y < 0.3";
   seeding.points_per_cell = 2;
@@ -286,17 +286,17 @@ void test_carried_water(std::ostream &out)
         properties[water.layout.mass]             = 1000. * properties[water.layout.volume];
         properties[soil.layout.left_cauchy_green] = 1.1;
       }
-  const WaterMeasures wet = measure_water(scene.phases, scene.water, scene.grid);
+  const WaterMeasures wet = measure_water(scene.bodies, scene.water, scene.grid);
   const double volume     = 0.3 * 0.6 * std::pow(1.2, dim - 2);
   expect(wet.mass, 500. * volume, 1e-8, "mass of carried water");
   expect(wet.mass_outside_soil, 0., 0., "carried water outside soil");
   expect(wet.volume_error, 0., 1e-12, "volume error of full pores");
 
-  const PointSums<dim> sums(scene.phases, scene.water, Tensor<1, dim>(), MPI_COMM_WORLD);
+  const PointSums<dim> sums(scene.bodies, scene.water, Tensor<1, dim>(), MPI_COMM_WORLD);
   expect(sums.momentum[0], (1000. * 2. + 500. * 3.) * volume, 1e-8, "momentum of soil and water");
   expect(sums.kinetic, 0.5 * (1000. * 4. + 500. * 9.) * volume, 1e-8, "kinetic energy of soil and water");
   expect(sums.largest_porosity, 0.5, 1e-12, "porosity");
-  expect(kinetic_to_elastic_energy(scene.phases, scene.water, MPI_COMM_WORLD) * sums.elastic / sums.kinetic,
+  expect(kinetic_to_elastic_energy(scene.bodies, scene.water, MPI_COMM_WORLD) * sums.elastic / sums.kinetic,
          1.,
          1e-12,
          "ratio of the energies");

@@ -32,7 +32,7 @@ template <int dim>
 struct Scene
 {
   BackgroundGrid<dim> grid;
-  std::list<Phase<dim>> phases;
+  std::list<SoilBody<dim>> bodies;
   std::list<WaterPhase<dim>> water;
   NodalField<dim> soil_field, water_field;
 
@@ -51,14 +51,14 @@ struct Scene
   {
     MaterialParameters material;
     material.law = "linear elastic";
-    phases.emplace_back("Soil",
+    bodies.emplace_back("Soil",
                         1000.,
                         2000.,
                         make_material<dim>(material),
                         PropertyLayout<dim>(0, false, WaterLayout<dim>(0, false).n_properties()),
                         grid.triangulation(),
                         grid.mapping());
-    Phase<dim> &soil = phases.back();
+    SoilBody<dim> &soil = bodies.back();
     SeedingParameters seeding;
     seeding.region          = "x < 0.4";
     seeding.points_per_cell = 2;
@@ -149,9 +149,9 @@ void test_graphics(std::ostream &out)
                               corners.fill(100.);
                               return corners;
                             } };
-  graphics.write(scene.phases, scene.soil_field, 0., &view);
+  graphics.write(scene.bodies, scene.soil_field, 0., &view);
   graphics.write({}, scene.soil_field, 1., &view); // a pure water scene has no series of soil points
-  graphics.write(scene.phases, scene.soil_field, 2.);
+  graphics.write(scene.bodies, scene.soil_field, 2.);
   MPI_Barrier(MPI_COMM_WORLD);
   for (const std::string file :
        { "points_00000", "water_00000", "grid_00000", "points_00001", "water_00001", "grid_00002" })
@@ -173,7 +173,7 @@ void test_statistics(std::ostream &out)
   Statistics<dim> statistics(scene.grid, gravity);
   RunTotals<dim> totals;
   const bool first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  statistics.collect(scene.phases, scene.water, totals, 0., 0, 0., UpdateReport());
+  statistics.collect(scene.bodies, scene.water, totals, 0., 0, 0., UpdateReport());
   if (first)
     {
       totals.balance.load_impulse[0]   = 5.;
@@ -183,14 +183,14 @@ void test_statistics(std::ostream &out)
       totals.balance.n_preconditioners = 2;
       totals.lost_water_mass           = 11.;
     }
-  statistics.collect(scene.phases, scene.water, totals, 1., 8, 0.1, UpdateReport());
+  statistics.collect(scene.bodies, scene.water, totals, 1., 8, 0.1, UpdateReport());
   totals.balance.n_iterations *= 2.5;
-  statistics.collect(scene.phases, scene.water, totals, 2., 16, 0.1, UpdateReport());
+  statistics.collect(scene.bodies, scene.water, totals, 2., 16, 0.1, UpdateReport());
   out << dim << "D statistics:" << std::endl;
   statistics.print_last_row(out);
   std::ostringstream dry, empty;
   Statistics<dim> dry_statistics(scene.grid, gravity), water_statistics(scene.grid, gravity);
-  dry_statistics.collect(scene.phases, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
+  dry_statistics.collect(scene.bodies, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
   dry_statistics.print_last_row(dry);
   AssertThrow(dry.str().find("ater") == std::string::npos && dry.str().find("Load") == std::string::npos,
               ExcMessage("A dry scene has columns of water."));
@@ -232,7 +232,7 @@ void test_checkpoint(std::ostream &out)
             place, Point<dim>((place - cell->vertex(0)) / saved.grid.cell_size()), 0, cell, std::vector<double>{ 9. });
     marker.handler().update_cached_numbers();
     marker.sort();
-    save_checkpoint(folder, saved.grid, { &saved.phases.back().points, &empty, &marker }, [](auto &) {});
+    save_checkpoint(folder, saved.grid, { &saved.bodies.back().points, &empty, &marker }, [](auto &) {});
   }
   BackgroundGrid<dim> grid(Scene<dim>::box(), MPI_COMM_WORLD);
   PointSet<dim> soil(grid.triangulation(),

@@ -46,11 +46,11 @@ void test(const std::string &name,
   const Simulation<dim> simulation(parameters, Start::fresh, MPI_COMM_WORLD);
 
   double largest_weight = 0, error = 0;
-  for (const auto &phase : simulation.bodies())
-    for (const auto &cell : phase.points.cells())
+  for (const auto &body : simulation.bodies())
+    for (const auto &cell : body.points.cells())
       for (unsigned int p = 0; p < cell.n_points; ++p)
         {
-          const double *stress = cell.properties + p * phase.points.stride() + phase.layout.stress;
+          const double *stress = cell.properties + p * body.points.stride() + body.layout.stress;
           const double weight  = weight_above(cell.location[p]);
           largest_weight       = std::max(largest_weight, weight);
           for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)

@@ -47,24 +47,24 @@ void test(const std::string &name,
       SeedingParameters seeding;
       seeding.region          = body.region;
       seeding.points_per_cell = points_per_cell;
-      Phase<dim> phase("Soil",
+      SoilBody<dim> body("Soil",
                        density,
                        density,
                        make_material<dim>(material),
                        PropertyLayout<dim>(0, false),
                        grid.triangulation(),
                        grid.mapping());
-      seed(phase, seeding, grid.triangulation(), grid.cell_size());
+      seed(body, seeding, grid.triangulation(), grid.cell_size());
 
       double mass    = 0;
       unsigned int n = 0;
-      for (const auto &cell : phase.points.cells())
+      for (const auto &cell : body.points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p, ++n)
           {
-            const double *properties = cell.properties + p * phase.points.stride();
-            mass += properties[phase.layout.mass];
-            AssertThrow(properties[phase.layout.volume] > 0 &&
-                            std::abs(properties[phase.layout.mass] / properties[phase.layout.volume] / density - 1.) <
+            const double *properties = cell.properties + p * body.points.stride();
+            mass += properties[body.layout.mass];
+            AssertThrow(properties[body.layout.volume] > 0 &&
+                            std::abs(properties[body.layout.mass] / properties[body.layout.volume] / density - 1.) <
                                 1e-14,
                         ExcMessage("A point's mass is not its volume times the density."));
             for (unsigned int a = 0; a < dim; ++a)
@@ -72,7 +72,7 @@ void test(const std::string &name,
                               cell.location[p][a] > 0. && cell.location[p][a] < upper_corner[a],
                           ExcMessage("A point lies outside its cell."));
           }
-      AssertThrow(n == phase.points.handler().n_locally_owned_particles(), ExcMessage("cells() misses points."));
+      AssertThrow(n == body.points.handler().n_locally_owned_particles(), ExcMessage("cells() misses points."));
       mass = Utilities::MPI::sum(mass, MPI_COMM_WORLD);
       n    = Utilities::MPI::sum(n, MPI_COMM_WORLD);
 

@@ -81,7 +81,7 @@ void test_single_point(const std::vector<double> &upper_corner, std::ostream &ou
   const bool is_affine  = true;
   const auto n_further  = WaterLayout<dim>(0, is_affine).n_properties();
   const auto soil_slots = PropertyLayout<dim>(0, is_affine).n_properties;
-  Phase<dim> soil("Soil",
+  SoilBody<dim> soil("Soil",
                   grain_density * (1. - porosity),
                   grain_density,
                   make_material<dim>(material),

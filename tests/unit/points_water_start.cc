@@ -82,7 +82,7 @@ void test(const Scene<dim> &scene, std::ostream &out)
   error = largest = 0;
   for (const SoilRegion &body : scene.soil)
     {
-      Phase<dim> soil("Soil",
+      SoilBody<dim> soil("Soil",
                       body.bulk_density,
                       grain_density,
                       make_material<dim>(material),

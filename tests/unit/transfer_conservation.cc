@@ -38,22 +38,22 @@ template <int dim>
 Momenta<dim> momenta(const Simulation<dim> &simulation, const double spin)
 {
   std::vector<double> sums(dim + 5, 0.);
-  for (const auto &phase : simulation.bodies())
-    for (const auto &cell : phase.points.cells())
+  for (const auto &body : simulation.bodies())
+    for (const auto &cell : body.points.cells())
       for (unsigned int p = 0; p < cell.n_points; ++p)
         {
-          const double *properties = cell.properties + p * phase.points.stride();
-          const double mass        = properties[phase.layout.mass];
+          const double *properties = cell.properties + p * body.points.stride();
+          const double mass        = properties[body.layout.mass];
           Tensor<1, 3> x, v;
           Tensor<2, 3> affine;
           for (unsigned int a = 0; a < dim; ++a)
             {
               x[a] = cell.location[p][a];
-              v[a] = properties[phase.layout.velocity + a];
+              v[a] = properties[body.layout.velocity + a];
               sums[a] += mass * v[a];
               if (spin > 0)
                 for (unsigned int b = 0; b < dim; ++b)
-                  affine[a][b] = spin * properties[phase.layout.affine + a * dim + b];
+                  affine[a][b] = spin * properties[body.layout.affine + a * dim + b];
             }
           const Tensor<1, 3> orbit = cross_product_3d(x, v);
           for (unsigned int a = 0; a < 3; ++a)

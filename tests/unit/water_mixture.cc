@@ -61,7 +61,7 @@ void test(const std::string &basis, std::ostream &out)
   seeding.region           = "x < 0.33";
   seeding.points_per_cell  = 2;
   seeding.initial_porosity = 0.4;
-  Phase<dim> soil("Soil",
+  SoilBody<dim> soil("Soil",
                   1500.,
                   2500.,
                   make_material<dim>(material),

@@ -18,7 +18,7 @@ namespace scree
   ///
   /// With n = 3 these are quadratic B-splines: B are the Bernstein polynomials of the cell, l and r are 1 at an open
   /// knot and 1/2 inside, N_0 = l B_0, N_1 = (1 - l) B_0 + B_1 + (1 - r) B_2, N_2 = r B_2. With all knots open this is
-  /// the C0 quadratic Bernstein basis. With n = 2 they are the hat functions. All are non-negative and sum to one. The
+  /// the C0 quadratic Bernstein basis. With n = 2 they are the linear functions. All are non-negative and sum to one. The
   /// lexicographic tensor products (first axis fastest) are the n^dim shape functions of the cell.
   template <int dim, int n>
   struct CellBasis

@@ -17,14 +17,14 @@ namespace scree
   {
     spline,    ///< C1 quadratic B-splines with open knots at the walls
     quadratic, ///< C0 quadratic Bernstein polynomials
-    linear     ///< hat functions
+    linear     ///< linear functions
   };
 
   /// The nodes of a basis on the mesh.
   ///
   /// deal.II has no B-splines, but the free coefficients of the C1 quadratic splines are those Bernstein coefficients
   /// that sit inside a cell or on the boundary of the box: a coefficient on an interior face is the mean of its two
-  /// neighbours. A *node* is such a free coefficient; each cell stores the 3^dim nodes (2^dim with hats) that act on
+  /// neighbours. A *node* is such a free coefficient; each cell stores the 3^dim nodes (2^dim of the linear basis) that act on
   /// it. Nodes are numbered compactly: [0, n_owned()) are this rank's, then come the ghosts.
   template <int dim>
   class NodeNumbering

@@ -3,7 +3,7 @@
 #define scree_initial_geostatic_h
 
 #include <scree/grid/background_grid.h>
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 #include <scree/points/region.h>
 
 #include <deal.II/base/tensor.h>
@@ -75,11 +75,11 @@ namespace scree
   /// Gives the points the geostatic stress of their depth: vertical from the weight above, horizontal K0 times that.
   /// Collective; throws EntryError if the law cannot bear that.
   template <int dim>
-  void set_k0_stress(Phase<dim> &phase, Overburden<dim> &overburden, const double k0);
+  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0);
 
   /// Gives the points an isotropic stress, Pa, compression positive.
   template <int dim>
-  void set_isotropic_stress(Phase<dim> &phase, const double pressure);
+  void set_isotropic_stress(SoilBody<dim> &body, const double pressure);
 } // namespace scree
 
 #endif

@@ -3,7 +3,7 @@
 #define scree_output_cell_contents_h
 
 #include <scree/grid/background_grid.h>
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 #include <scree/points/water_phase.h>
 
 #include <list>
@@ -39,7 +39,7 @@ namespace scree
 
   /// What the cells of this rank hold, by active cell index; other ranks' cells are empty.
   template <int dim>
-  std::vector<CellContents> contents_of_cells(const std::list<Phase<dim>> &phases,
+  std::vector<CellContents> contents_of_cells(const std::list<SoilBody<dim>> &bodies,
                                               const std::list<WaterPhase<dim>> &water,
                                               const BackgroundGrid<dim> &grid);
 } // namespace scree

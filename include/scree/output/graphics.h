@@ -44,7 +44,7 @@ namespace scree
     /// porosity and saturation of the cells. Water points, or soil points seen as carriers of water: velocity (m/s),
     /// pressure (Pa), mass (kg) and volume (m^3) of the water, porosity of the soil in the cell (1 without soil),
     /// inside_soil (1 in cells with soil points, else 0) and seepage_velocity (m/s, 0 without soil).
-    void write(const std::list<Phase<dim>> &phases,
+    void write(const std::list<SoilBody<dim>> &bodies,
                const NodalField<dim> &field,
                const double time,
                const WaterView<dim> *view = nullptr);
@@ -59,7 +59,7 @@ namespace scree
     using TimeAndFile = std::pair<double, std::string>;
     using Cells       = std::vector<CellContents>; // by active cell index
 
-    void write_points(const std::list<Phase<dim>> &phases,
+    void write_points(const std::list<SoilBody<dim>> &bodies,
                       const NodalField<dim> &field,
                       const double time,
                       const WaterView<dim> *view);

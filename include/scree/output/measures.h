@@ -3,7 +3,7 @@
 #define scree_output_measures_h
 
 #include <scree/grid/background_grid.h>
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 #include <scree/points/water_phase.h>
 
 #include <list>
@@ -21,9 +21,9 @@ namespace scree
   template <int dim>
   double deviatoric_stress(const double *stress);
 
-  /// The coordinates along `axis` below which the given fractions of the mass of all phases lie, m. Collective.
+  /// The coordinates along `axis` below which the given fractions of the mass of all bodies lie, m. Collective.
   template <int dim>
-  std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
+  std::vector<double> mass_percentiles(const std::list<SoilBody<dim>> &bodies,
                                        const BackgroundGrid<dim> &grid,
                                        const unsigned int axis,
                                        const std::vector<double> &fractions);
@@ -37,14 +37,14 @@ namespace scree
 
   /// Kinetic energy of soil and water over elastic energy of the soil; infinite without elastic energy. Collective.
   template <int dim>
-  double kinetic_to_elastic_energy(const std::list<Phase<dim>> &phases,
+  double kinetic_to_elastic_energy(const std::list<SoilBody<dim>> &bodies,
                                    const std::list<WaterPhase<dim>> &water,
                                    const MPI_Comm communicator);
 
-  /// Oscillation of P: the rms, over the points of all phases, of P minus a linear fit of P over the 3^dim cells around
+  /// Oscillation of P: the rms, over the points of all bodies, of P minus a linear fit of P over the 3^dim cells around
   /// the point's cell, over the mean of P. 0 where the soil bears no stress. Collective.
   template <int dim>
-  double stress_oscillation(const std::list<Phase<dim>> &phases, const BackgroundGrid<dim> &grid);
+  double stress_oscillation(const std::list<SoilBody<dim>> &bodies, const BackgroundGrid<dim> &grid);
 
   /// The same of the pore pressure at the water points. 0 unless its mean is positive. Collective.
   template <int dim>
@@ -64,7 +64,7 @@ namespace scree
 
   /// Collective.
   template <int dim>
-  WaterMeasures measure_water(const std::list<Phase<dim>> &phases,
+  WaterMeasures measure_water(const std::list<SoilBody<dim>> &bodies,
                               const std::list<WaterPhase<dim>> &water,
                               const BackgroundGrid<dim> &grid);
 } // namespace scree

@@ -2,7 +2,7 @@
 #ifndef scree_output_point_sums_h
 #define scree_output_point_sums_h
 
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 #include <scree/points/water_phase.h>
 
 #include <list>
@@ -26,13 +26,13 @@ namespace scree
 
     /// Collective.
     /// @param gravity m/s^2
-    PointSums(const std::list<Phase<dim>> &phases,
+    PointSums(const std::list<SoilBody<dim>> &bodies,
               const std::list<WaterPhase<dim>> &water,
               const dealii::Tensor<1, dim> &gravity,
               const MPI_Comm communicator);
 
   private:
-    void add(const Phase<dim> &phase,
+    void add(const SoilBody<dim> &body,
              const dealii::Point<dim> &x,
              const double *properties,
              const dealii::Tensor<1, dim> &gravity);

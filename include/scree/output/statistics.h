@@ -49,7 +49,7 @@ namespace scree
 
     /// Appends a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// A surface load adds its work from the row on that finds it at work. Collective.
-    void collect(const std::list<Phase<dim>> &phases,
+    void collect(const std::list<SoilBody<dim>> &bodies,
                  const std::list<WaterPhase<dim>> &water,
                  const RunTotals<dim> &totals,
                  const double time,
@@ -71,11 +71,11 @@ namespace scree
     }
 
   private:
-    void add_soil_columns(const std::list<Phase<dim>> &phases,
+    void add_soil_columns(const std::list<SoilBody<dim>> &bodies,
                           const PointSums<dim> &now,
                           const RunTotals<dim> &totals,
                           const UpdateReport &last_step);
-    void add_water_columns(const std::list<Phase<dim>> &phases,
+    void add_water_columns(const std::list<SoilBody<dim>> &bodies,
                            const std::list<WaterPhase<dim>> &water,
                            const PointSums<dim> &now,
                            const RunTotals<dim> &totals,

@@ -2,7 +2,7 @@
 #ifndef scree_points_seeding_h
 #define scree_points_seeding_h
 
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 #include <scree/points/region.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -37,12 +37,12 @@ namespace scree
     double bulk_density; ///< dry, kg/m^3
   };
 
-  /// Fills the phase's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point
+  /// Fills the body's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point
   /// stands at the centroid of the part of its cube that is inside and has its volume, and slivers join their
   /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
   /// holds no volume.
   template <int dim>
-  void seed(Phase<dim> &phase,
+  void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,
             const dealii::Triangulation<dim> &triangulation,
             const double cell_size);

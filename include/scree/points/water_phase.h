@@ -2,7 +2,7 @@
 #ifndef scree_points_water_phase_h
 #define scree_points_water_phase_h
 
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 
 #include <memory>
 
@@ -60,7 +60,7 @@ namespace scree
     }
 
     /// Water on the points of `soil`, whose last slots have been set aside for it.
-    WaterPhase(const double density, const bool with_affine, Phase<dim> &soil)
+    WaterPhase(const double density, const bool with_affine, SoilBody<dim> &soil)
         : density(density)
         , layout(soil.layout.n_properties - WaterLayout<dim>(0, with_affine).n_properties(), with_affine)
         , set(&soil.points)
@@ -87,7 +87,7 @@ namespace scree
     }
 
     /// The body of soil whose points carry the water; null if it has its own.
-    const Phase<dim> *carrier() const
+    const SoilBody<dim> *carrier() const
     {
       return soil;
     }
@@ -95,7 +95,7 @@ namespace scree
   private:
     std::unique_ptr<PointSet<dim>> own_set;
     PointSet<dim> *set;
-    const Phase<dim> *soil;
+    const SoilBody<dim> *soil;
   };
 } // namespace scree
 

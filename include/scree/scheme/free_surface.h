@@ -24,7 +24,7 @@ namespace scree
 
   /// Where the water ends: kinds of the corners, and the pressure at those beside the surface.
   ///
-  /// The fill F of a corner (volume of water and wet grains under its hat function) gives its signed distance d from a
+  /// The fill F of a corner (volume of water and wet grains under its linear function) gives its signed distance d from a
   /// surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. Unknown are the corners at
   /// least a quarter of a cell inside. Those beside them hold p = d sum p_j / sum d_j of their unknown neighbours: p is
   /// linear and vanishes at the surface, wherever that is in the cell.
@@ -32,7 +32,7 @@ namespace scree
   class FreeSurfaceLocator
   {
   public:
-    /// @param corners the numbering of hat functions on the grid
+    /// @param corners the numbering of linear functions on the grid
     FreeSurfaceLocator(const BackgroundGrid<dim> &grid,
                        const NodeNumbering<dim> &corners,
                        const WaterBoundaryConditions<dim> &walls,
@@ -59,26 +59,26 @@ namespace scree
       return std::max(distances[surface_corner] / depth(unknown_corner, surface_corner), -steepest);
     }
 
-    /// Volume of water under the hat function of an owned corner, m^3.
+    /// Volume of water under the linear function of an owned corner, m^3.
     double water_volume(const unsigned int corner) const
     {
       return filling[corner][0];
     }
 
-    /// Whether no grains are under the hat function of an owned corner.
+    /// Whether no grains are under the linear function of an owned corner.
     bool is_free_water(const unsigned int corner) const
     {
       return filling[corner][1] <= filling[corner][0] * (1. + 1e-12);
     }
 
-    /// Fill of an owned corner's hat function, 1 if it is full of water and wet grains.
+    /// Fill of an owned corner's linear function, 1 if it is full of water and wet grains.
     double fill(const unsigned int corner) const
     {
-      return filling[corner][1] / hat_volume(corner);
+      return filling[corner][1] / volume_under(corner);
     }
 
-    /// Integral of a corner's hat function over the box, m^3.
-    double hat_volume(const unsigned int corner) const;
+    /// Integral of a corner's linear function over the box, m^3.
+    double volume_under(const unsigned int corner) const;
 
     /// The owned corners of cells with water.
     const std::vector<unsigned int> &wet_corners() const

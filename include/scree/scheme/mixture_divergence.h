@@ -24,7 +24,7 @@ namespace scree
                    CornerVector &sums);
 
   private:
-    static constexpr unsigned int n_gauss   = 2; // an axis: exact for slopes of quadratics times hats
+    static constexpr unsigned int n_gauss   = 2; // an axis: exact for slopes of quadratics times linear functions
     static constexpr unsigned int n_points  = dealii::Utilities::pow(n_gauss, dim);
     static constexpr unsigned int n_corners = 1 << dim;
 
@@ -40,8 +40,8 @@ namespace scree
     const Divergence form;
     std::array<dealii::Point<dim>, n_points> points; // of the unit cell
     std::array<double, n_points> weights;
-    std::array<std::array<double, n_corners>, n_points> hats;
-    std::array<std::array<dealii::Tensor<1, dim>, n_corners>, n_points> hat_gradients; // per cell width
+    std::array<std::array<double, n_corners>, n_points> shapes;
+    std::array<std::array<dealii::Tensor<1, dim>, n_corners>, n_points> shape_gradients; // per cell width
   };
 } // namespace scree
 

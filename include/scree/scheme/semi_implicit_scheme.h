@@ -38,7 +38,7 @@ namespace scree
     void reinit();
 
     /// Sums over the points what the step needs beside the soil's own field, on this rank.
-    void gather(const std::list<Phase<dim>> &soil, const std::list<WaterPhase<dim>> &water);
+    void gather(const std::list<SoilBody<dim>> &soil, const std::list<WaterPhase<dim>> &water);
 
     /// One step of `time_step` s. `soil` holds this rank's mass, momentum and force before, and all ranks' velocity and
     /// its change afterwards, ghosts included. Collective.
@@ -54,7 +54,7 @@ namespace scree
     void correct_volume(WaterPhase<dim> &water, const double time_step, StepBalance<dim> &balance);
 
     /// Takes the stress from soil that is looser than entry Fluidisation porosity.
-    void fluidise(Phase<dim> &soil) const;
+    void fluidise(SoilBody<dim> &soil) const;
 
     /// Largest step of the water's explicit part, its viscous stress, s; infinite without.
     double largest_step() const;
@@ -68,7 +68,7 @@ namespace scree
     std::array<double, (1 << dim)> corner_pressure(const unsigned int cell) const;
 
     /// Sets the pressure from the water's points, for the output before the first step. Collective.
-    void read_pressure(const std::list<Phase<dim>> &soil, const std::list<WaterPhase<dim>> &water);
+    void read_pressure(const std::list<SoilBody<dim>> &soil, const std::list<WaterPhase<dim>> &water);
 
   private:
     void complete_pores();

@@ -44,7 +44,7 @@ namespace scree
         for (unsigned int a = 0; a < dim; ++a)
           {
             slope[a] = mass * affine[c * dim + a];
-            // APIC stores sum phi v (x_i - x)^T; hats make this vanish at a node together with its inertia.
+            // APIC stores sum phi v (x_i - x)^T; the linear basis makes this vanish at a node together with its inertia.
             if (method == TransferMethod::apic)
               slope[a] = inertia[a] > 1e-12 * width * width ? slope[a] / inertia[a] : 0.;
           }

@@ -45,7 +45,7 @@ namespace scree
     double pore_volume = 0;                    ///< of the soil, m^3
     double drag        = 0;                    ///< of saturated soil: sum V n^2 rho_w g/k, N s/m
 
-    // Sums weighted with the hat functions of the corners.
+    // Sums weighted with the linear functions of the corners.
     AtCorners grains_at_corner{}, water_at_corner{}; ///< volume, m^3
     AtCorners pressure_at_corner{};                  ///< volume of water times pressure there, Pa m^3
 

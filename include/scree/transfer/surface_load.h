@@ -3,7 +3,7 @@
 #define scree_transfer_surface_load_h
 
 #include <scree/grid/background_grid.h>
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_handler.h>
@@ -47,7 +47,7 @@ namespace scree
     SurfaceLoad(const BackgroundGrid<dim> &grid, const SurfaceLoadParameters &parameters);
 
     /// Throws EntryError if a marker's cell holds no soil, whose nodes could not take its load. Collective.
-    void require_soil(const std::list<Phase<dim>> &bodies, const MPI_Comm communicator) const;
+    void require_soil(const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator) const;
 
     /// Force per initial area, Pa, at a place and a time, s.
     dealii::Tensor<1, dim> traction(const dealii::Point<dim> &x, const double time) const;

@@ -3,7 +3,7 @@
 #define scree_transfer_transfer_h
 
 #include <scree/grid/nodal_field.h>
-#include <scree/points/phase.h>
+#include <scree/points/soil_body.h>
 #include <scree/transfer/f_bar.h>
 #include <scree/transfer/transfer_parameters.h>
 
@@ -27,21 +27,21 @@ namespace scree
              const TransferParameters &transfer,
              const StabilisationParameters &stabilisation);
 
-    /// Activates the nodes of the phase's cells and adds mass, momentum and internal force of this rank's points:
+    /// Activates the nodes of the body's cells and adds mass, momentum and internal force of this rank's points:
     /// lumped mass sum m phi_i, momentum sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP and PIC, force -sum V sigma
     /// grad phi_i.
-    void to_grid(const Phase<dim> &phase, NodalField<dim> &field) const;
+    void to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
     /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
     /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
-    MotionReport to_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step);
+    MotionReport to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
 
   private:
     template <int n, TransferMethod method>
-    void add_points(const Phase<dim> &phase, NodalField<dim> &field) const;
+    void add_points(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
     template <int n, TransferMethod method>
-    MotionReport move_points(Phase<dim> &phase, const NodalField<dim> &field, const double time_step);
+    MotionReport move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
 
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;

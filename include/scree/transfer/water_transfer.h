@@ -37,7 +37,7 @@ namespace scree
                   const double pressure_slope);
 
     /// Adds pores, drag and grains of a body's points to the mixture and to `pores`.
-    void soil_to_grid(const Phase<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
+    void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
 
     /// Adds mass, momentum and viscous force of the water's points to `field`, and volume and pressure to the mixture.
     void to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const;
@@ -55,7 +55,7 @@ namespace scree
 
   private:
     template <int n>
-    void add_soil(const Phase<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
+    void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
 
     template <int n, TransferMethod method>
     void add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const;

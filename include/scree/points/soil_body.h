@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_points_phase_h
-#define scree_points_phase_h
+#ifndef scree_points_soil_body_h
+#define scree_points_soil_body_h
 
 #include <scree/material/material.h>
 #include <scree/points/point_set.h>
@@ -23,7 +23,7 @@ namespace scree
     PropertyLayout<dim> layout;
     PointSet<dim> points;
 
-    Phase(const std::string &name,
+    SoilBody(const std::string &name,
           const double density,
           const double grain_density,
           std::unique_ptr<Material<dim>> material,
