@@ -14,7 +14,7 @@ namespace scree
 {
   /// A body of soil: its points, where their quantities lie, and the law that moves them.
   template <int dim>
-  struct Phase
+  struct SoilBody
   {
     std::string name;
     double density;       ///< bulk density of the dry soil at J = 1, kg/m^3
