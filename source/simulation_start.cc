@@ -213,7 +213,7 @@ namespace scree
                                                ": not yet at rest. Released all the same."));
 
     forcing.release();
-    const auto stop = [&](const PointSet<dim> &points, const unsigned int velocity, const unsigned int affine) {
+    const auto stop = [&](PointSet<dim> &points, const unsigned int velocity, const unsigned int affine) {
       for (const auto &cell : points.cells())
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
