@@ -223,9 +223,9 @@ namespace scree
               std::fill_n(properties + affine, dim * dim, 0.);
           }
     };
-    for (const auto &phase : phases)
+    for (auto &phase : phases)
       stop(phase.points, phase.layout.velocity, phase.layout.affine);
-    for (const auto &part : water)
+    for (auto &part : water)
       stop(part.points(), part.layout.velocity, part.layout.affine);
     // Balances begin at the release; what was lost stays lost.
     const RunTotals<dim> settled = totals;
