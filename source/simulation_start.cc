@@ -6,6 +6,7 @@
 #include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
 #include <scree/simulation.h>
+#include <scree/tensor/invariants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,7 @@ namespace scree
     for (const BodyParameters &body : parameters.bodies)
       {
         auto material = make_material<dim>(body.material);
-        const PropertyLayout<dim> layout(material->internal_variable_names().size(),
+        const PropertyLayout<dim> layout(material->internal_quantities().size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0);
         phases.emplace_back(body.name,
