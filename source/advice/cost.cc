@@ -13,12 +13,12 @@ namespace scree
     /// How long dry soil moves, over sqrt(H/g); water keeps it moving.
     constexpr double motion_lasts = 5.;
 
-    /// Largest speed of the points in motion over that of a free fall by Scene::fall.
+    /// Largest speed of the points in motion over that of a free fall by SceneNumbers::fall.
     constexpr double part_of_fall_speed = 0.8;
 
     /// Bulk modulus of soil in motion over that at the start, where it grows with the pressure: bodies that fall by d
     /// press on what is below with about rho g d more.
-    double stiffening(const Scene &scene)
+    double stiffening(const SceneNumbers &scene)
     {
       if (!scene.stiffens || scene.fastest.pressure <= 0)
         return 1.;
@@ -34,7 +34,7 @@ namespace scree
     constexpr double picture_seconds = 1.5e-3, picture_seconds_per_point = 8e-7;
     constexpr double row_seconds = 5e-5, row_seconds_per_point = 1.5e-7, row_seconds_per_row = 5e-7;
 
-    /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the appointments.
+    /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the output times.
     double count_steps(const OutputParameters &output, const double begin, const double end, const double step)
     {
       double n = 0, time = begin;
@@ -50,7 +50,7 @@ namespace scree
       return n;
     }
 
-    double seconds_of_output(const Scene &scene, const OutputParameters &output)
+    double seconds_of_output(const SceneNumbers &scene, const OutputParameters &output)
     {
       const auto count = [&](const double interval) {
         return interval > 0 ? std::floor(scene.end_time / interval) + 1. : 0.;
@@ -69,7 +69,7 @@ namespace scree
   } // namespace
 
 
-  RunCost cost_of_run(const Scene &scene, const StepCost &first_steps, const Schedule &schedule)
+  RunCost cost_of_run(const SceneNumbers &scene, const StepCost &first_steps, const Schedule &schedule)
   {
     const Clock clock(schedule.time_step);
     const auto step_at = [&](const double stiffness, const double speed) {
@@ -107,7 +107,7 @@ namespace scree
   }
 
 
-  Scene with_cell_size(Scene scene, const double cell_size)
+  SceneNumbers with_cell_size(SceneNumbers scene, const double cell_size)
   {
     const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
     for (double *number : { &scene.n_cells, &scene.n_occupied, &scene.n_soil_points, &scene.n_water_points })
@@ -117,7 +117,7 @@ namespace scree
   }
 
 
-  StepCost with_cell_size(StepCost steps, const Scene &scene, const double cell_size)
+  StepCost with_cell_size(StepCost steps, const SceneNumbers &scene, const double cell_size)
   {
     const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
     steps.seconds *= factor;
@@ -129,7 +129,7 @@ namespace scree
   }
 
 
-  StepCost without_water(StepCost steps, const Scene &scene)
+  StepCost without_water(StepCost steps, const SceneNumbers &scene)
   {
     const double soil = scene.n_soil_points / scene.n_points();
     double seconds    = 0;

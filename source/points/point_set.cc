@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/points/point_set.h>
 
+#include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
 
 namespace scree
@@ -14,14 +15,22 @@ namespace scree
     CellPoints<dim> points_of_cell(const Particles::ParticleHandler<dim> &handler,
                                    Particles::ParticleIterator<dim> first)
     {
-      const auto &cell = first->get_surrounding_cell();
+      const auto &cell      = first->get_surrounding_cell();
+      const auto properties = first->get_properties();
 
       // The pool stores locations by value and hands out references to them: writing through them saves a
       // set_location() call per point.
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+      Point<dim> *location = &first->get_location();
+#else
+      // Before 9.6 only constant ones.
+      Point<dim> *location = const_cast<Point<dim> *>(&first->get_location());
+#endif
       return { cell->active_cell_index(),
                handler.n_particles_in_cell(cell),
-               first->get_properties().data(),
-               const_cast<Point<dim> *>(&first->get_location()),
+               unsigned(properties.size()),
+               properties.data(),
+               location,
                &first->get_reference_location() };
     }
 
@@ -101,9 +110,13 @@ namespace scree
   void PointSet<dim>::update_cells()
   {
     cell_list.clear();
+    const_cell_list.clear();
     for (auto point = particle_handler.begin(); point != particle_handler.end();)
       {
-        cell_list.push_back(points_of_cell(particle_handler, point));
+        const auto cell = points_of_cell(particle_handler, point);
+        cell_list.push_back(cell);
+        const_cell_list.push_back(
+            { cell.cell, cell.n_points, cell.stride, cell.properties, cell.location, cell.reference_location });
         point = particle_handler.particles_in_cell(point->get_surrounding_cell()).end();
       }
   }

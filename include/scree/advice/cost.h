@@ -2,7 +2,7 @@
 #ifndef scree_advice_cost_h
 #define scree_advice_cost_h
 
-#include <scree/advice/scene.h>
+#include <scree/advice/scene_numbers.h>
 #include <scree/output/output_parameters.h>
 #include <scree/scheme/time_step.h>
 
@@ -48,14 +48,14 @@ namespace scree
 
   /// The cost of a run of `scene` whose first steps cost `first_steps`. In motion, steps of soil that flows are shorter
   /// and dearer than the first ones, at rest cheaper: measured factors.
-  RunCost cost_of_run(const Scene &scene, const StepCost &first_steps, const Schedule &schedule);
+  RunCost cost_of_run(const SceneNumbers &scene, const StepCost &first_steps, const Schedule &schedule);
 
   /// The same scene and steps with other cells: points and cells in proportion, and the cost with them.
-  Scene with_cell_size(Scene scene, const double cell_size);
-  StepCost with_cell_size(StepCost steps, const Scene &scene, const double cell_size);
+  SceneNumbers with_cell_size(SceneNumbers scene, const double cell_size);
+  StepCost with_cell_size(StepCost steps, const SceneNumbers &scene, const double cell_size);
 
   /// The cost of a step of the scene's soil without its water.
-  StepCost without_water(StepCost steps, const Scene &scene);
+  StepCost without_water(StepCost steps, const SceneNumbers &scene);
 } // namespace scree
 
 #endif

@@ -6,19 +6,46 @@
 #include <deal.II/fe/mapping.h>
 #include <deal.II/particles/particle_handler.h>
 
+#include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace scree
 {
   /// The points of one cell, contiguous in memory. Pointers are to the first point.
-  template <int dim>
+  ///
+  /// @tparam Number double, or const double for points that must not change
+  template <int dim, typename Number = double>
   struct CellPoints
   {
+    using Location = std::conditional_t<std::is_const_v<Number>, const dealii::Point<dim>, dealii::Point<dim>>;
+
     unsigned int cell; ///< active cell index
     unsigned int n_points;
-    double *properties;           ///< the set's stride() doubles a point
-    dealii::Point<dim> *location; ///< m
+    unsigned int stride; ///< doubles from one point's properties to the next one's
+    Number *properties;
+    Location *location; ///< m
     const dealii::Point<dim> *reference_location;
+
+    /// Properties of the cell's point `p`.
+    Number *properties_of(const unsigned int p) const
+    {
+      return properties + std::size_t(p) * stride;
+    }
+  };
+
+  /// The points of one cell of a set that must not change.
+  template <int dim>
+  using ConstCellPoints = CellPoints<dim, const double>;
+
+  /// One point of a set, as for_each_point() shows it.
+  template <int dim, typename Number>
+  struct PointView
+  {
+    unsigned int cell; ///< active cell index
+    Number *properties;
+    typename CellPoints<dim, Number>::Location &location; ///< m
+    const dealii::Point<dim> &reference_location;
   };
 
   /// A point that lay outside the mesh when the set was sorted.
@@ -46,9 +73,13 @@ namespace scree
     void update_cells();
 
     /// This rank's cells that hold points. Valid until the next sort().
-    const std::vector<CellPoints<dim>> &cells() const
+    const std::vector<CellPoints<dim>> &cells()
     {
       return cell_list;
+    }
+    const std::vector<ConstCellPoints<dim>> &cells() const
+    {
+      return const_cell_list;
     }
 
     /// This rank's points that left the mesh since the list was last cleared.
@@ -77,8 +108,36 @@ namespace scree
     const unsigned int n_properties;
     dealii::Particles::ParticleHandler<dim> particle_handler;
     std::vector<CellPoints<dim>> cell_list;
+    std::vector<ConstCellPoints<dim>> const_cell_list; // the same cells
     std::vector<LostPoint<dim>> lost_points;
   };
+
+
+  /// Calls `act(point)` with a PointView of each of a cell's points.
+  template <int dim, typename Number, typename Act>
+  void for_each_point(const CellPoints<dim, Number> &cell, const Act &act)
+  {
+    for (unsigned int p = 0; p < cell.n_points; ++p)
+      act(PointView<dim, Number>{ cell.cell, cell.properties_of(p), cell.location[p], cell.reference_location[p] });
+  }
+
+
+  /// Calls `act(point)` with a PointView of each of this rank's points, cell by cell.
+  template <int dim, typename Act>
+  void for_each_point(PointSet<dim> &points, const Act &act)
+  {
+    for (const auto &cell : points.cells())
+      for_each_point(cell, act);
+  }
+
+
+  /// The same for points that must not change.
+  template <int dim, typename Act>
+  void for_each_point(const PointSet<dim> &points, const Act &act)
+  {
+    for (const auto &cell : points.cells())
+      for_each_point(cell, act);
+  }
 } // namespace scree
 
 #endif
