@@ -13,15 +13,6 @@ namespace scree
 
   namespace
   {
-    /// Calls `act(location, properties)` for the points of a set on this rank.
-    template <int dim, typename Function>
-    void for_points(const PointSet<dim> &points, const Function &act)
-    {
-      for (const auto &cell : points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          act(cell.location[p], static_cast<const double *>(cell.properties) + p * points.stride());
-    }
-
     /// The smallest box around points of all ranks.
     template <int dim>
     class Extent
@@ -122,12 +113,12 @@ namespace scree
       void find_height()
       {
         Extent<dim> extent;
-        const auto add = [&](const Point<dim> &x, const double *) { extent.add(x); };
+        const auto add = [&](const auto &point) { extent.add(point.location); };
         for (const auto &body : simulation.bodies())
-          for_points(body.points, add);
+          for_each_point(body.points, add);
         if (!scene.has_soil)
           for (const auto &part : simulation.water_phases())
-            for_points(part.points(), add);
+            for_each_point(part.points(), add);
         extent.unite_ranks(communicator);
         // Outer points stand half a spacing inside the surface.
         const double spacing = scene.cell_size / (scene.has_soil ? parameters.bodies[0].seeding.points_per_cell
@@ -141,7 +132,8 @@ namespace scree
         scene.stiffens           = scene.stiffens || law.initial_bulk_modulus(2e4) > law.initial_bulk_modulus(1e4);
         // Soil without stress gets its first one from its weight.
         const double first_pressure = 2. / 3. * body.density * scene.gravity * scene.height;
-        for_points(body.points, [&](const Point<dim> &x, const double *properties) {
+        for_each_point(body.points, [&](const auto &point) {
+          const double *properties = point.properties;
           const double mass = properties[body.layout.mass], volume = properties[body.layout.volume];
           const double at_start = mean_effective_stress(properties + body.layout.stress);
           const double pressure = at_start > 0 ? at_start : first_pressure;
@@ -156,19 +148,20 @@ namespace scree
           pressure_sum += volume * pressure;
           bulk_sum += volume * medium.bulk_modulus;
           shear_sum += volume * medium.shear_modulus;
-          height_moment += mass * height_of(x);
+          height_moment += mass * height_of(point.location);
         });
         occupy(body.points);
       }
 
       void look_at_water(const WaterPhase<dim> &part)
       {
-        for_points(part.points(), [&](const Point<dim> &x, const double *properties) {
+        for_each_point(part.points(), [&](const auto &point) {
+          const double *properties = point.properties;
           keep_speed(properties + part.layout.velocity);
           water_points += part.carrier() == nullptr;
           water_mass += properties[part.layout.mass];
           water_volume += properties[part.layout.volume];
-          height_moment += properties[part.layout.mass] * height_of(x);
+          height_moment += properties[part.layout.mass] * height_of(point.location);
         });
         occupy(part.points());
       }

@@ -100,17 +100,14 @@ namespace scree
     template <int dim, typename Function>
     void set_stress(SoilBody<dim> &body, const Function &fill_stress)
     {
-      for (const auto &cell : body.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          {
-            double stress[n_symmetric_components<dim>] = {};
-            fill_stress(cell.location[p], stress);
-            double *properties = cell.properties + p * body.points.stride();
-            body.material->initialise(stress,
-                                       properties + body.layout.left_cauchy_green,
-                                       properties + body.layout.stress,
-                                       properties + body.layout.internal_variables);
-          }
+      for_each_point(body.points, [&](const auto &point) {
+        double stress[n_symmetric_components<dim>] = {};
+        fill_stress(point.location, stress);
+        body.material->initialise(stress,
+                                  point.properties + body.layout.left_cauchy_green,
+                                  point.properties + body.layout.stress,
+                                  point.properties + body.layout.internal_variables);
+      });
     }
   } // namespace
 

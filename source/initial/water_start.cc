@@ -44,14 +44,11 @@ namespace scree
   {
     const Tensor<1, dim> gradient = water.density * water_overburden.gravity_vector();
     const auto &layout            = water.layout;
-    for (const auto &cell : water.points().cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          double *properties          = cell.properties + p * water.points().stride();
-          properties[layout.pressure] = water_overburden.weight_above(cell.location[p]);
-          for (unsigned int a = 0; a < dim; ++a)
-            properties[layout.pressure_gradient + a] = gradient[a];
-        }
+    for_each_point(water.points(), [&](const auto &point) {
+      point.properties[layout.pressure] = water_overburden.weight_above(point.location);
+      for (unsigned int a = 0; a < dim; ++a)
+        point.properties[layout.pressure_gradient + a] = gradient[a];
+    });
   }
 
   template std::vector<Overburden<2>::Layer> effective_weight_layers<2>(const std::vector<SoilRegion> &,

@@ -23,32 +23,23 @@ namespace scree
   {
     std::vector<CellContents> contents(grid.triangulation().n_active_cells());
     for (const auto &body : bodies)
-      for (const auto &cell : body.points.cells())
-        {
-          CellContents &sums = contents[cell.cell];
-          sums.n_soil_points += cell.n_points;
-          for (unsigned int p = 0; p < cell.n_points; ++p)
-            {
-              const double *properties = cell.properties + p * body.points.stride();
-              const double volume      = properties[body.layout.volume];
-              sums.soil_mass += properties[body.layout.mass];
-              sums.soil_volume += volume;
-              sums.grain_volume += properties[body.layout.mass] / body.grain_density;
-              sums.soil_pressure += volume * mean_effective_stress(properties + body.layout.stress);
-            }
-        }
+      for_each_point(body.points, [&](const auto &point) {
+        CellContents &sums       = contents[point.cell];
+        const double *properties = point.properties;
+        const double volume      = properties[body.layout.volume];
+        ++sums.n_soil_points;
+        sums.soil_mass += properties[body.layout.mass];
+        sums.soil_volume += volume;
+        sums.grain_volume += properties[body.layout.mass] / body.grain_density;
+        sums.soil_pressure += volume * mean_effective_stress(properties + body.layout.stress);
+      });
     for (const auto &one : water)
-      for (const auto &cell : one.points().cells())
-        {
-          CellContents &sums = contents[cell.cell];
-          sums.n_water_points += cell.n_points;
-          for (unsigned int p = 0; p < cell.n_points; ++p)
-            {
-              const double *properties = cell.properties + p * one.points().stride();
-              sums.water_mass += properties[one.layout.mass];
-              sums.water_volume += properties[one.layout.volume];
-            }
-        }
+      for_each_point(one.points(), [&](const auto &point) {
+        CellContents &sums = contents[point.cell];
+        ++sums.n_water_points;
+        sums.water_mass += point.properties[one.layout.mass];
+        sums.water_volume += point.properties[one.layout.volume];
+      });
     return contents;
   }
 

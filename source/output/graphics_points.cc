@@ -95,10 +95,10 @@ namespace scree
       {
         const double *internals = properties + body.layout.internal_variables;
         body.material->output(properties + body.layout.left_cauchy_green,
-                               properties + body.layout.stress,
-                               internals,
-                               properties[body.layout.volume] * body.density / properties[body.layout.mass],
-                               values.data());
+                              properties + body.layout.stress,
+                              internals,
+                              properties[body.layout.volume] * body.density / properties[body.layout.mass],
+                              values.data());
         for (unsigned int i = 0; i < internal.size(); ++i)
           rows.set(internal[i], internals[i]);
         for (unsigned int i = 0; i < derived.size(); ++i)
@@ -151,21 +151,20 @@ namespace scree
             std::array<double, (1 << dim)> pressure;
             if (view)
               pressure = view->pressure_of_cell(cell.cell);
-            for (unsigned int p = 0; p < cell.n_points; ++p)
-              {
-                const double *properties = cell.properties + p * body.points.stride();
-                Rows<dim> rows(output, cell.location[p]);
-                put_state(rows, body, properties, number);
-                if (view)
-                  {
-                    const Point<dim> &x = cell.reference_location[p];
-                    const double n      = body.porosity(properties);
-                    rows.put(n);
-                    rows.put(pressure_at<dim>(x, pressure));
-                    rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
-                  }
-                law_fields.put(rows, body, properties);
-              }
+            for_each_point(cell, [&](const auto &point) {
+              const double *properties = point.properties;
+              Rows<dim> rows(output, point.location);
+              put_state(rows, body, properties, number);
+              if (view)
+                {
+                  const Point<dim> &x = point.reference_location;
+                  const double n      = body.porosity(properties);
+                  rows.put(n);
+                  rows.put(pressure_at<dim>(x, pressure));
+                  rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
+                }
+              law_fields.put(rows, body, properties);
+            });
           }
         ++number;
       }
@@ -193,20 +192,19 @@ namespace scree
         {
           const bool inside_soil = contents[cell.cell].n_soil_points > 0;
           const double n         = contents[cell.cell].porosity();
-          for (unsigned int p = 0; p < cell.n_points; ++p)
-            {
-              const double *properties = cell.properties + p * water.points().stride();
-              Rows<dim> rows(output, cell.location[p]);
-              rows.put(vector_of<dim>(properties + water.layout.velocity));
-              rows.put(properties[water.layout.pressure]);
-              rows.put(properties[water.layout.mass]);
-              rows.put(properties[water.layout.volume]);
-              rows.put(n);
-              rows.put(inside_soil);
-              rows.put(inside_soil ? n * relative_velocity_at(
-                                             cell.reference_location[p], grid, cell.cell, soil_field, view.field)
-                                   : Tensor<1, dim>());
-            }
+          for_each_point(cell, [&](const auto &point) {
+            const double *properties = point.properties;
+            Rows<dim> rows(output, point.location);
+            rows.put(vector_of<dim>(properties + water.layout.velocity));
+            rows.put(properties[water.layout.pressure]);
+            rows.put(properties[water.layout.mass]);
+            rows.put(properties[water.layout.volume]);
+            rows.put(n);
+            rows.put(inside_soil);
+            rows.put(inside_soil
+                         ? n * relative_velocity_at(point.reference_location, grid, cell.cell, soil_field, view.field)
+                         : Tensor<1, dim>());
+          });
         }
     record("water",
            water_files,

@@ -42,14 +42,12 @@ namespace scree
     template <int dim>
     using Views = std::vector<View<dim>>;
 
-    /// Calls visit(active cell index, location, first double of the quantity) for each point of this rank.
+    /// Calls visit(point, first double of the quantity) for each point of this rank.
     template <int dim, typename Visit>
-    void for_each_point(const Views<dim> &views, const Visit &visit)
+    void visit_points(const Views<dim> &views, const Visit &visit)
     {
       for (const auto &view : views)
-        for (const auto &cell : view.points.cells())
-          for (unsigned int p = 0; p < cell.n_points; ++p)
-            visit(cell.cell, cell.location[p], cell.properties + p * view.points.stride() + view.slot);
+        for_each_point(view.points, [&](const auto &point) { visit(point, point.properties + view.slot); });
     }
 
 
@@ -68,8 +66,8 @@ namespace scree
         for (unsigned int pass = 0; pass < 5; ++pass)
           {
             std::vector<double> bins(n_bins, 0.);
-            for_each_point(masses, [&](const unsigned int, const Point<dim> &x, const double *mass) {
-              const double position = (x[axis] - begin) / (end - begin) * n_bins;
+            visit_points(masses, [&](const auto &point, const double *mass) {
+              const double position = (point.location[axis] - begin) / (end - begin) * n_bins;
               if (position >= 0 && position < n_bins)
                 bins[static_cast<unsigned int>(position)] += *mass;
             });
@@ -170,8 +168,8 @@ namespace scree
       std::vector<Moments<dim>> moments(mesh.n_active_cells());
       const auto scaled = [&](const Point<dim> &x) { return Point<dim>((x - grid.lower_corner()) / grid.cell_size()); };
 
-      for_each_point(views, [&](const unsigned int cell, const Point<dim> &x, const double *quantity) {
-        moments[cell].add(scaled(x), pressure_of(quantity));
+      visit_points(views, [&](const auto &point, const double *quantity) {
+        moments[point.cell].add(scaled(point.location), pressure_of(quantity));
       });
 
       using Cell = typename Triangulation<dim>::active_cell_iterator;
@@ -198,10 +196,10 @@ namespace scree
           }
 
       std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
-      for_each_point(views, [&](const unsigned int cell, const Point<dim> &location, const double *quantity) {
+      visit_points(views, [&](const auto &point, const double *quantity) {
         const double pressure    = pressure_of(quantity);
-        const auto &coefficients = fits[cell];
-        const auto x             = scaled(location);
+        const auto &coefficients = fits[point.cell];
+        const auto x             = scaled(point.location);
         double residual          = pressure - coefficients[0];
         for (unsigned int a = 0; a < dim; ++a)
           residual -= coefficients[a + 1] * x[a];
@@ -292,12 +290,12 @@ namespace scree
 
     std::vector<double> largest(3, -std::numeric_limits<double>::infinity()); // -p, p, x
     for (const auto &one : water)
-      for_each_point<dim>({ { one.points(), one.layout.pressure } },
-                          [&](const unsigned int, const Point<dim> &x, const double *pressure) {
-                            largest[0] = std::max(largest[0], -*pressure);
-                            largest[1] = std::max(largest[1], *pressure);
-                            largest[2] = std::max(largest[2], x[0]);
-                          });
+      for_each_point(one.points(), [&](const auto &point) {
+        const double pressure = point.properties[one.layout.pressure];
+        largest[0]            = std::max(largest[0], -pressure);
+        largest[1]            = std::max(largest[1], pressure);
+        largest[2]            = std::max(largest[2], point.location[0]);
+      });
     Utilities::MPI::max(largest, communicator, largest);
 
     WaterMeasures measures;

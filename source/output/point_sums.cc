@@ -21,16 +21,11 @@ namespace scree
       : height(std::numeric_limits<double>::lowest())
   {
     for (const auto &body : bodies)
-      for (const auto &cell : body.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          add(body, cell.location[p], cell.properties + p * body.points.stride(), gravity);
+      for_each_point(body.points, [&](const auto &point) { add(body, point.location, point.properties, gravity); });
     for (const auto &one : water)
-      for (const auto &cell : one.points().cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          {
-            const double *properties = cell.properties + p * one.points().stride();
-            add_motion(properties[one.layout.mass], properties + one.layout.velocity, cell.location[p], gravity);
-          }
+      for_each_point(one.points(), [&](const auto &point) {
+        add_motion(point.properties[one.layout.mass], point.properties + one.layout.velocity, point.location, gravity);
+      });
 
     std::vector<double> sums{ soil_points, soil_mass, kinetic, potential, elastic, pressure };
     for (unsigned int a = 0; a < dim; ++a)

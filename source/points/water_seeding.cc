@@ -103,15 +103,13 @@ namespace scree
     void fill_pores(WaterPhase<dim> &water)
     {
       const SoilBody<dim> &soil = *water.carrier();
-      for (const auto &cell : water.points().cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          {
-            double *properties              = cell.properties + p * water.points().stride();
-            const double volume             = soil.pore_volume(properties);
-            properties[water.layout.volume] = volume;
-            properties[water.layout.mass]   = water.density * volume;
-            std::copy_n(properties + soil.layout.velocity, dim, properties + water.layout.velocity);
-          }
+      for_each_point(water.points(), [&](const auto &point) {
+        double *properties              = point.properties;
+        const double volume             = soil.pore_volume(properties);
+        properties[water.layout.volume] = volume;
+        properties[water.layout.mass]   = water.density * volume;
+        std::copy_n(properties + soil.layout.velocity, dim, properties + water.layout.velocity);
+      });
     }
   } // namespace
 

@@ -10,16 +10,11 @@ namespace scree
 
   namespace
   {
-    /// Calls `visit(cell, p, force)` for the markers.
-    template <int dim, typename Visit>
-    void visit_markers(const SurfaceLoad<dim> &load, const double time, const Visit &visit)
+    /// The force on a marker, N (2D: per m).
+    template <int dim, typename Marker>
+    Tensor<1, dim> force_on(const SurfaceLoad<dim> &load, const Marker &marker, const double time)
     {
-      for (const auto &cell : load.points().cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          visit(cell,
-                p,
-                cell.properties[p * load.points().stride() + SurfaceLoad<dim>::area] *
-                    load.traction(cell.location[p], time));
+      return marker.properties[SurfaceLoad<dim>::area] * load.traction(marker.location, time);
     }
   } // namespace
 
@@ -29,10 +24,11 @@ namespace scree
   add_load(const SurfaceLoad<dim> &load, const double time, const BackgroundGrid<dim> &grid, NodalField<dim> &field)
   {
     Tensor<1, dim> sum;
-    visit_markers(load, time, [&](const auto &cell, const unsigned int p, const Tensor<1, dim> &force) {
-      if (p == 0)
-        field.activate_cell(cell.cell);
-      visit_nodes(grid, cell.cell, cell.reference_location[p], [&](const unsigned int node, const double value) {
+    for (const auto &cell : load.points().cells())
+      field.activate_cell(cell.cell);
+    for_each_point(load.points(), [&](const auto &marker) {
+      const Tensor<1, dim> force = force_on(load, marker, time);
+      visit_nodes(grid, marker.cell, marker.reference_location, [&](const unsigned int node, const double value) {
         for (unsigned int c = 0; c < dim; ++c)
           field[node][NodalField<dim>::force + c] += value * force[c];
       });
@@ -50,10 +46,11 @@ namespace scree
                    const double time_step)
   {
     double work = 0;
-    visit_markers(load, time, [&](const auto &cell, const unsigned int p, const Tensor<1, dim> &force) {
+    for_each_point(load.points(), [&](const auto &marker) {
+      const Tensor<1, dim> force = force_on(load, marker, time);
       Tensor<1, dim> velocity, mean;
       double weight = 0;
-      visit_nodes(grid, cell.cell, cell.reference_location[p], [&](const unsigned int node, const double value) {
+      visit_nodes(grid, marker.cell, marker.reference_location, [&](const unsigned int node, const double value) {
         const double *values = field[node];
         if (values[NodalField<dim>::mass] <= 0.)
           return; // Nothing was solved there.
@@ -68,10 +65,10 @@ namespace scree
       work += time_step * (force * mean);
       // A marker a little above the last soil moves with what soil is near.
       if (weight > 0.)
-        cell.location[p] += time_step / weight * velocity;
+        marker.location += time_step / weight * velocity;
       // Soil under a load at the face of the box may swell; the load must not vanish with its marker.
       for (unsigned int a = 0; a < dim; ++a)
-        cell.location[p][a] = std::clamp(cell.location[p][a], grid.lower_corner()[a], grid.upper_corner()[a]);
+        marker.location[a] = std::clamp(marker.location[a], grid.lower_corner()[a], grid.upper_corner()[a]);
     });
     return work;
   }

@@ -12,8 +12,9 @@
 
 /// Runs the case and hands each point's location and properties to `inspect`.
 template <int dim>
-void run_case(const std::string &text,
-              const std::function<void(const scree::SoilBody<dim> &, const dealii::Point<dim> &, const double *)> &inspect)
+void run_case(
+    const std::string &text,
+    const std::function<void(const scree::SoilBody<dim> &, const dealii::Point<dim> &, const double *)> &inspect)
 {
   const std::string file = "case.prm";
   std::ofstream(file) << text << "\nset Output directory = results\n"
@@ -22,9 +23,7 @@ void run_case(const std::string &text,
   scree::Simulation<dim> simulation(parameters, scree::Start::fresh, MPI_COMM_WORLD);
   simulation.run();
   for (const auto &body : simulation.bodies())
-    for (const auto &cell : body.points.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        inspect(body, cell.location[p], cell.properties + p * body.points.stride());
+    for_each_point(body.points, [&](const auto &point) { inspect(body, point.location, point.properties); });
 }
 
 /// Root of mean squared errors over that of mean squared values.

@@ -82,9 +82,8 @@ struct Scene
   void set_water_pressure(const Pressure &pressure)
   {
     for (auto &one : water)
-      for (const auto &cell : one.points().cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          cell.properties[p * one.points().stride() + one.layout.pressure] = pressure(cell.location[p]);
+      for_each_point(one.points(),
+                     [&](const auto &point) { point.properties[one.layout.pressure] = pressure(point.location); });
   }
 
   /// Gives the points the pressure of their place, and shear and stress deviators that must not matter.
@@ -92,14 +91,12 @@ struct Scene
   void set_pressure(const Pressure &pressure)
   {
     for (auto &body : bodies)
-      for (const auto &cell : body.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          {
-            double *stress = cell.properties + p * body.points.stride() + body.layout.stress;
-            const double P = pressure(cell.location[p]);
-            for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
-              stress[c] = c < 3 ? -P + (c == 0 ? 300. : -150.) : 70.;
-          }
+      for_each_point(body.points, [&](const auto &point) {
+        double *stress = point.properties + body.layout.stress;
+        const double P = pressure(point.location);
+        for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+          stress[c] = c < 3 ? -P + (c == 0 ? 300. : -150.) : 70.;
+      });
   }
 };
 
@@ -276,16 +273,14 @@ void test_carried_water(std::ostream &out)
   seed(soil, seeding, scene.grid.triangulation(), scene.grid.cell_size());
   scene.water.emplace_back(1000., true, soil);
   const WaterPhase<dim> &water = scene.water.back();
-  for (const auto &cell : soil.points.cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      {
-        double *properties                        = cell.properties + p * soil.points.stride();
-        properties[soil.layout.velocity]          = 2.;
-        properties[water.layout.velocity]         = 3.;
-        properties[water.layout.volume]           = 0.5 * properties[soil.layout.volume];
-        properties[water.layout.mass]             = 1000. * properties[water.layout.volume];
-        properties[soil.layout.left_cauchy_green] = 1.1;
-      }
+  for_each_point(soil.points, [&](const auto &point) {
+    double *properties                        = point.properties;
+    properties[soil.layout.velocity]          = 2.;
+    properties[water.layout.velocity]         = 3.;
+    properties[water.layout.volume]           = 0.5 * properties[soil.layout.volume];
+    properties[water.layout.mass]             = 1000. * properties[water.layout.volume];
+    properties[soil.layout.left_cauchy_green] = 1.1;
+  });
   const WaterMeasures wet = measure_water(scene.bodies, scene.water, scene.grid);
   const double volume     = 0.3 * 0.6 * std::pow(1.2, dim - 2);
   expect(wet.mass, 500. * volume, 1e-8, "mass of carried water");

@@ -65,14 +65,12 @@ struct Scene
     seed(soil, seeding, grid.triangulation(), grid.cell_size());
     water.emplace_back(1000., false, soil);
     const auto &layout = water.back().layout;
-    for (const auto &cell : soil.points.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          double *properties          = cell.properties + p * soil.points.stride();
-          properties[layout.volume]   = 0.25 * properties[soil.layout.volume];
-          properties[layout.mass]     = 1000. * properties[layout.volume];
-          properties[layout.pressure] = 100.;
-        }
+    for_each_point(soil.points, [&](const auto &point) {
+      double *properties          = point.properties;
+      properties[layout.volume]   = 0.25 * properties[soil.layout.volume];
+      properties[layout.mass]     = 1000. * properties[layout.volume];
+      properties[layout.pressure] = 100.;
+    });
   }
 
   /// Soil at 1 m/s everywhere and water at 3 m/s where x > `from`.

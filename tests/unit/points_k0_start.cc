@@ -47,15 +47,13 @@ void test(const std::string &name,
 
   double largest_weight = 0, error = 0;
   for (const auto &body : simulation.bodies())
-    for (const auto &cell : body.points.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          const double *stress = cell.properties + p * body.points.stride() + body.layout.stress;
-          const double weight  = weight_above(cell.location[p]);
-          largest_weight       = std::max(largest_weight, weight);
-          for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
-            error = std::max(error, std::abs(stress[c] + (c == dim - 1 ? 1. : c < 3 ? K0 : 0.) * weight));
-        }
+    for_each_point(body.points, [&](const auto &point) {
+      const double *stress = point.properties + body.layout.stress;
+      const double weight  = weight_above(point.location);
+      largest_weight       = std::max(largest_weight, weight);
+      for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+        error = std::max(error, std::abs(stress[c] + (c == dim - 1 ? 1. : c < 3 ? K0 : 0.) * weight));
+    });
   error = Utilities::MPI::max(error, MPI_COMM_WORLD) / Utilities::MPI::max(largest_weight, MPI_COMM_WORLD);
 
   // Columns are shared by points closer than a hundred thousandth of a cell; surfaces are found to 1e-9 of the height.

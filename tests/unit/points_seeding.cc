@@ -48,30 +48,28 @@ void test(const std::string &name,
       seeding.region          = body.region;
       seeding.points_per_cell = points_per_cell;
       SoilBody<dim> body("Soil",
-                       density,
-                       density,
-                       make_material<dim>(material),
-                       PropertyLayout<dim>(0, false),
-                       grid.triangulation(),
-                       grid.mapping());
+                         density,
+                         density,
+                         make_material<dim>(material),
+                         PropertyLayout<dim>(0, false),
+                         grid.triangulation(),
+                         grid.mapping());
       seed(body, seeding, grid.triangulation(), grid.cell_size());
 
       double mass    = 0;
       unsigned int n = 0;
-      for (const auto &cell : body.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p, ++n)
-          {
-            const double *properties = cell.properties + p * body.points.stride();
-            mass += properties[body.layout.mass];
-            AssertThrow(properties[body.layout.volume] > 0 &&
-                            std::abs(properties[body.layout.mass] / properties[body.layout.volume] / density - 1.) <
-                                1e-14,
-                        ExcMessage("A point's mass is not its volume times the density."));
-            for (unsigned int a = 0; a < dim; ++a)
-              AssertThrow(cell.reference_location[p][a] >= 0. && cell.reference_location[p][a] <= 1. &&
-                              cell.location[p][a] > 0. && cell.location[p][a] < upper_corner[a],
-                          ExcMessage("A point lies outside its cell."));
-          }
+      for_each_point(body.points, [&](const auto &point) {
+        ++n;
+        const double *properties = point.properties;
+        mass += properties[body.layout.mass];
+        AssertThrow(properties[body.layout.volume] > 0 &&
+                        std::abs(properties[body.layout.mass] / properties[body.layout.volume] / density - 1.) < 1e-14,
+                    ExcMessage("A point's mass is not its volume times the density."));
+        for (unsigned int a = 0; a < dim; ++a)
+          AssertThrow(point.reference_location[a] >= 0. && point.reference_location[a] <= 1. &&
+                          point.location[a] > 0. && point.location[a] < upper_corner[a],
+                      ExcMessage("A point lies outside its cell."));
+      });
       AssertThrow(n == body.points.handler().n_locally_owned_particles(), ExcMessage("cells() misses points."));
       mass = Utilities::MPI::sum(mass, MPI_COMM_WORLD);
       n    = Utilities::MPI::sum(n, MPI_COMM_WORLD);

@@ -47,22 +47,21 @@ void test(const std::string &name,
   const auto &layout = water.layout;
   double volume      = 0;
   unsigned int n     = 0;
-  for (const auto &cell : water.points().cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p, ++n)
-      {
-        const double *properties = cell.properties + p * water.points().stride();
-        volume += properties[layout.volume];
-        AssertThrow(properties[layout.volume] > 0 &&
-                        std::abs(properties[layout.mass] / properties[layout.volume] / 1025. - 1.) < 1e-14,
-                    ExcMessage("A point's mass is not its volume times the density."));
-        AssertThrow(properties[layout.velocity] == cell.location[p][0] &&
-                        properties[layout.velocity + 1] == -cell.location[p][1],
-                    ExcMessage("A point's velocity is not that of the entry."));
-        AssertThrow(properties[layout.pressure] == 0, ExcMessage("A point has a pressure."));
-        for (unsigned int a = 0; a < dim; ++a)
-          AssertThrow(cell.reference_location[p][a] >= 0. && cell.reference_location[p][a] <= 1.,
-                      ExcMessage("A point lies outside its cell."));
-      }
+  for_each_point(water.points(), [&](const auto &point) {
+    ++n;
+    const double *properties = point.properties;
+    volume += properties[layout.volume];
+    AssertThrow(properties[layout.volume] > 0 &&
+                    std::abs(properties[layout.mass] / properties[layout.volume] / 1025. - 1.) < 1e-14,
+                ExcMessage("A point's mass is not its volume times the density."));
+    AssertThrow(properties[layout.velocity] == point.location[0] &&
+                    properties[layout.velocity + 1] == -point.location[1],
+                ExcMessage("A point's velocity is not that of the entry."));
+    AssertThrow(properties[layout.pressure] == 0, ExcMessage("A point has a pressure."));
+    for (unsigned int a = 0; a < dim; ++a)
+      AssertThrow(point.reference_location[a] >= 0. && point.reference_location[a] <= 1.,
+                  ExcMessage("A point lies outside its cell."));
+  });
   volume = Utilities::MPI::sum(volume, MPI_COMM_WORLD);
   AssertThrow(std::abs(volume / expected - 1.) < tolerance,
               ExcMessage(name + ": the volume is wrong by " + Utilities::to_string(volume / expected - 1.)));
@@ -82,12 +81,12 @@ void test_single_point(const std::vector<double> &upper_corner, std::ostream &ou
   const auto n_further  = WaterLayout<dim>(0, is_affine).n_properties();
   const auto soil_slots = PropertyLayout<dim>(0, is_affine).n_properties;
   SoilBody<dim> soil("Soil",
-                  grain_density * (1. - porosity),
-                  grain_density,
-                  make_material<dim>(material),
-                  PropertyLayout<dim>(0, is_affine, n_further),
-                  grid.triangulation(),
-                  grid.mapping());
+                     grain_density * (1. - porosity),
+                     grain_density,
+                     make_material<dim>(material),
+                     PropertyLayout<dim>(0, is_affine, n_further),
+                     grid.triangulation(),
+                     grid.mapping());
   SeedingParameters seeding;
   seeding.region           = dim == 2 ? "y < 0.6 - 0.3*x" : "z < 0.6 - 0.3*x";
   seeding.points_per_cell  = 2;
@@ -99,18 +98,16 @@ void test_single_point(const std::vector<double> &upper_corner, std::ostream &ou
   AssertThrow(water.carrier() == &soil && &water.points() == &soil.points && water.layout.velocity == soil_slots &&
                   water.layout.end == soil.layout.n_properties,
               ExcMessage("The water's slots are not behind those of the soil."));
-  for (const auto &cell : water.points().cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      {
-        const double *properties = cell.properties + p * water.points().stride();
-        const double volume      = properties[water.layout.volume];
-        AssertThrow(std::abs(volume / (porosity * properties[soil.layout.volume]) - 1.) < 1e-13 &&
-                        std::abs(properties[water.layout.mass] / (1000. * volume) - 1.) < 1e-14,
-                    ExcMessage("The water does not fill the pores."));
-        for (unsigned int a = 0; a < dim; ++a)
-          AssertThrow(properties[water.layout.velocity + a] == properties[soil.layout.velocity + a],
-                      ExcMessage("The water does not move with the soil."));
-      }
+  for_each_point(water.points(), [&](const auto &point) {
+    const double *properties = point.properties;
+    const double volume      = properties[water.layout.volume];
+    AssertThrow(std::abs(volume / (porosity * properties[soil.layout.volume]) - 1.) < 1e-13 &&
+                    std::abs(properties[water.layout.mass] / (1000. * volume) - 1.) < 1e-14,
+                ExcMessage("The water does not fill the pores."));
+    for (unsigned int a = 0; a < dim; ++a)
+      AssertThrow(properties[water.layout.velocity + a] == properties[soil.layout.velocity + a],
+                  ExcMessage("The water does not move with the soil."));
+  });
   out << dim << "D single-point: OK" << std::endl;
 }
 

@@ -61,18 +61,15 @@ void test(const Scene<dim> &scene, std::ostream &out)
   Overburden<dim> water_above(grid, water_layers<dim>(parameters, scene.soil), scene.gravity, spacing);
   set_hydrostatic_pressure(water, water_above);
   double error = 0, largest = 0;
-  for (const auto &cell : water.points().cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      {
-        const double *properties = cell.properties + p * water.points().stride();
-        const double expected    = scene.pressure(cell.location[p]);
-        largest                  = std::max(largest, expected);
-        error                    = std::max(error, std::abs(properties[water.layout.pressure] - expected));
-        for (unsigned int a = 0; a < dim; ++a)
-          AssertThrow(std::abs(properties[water.layout.pressure_gradient + a] - water_density * scene.gravity[a]) <
-                          1e-10,
-                      ExcMessage("The pressure gradient is not the weight of the water."));
-      }
+  for_each_point(water.points(), [&](const auto &point) {
+    const double *properties = point.properties;
+    const double expected    = scene.pressure(point.location);
+    largest                  = std::max(largest, expected);
+    error                    = std::max(error, std::abs(properties[water.layout.pressure] - expected));
+    for (unsigned int a = 0; a < dim; ++a)
+      AssertThrow(std::abs(properties[water.layout.pressure_gradient + a] - water_density * scene.gravity[a]) < 1e-10,
+                  ExcMessage("The pressure gradient is not the weight of the water."));
+  });
   compare<dim>(scene.name + ": the pressure", error, largest);
   out << dim << "D " << scene.name << ": pressure OK, up to " << Utilities::MPI::max(largest, MPI_COMM_WORLD) << " Pa";
 
@@ -83,26 +80,24 @@ void test(const Scene<dim> &scene, std::ostream &out)
   for (const SoilRegion &body : scene.soil)
     {
       SoilBody<dim> soil("Soil",
-                      body.bulk_density,
-                      grain_density,
-                      make_material<dim>(material),
-                      PropertyLayout<dim>(0, false),
-                      grid.triangulation(),
-                      grid.mapping());
+                         body.bulk_density,
+                         grain_density,
+                         make_material<dim>(material),
+                         PropertyLayout<dim>(0, false),
+                         grid.triangulation(),
+                         grid.mapping());
       SeedingParameters seeding;
       seeding.region          = body.region;
       seeding.points_per_cell = 2;
       seed(soil, seeding, grid.triangulation(), grid.cell_size());
       set_k0_stress(soil, soil_above, K0);
-      for (const auto &cell : soil.points.cells())
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          {
-            const double *stress  = cell.properties + p * soil.points.stride() + soil.layout.stress;
-            const double expected = scene.stress(cell.location[p]);
-            largest               = std::max(largest, expected);
-            for (unsigned int a = 0; a < 3; ++a)
-              error = std::max(error, std::abs(stress[a] + (a == soil_above.vertical_axis() ? 1. : K0) * expected));
-          }
+      for_each_point(soil.points, [&](const auto &point) {
+        const double *stress  = point.properties + soil.layout.stress;
+        const double expected = scene.stress(point.location);
+        largest               = std::max(largest, expected);
+        for (unsigned int a = 0; a < 3; ++a)
+          error = std::max(error, std::abs(stress[a] + (a == soil_above.vertical_axis() ? 1. : K0) * expected));
+      });
     }
   if (!scene.soil.empty())
     compare<dim>(scene.name + ": the stress", error, largest);

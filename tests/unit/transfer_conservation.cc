@@ -39,28 +39,26 @@ Momenta<dim> momenta(const Simulation<dim> &simulation, const double spin)
 {
   std::vector<double> sums(dim + 5, 0.);
   for (const auto &body : simulation.bodies())
-    for (const auto &cell : body.points.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
+    for_each_point(body.points, [&](const auto &point) {
+      const double *properties = point.properties;
+      const double mass        = properties[body.layout.mass];
+      Tensor<1, 3> x, v;
+      Tensor<2, 3> affine;
+      for (unsigned int a = 0; a < dim; ++a)
         {
-          const double *properties = cell.properties + p * body.points.stride();
-          const double mass        = properties[body.layout.mass];
-          Tensor<1, 3> x, v;
-          Tensor<2, 3> affine;
-          for (unsigned int a = 0; a < dim; ++a)
-            {
-              x[a] = cell.location[p][a];
-              v[a] = properties[body.layout.velocity + a];
-              sums[a] += mass * v[a];
-              if (spin > 0)
-                for (unsigned int b = 0; b < dim; ++b)
-                  affine[a][b] = spin * properties[body.layout.affine + a * dim + b];
-            }
-          const Tensor<1, 3> orbit = cross_product_3d(x, v);
-          for (unsigned int a = 0; a < 3; ++a)
-            sums[dim + a] += mass * (orbit[a] + affine[(a + 2) % 3][(a + 1) % 3] - affine[(a + 1) % 3][(a + 2) % 3]);
-          sums[dim + 3] += mass * v.norm();
-          sums[dim + 4] += mass * orbit.norm();
+          x[a] = point.location[a];
+          v[a] = properties[body.layout.velocity + a];
+          sums[a] += mass * v[a];
+          if (spin > 0)
+            for (unsigned int b = 0; b < dim; ++b)
+              affine[a][b] = spin * properties[body.layout.affine + a * dim + b];
         }
+      const Tensor<1, 3> orbit = cross_product_3d(x, v);
+      for (unsigned int a = 0; a < 3; ++a)
+        sums[dim + a] += mass * (orbit[a] + affine[(a + 2) % 3][(a + 1) % 3] - affine[(a + 1) % 3][(a + 2) % 3]);
+      sums[dim + 3] += mass * v.norm();
+      sums[dim + 4] += mass * orbit.norm();
+    });
   Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
   Momenta<dim> result;
   for (unsigned int a = 0; a < dim; ++a)

@@ -44,9 +44,7 @@ void test(const std::string &basis,
   SurfaceLoad<dim> load(grid, parameters);
 
   double sum_of_areas = 0;
-  for (const auto &cell : load.points().cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      sum_of_areas += cell.properties[p * load.points().stride() + SurfaceLoad<dim>::area];
+  for_each_point(load.points(), [&](const auto &marker) { sum_of_areas += marker.properties[SurfaceLoad<dim>::area]; });
   sum_of_areas = Utilities::MPI::sum(sum_of_areas, MPI_COMM_WORLD);
   AssertThrow(std::abs(sum_of_areas / area - 1.) < 1e-12, ExcMessage("The patch has a wrong area."));
 

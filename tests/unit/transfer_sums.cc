@@ -38,32 +38,30 @@ void test(const std::string &basis, const std::string &method, std::ostream &out
   seeding.region          = "x + 0.7 * y < 0.55";
   seeding.points_per_cell = 3;
   SoilBody<dim> body("Soil",
-                   1000.,
-                   1000.,
-                   make_material<dim>(material),
-                   PropertyLayout<dim>(0, affine),
-                   grid.triangulation(),
-                   grid.mapping());
+                     1000.,
+                     1000.,
+                     make_material<dim>(material),
+                     PropertyLayout<dim>(0, affine),
+                     grid.triangulation(),
+                     grid.mapping());
   seed(body, seeding, grid.triangulation(), grid.cell_size());
 
   RandomNumbers random;
   double points_mass = 0;
   Tensor<1, dim> points_momentum;
-  for (const auto &cell : body.points.cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p)
+  for_each_point(body.points, [&](const auto &point) {
+    double *properties = point.properties;
+    for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+      properties[body.layout.stress + c] = random.uniform(-1e4, 1e4);
+    for (unsigned int c = 0; affine && c < dim * dim; ++c)
+      properties[body.layout.affine + c] = random.uniform(-1, 1) * (method == "APIC" ? 1e-2 : 1.);
+    points_mass += properties[body.layout.mass];
+    for (unsigned int a = 0; a < dim; ++a)
       {
-        double *properties = cell.properties + p * body.points.stride();
-        for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
-          properties[body.layout.stress + c] = random.uniform(-1e4, 1e4);
-        for (unsigned int c = 0; affine && c < dim * dim; ++c)
-          properties[body.layout.affine + c] = random.uniform(-1, 1) * (method == "APIC" ? 1e-2 : 1.);
-        points_mass += properties[body.layout.mass];
-        for (unsigned int a = 0; a < dim; ++a)
-          {
-            properties[body.layout.velocity + a] = random.uniform(-1, 1);
-            points_momentum[a] += properties[body.layout.mass] * properties[body.layout.velocity + a];
-          }
+        properties[body.layout.velocity + a] = random.uniform(-1, 1);
+        points_momentum[a] += properties[body.layout.mass] * properties[body.layout.velocity + a];
       }
+  });
 
   NodalField<dim> field(grid);
   field.clear();

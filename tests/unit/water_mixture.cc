@@ -62,12 +62,12 @@ void test(const std::string &basis, std::ostream &out)
   seeding.points_per_cell  = 2;
   seeding.initial_porosity = 0.4;
   SoilBody<dim> soil("Soil",
-                  1500.,
-                  2500.,
-                  make_material<dim>(material),
-                  PropertyLayout<dim>(0, false),
-                  grid.triangulation(),
-                  grid.mapping());
+                     1500.,
+                     2500.,
+                     make_material<dim>(material),
+                     PropertyLayout<dim>(0, false),
+                     grid.triangulation(),
+                     grid.mapping());
   seed(soil, seeding, grid.triangulation(), grid.cell_size());
   WaterParameters water_parameters;
   water_parameters.region          = "y < 0.44";
@@ -76,28 +76,24 @@ void test(const std::string &basis, std::ostream &out)
   seed_water(water, water_parameters, { { "Soil", "x < 0.33", 0.4, 1500. } }, grid.triangulation(), grid.cell_size());
 
   const auto shake = [&](PointSet<dim> &points) {
-    for (const auto &cell : points.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          const Point<dim> x = cell.location[p];
-          for (unsigned int a = 0; a < dim; ++a)
-            cell.location[p][a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
-        }
+    for_each_point(points, [&](const auto &point) {
+      const Point<dim> x = point.location;
+      for (unsigned int a = 0; a < dim; ++a)
+        point.location[a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
+    });
     points.sort();
   };
   shake(soil.points);
   shake(water.points());
-  for (const auto &cell : water.points().cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      {
-        double *properties                = cell.properties + p * water.points().stride();
-        properties[water.layout.pressure] = linear(cell.location[p]);
-        double *gradient                  = properties + water.layout.pressure_gradient;
-        gradient[0]                       = -3.;
-        gradient[1]                       = 2.;
-        if (dim == 3)
-          gradient[2] = -1.;
-      }
+  for_each_point(water.points(), [&](const auto &point) {
+    double *properties                = point.properties;
+    properties[water.layout.pressure] = linear(point.location);
+    double *gradient                  = properties + water.layout.pressure_gradient;
+    gradient[0]                       = -3.;
+    gradient[1]                       = 2.;
+    if (dim == 3)
+      gradient[2] = -1.;
+  });
 
   TransferParameters transfer_parameters;
   const WaterTransfer<dim> transfer(grid, transfer_parameters, water_parameters, 1.);
@@ -127,32 +123,30 @@ void test(const std::string &basis, std::ostream &out)
           record, multilinear_of<dim>(pressure_of_cell(cell.cell)), 1., moments, 0, moments, dim);
     }
   const auto walk = [&](const PointSet<dim> &set, const unsigned int first, const auto &volume_of) {
-    for (const auto &cell : set.cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
+    for_each_point(set, [&](const auto &point) {
+      const auto values   = pressure_of_cell(point.cell);
+      const Point<dim> &x = point.reference_location;
+      Tensor<1, dim> slope;
+      for (unsigned int v = 0; v < values.size(); ++v)
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            double factor = values[v] * ((v >> a) & 1 ? 1. : -1.) / grid.cell_size();
+            for (unsigned int b = 0; b < dim; ++b)
+              if (b != a)
+                factor *= (v >> b) & 1 ? x[b] : 1. - x[b];
+            slope[a] += factor;
+          }
+      const double volume = volume_of(point.cell, point.properties);
+      const CellBasis<dim, n> shape(x, grid.open_knots(point.cell));
+      for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
         {
-          const auto values   = pressure_of_cell(cell.cell);
-          const Point<dim> &x = cell.reference_location[p];
-          Tensor<1, dim> slope;
-          for (unsigned int v = 0; v < values.size(); ++v)
-            for (unsigned int a = 0; a < dim; ++a)
-              {
-                double factor = values[v] * ((v >> a) & 1 ? 1. : -1.) / grid.cell_size();
-                for (unsigned int b = 0; b < dim; ++b)
-                  if (b != a)
-                    factor *= (v >> b) & 1 ? x[b] : 1. - x[b];
-                slope[a] += factor;
-              }
-          const double volume = volume_of(cell.cell, cell.properties + p * set.stride());
-          const CellBasis<dim, n> shape(x, grid.open_knots(cell.cell));
-          for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
-            {
-              double value = 1.;
-              for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-                value *= shape.value[a][rest % n];
-              for (unsigned int a = 0; a < dim; ++a)
-                points[grid.nodes(cell.cell)[i]][first + a] += volume * value * slope[a];
-            }
+          double value = 1.;
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+            value *= shape.value[a][rest % n];
+          for (unsigned int a = 0; a < dim; ++a)
+            points[grid.nodes(point.cell)[i]][first + a] += volume * value * slope[a];
         }
+    });
   };
   walk(soil.points, 0, [&](const unsigned int cell, const double *properties) {
     return saturation[cell] * properties[soil.layout.mass] / soil.grain_density;

@@ -24,12 +24,12 @@ namespace scree
     PointSet<dim> points;
 
     SoilBody(const std::string &name,
-          const double density,
-          const double grain_density,
-          std::unique_ptr<Material<dim>> material,
-          const PropertyLayout<dim> &layout,
-          const dealii::Triangulation<dim> &triangulation,
-          const dealii::Mapping<dim> &mapping)
+             const double density,
+             const double grain_density,
+             std::unique_ptr<Material<dim>> material,
+             const PropertyLayout<dim> &layout,
+             const dealii::Triangulation<dim> &triangulation,
+             const dealii::Mapping<dim> &mapping)
         : name(name)
         , density(density)
         , grain_density(grain_density)
