@@ -33,7 +33,7 @@ namespace scree
 
     MotionReport report;
     double largest_square = 0;
-    for (const CellPoints<dim> &cell : body.points.cells())
+    for (const auto &cell : body.points.cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field);

@@ -93,7 +93,7 @@ namespace scree
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const auto &layout            = soil.layout;
     const double initial_porosity = std::max(1. - soil.density / soil.grain_density, smallest_porosity);
-    for (const CellPoints<dim> &cell : soil.points.cells())
+    for (const auto &cell : soil.points.cells())
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
@@ -153,7 +153,7 @@ namespace scree
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const double width            = grid.cell_size();
     const auto &layout            = water.layout;
-    for (const CellPoints<dim> &cell : water.points().cells())
+    for (const auto &cell : water.points().cells())
       {
         const OpenKnots open               = grid.open_knots(cell.cell);
         const unsigned int record          = mixture.record(cell.cell);
@@ -268,7 +268,7 @@ namespace scree
     const SoilBody<dim> *soil = water.carrier();
 
     double largest_square = 0;
-    for (const CellPoints<dim> &cell : water.points().cells())
+    for (const auto &cell : water.points().cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field);
