@@ -68,7 +68,7 @@ namespace scree
     const double width = grid.cell_size(), inverse_width = 1. / width;
     const auto &layout = body.layout;
 
-    for (const CellPoints<dim> &cell : body.points.cells())
+    for (const auto &cell : body.points.cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         CellSums<dim, n> sums;

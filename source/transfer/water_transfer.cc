@@ -93,7 +93,7 @@ namespace scree
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const auto &layout            = soil.layout;
     const double initial_porosity = std::max(1. - soil.density / soil.grain_density, smallest_porosity);
-    for (const CellPoints<dim> &cell : soil.points.cells())
+    for (const auto &cell : soil.points.cells())
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
@@ -153,7 +153,7 @@ namespace scree
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const double width            = grid.cell_size();
     const auto &layout            = water.layout;
-    for (const CellPoints<dim> &cell : water.points().cells())
+    for (const auto &cell : water.points().cells())
       {
         const OpenKnots open               = grid.open_knots(cell.cell);
         const unsigned int record          = mixture.record(cell.cell);
@@ -262,13 +262,15 @@ namespace scree
                                         const PressureOfCell<dim> &corner_pressure,
                                         const double time_step) const
   {
-    const double width     = grid.cell_size();
-    const double keep      = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
-    const auto &layout     = water.layout;
+    const double width        = grid.cell_size();
+    const double keep         = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
+    const auto &layout        = water.layout;
     const SoilBody<dim> *soil = water.carrier();
 
     double largest_square = 0;
-    for (const CellPoints<dim> &cell : water.points().cells())
+    CellCosts &costs      = water.points().costs();
+    costs.start_pass();
+    for (const auto &cell : water.points().cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field);
@@ -331,6 +333,7 @@ namespace scree
                 properties[layout.mass]   = water.density * properties[layout.volume];
               }
           }
+        costs.finish_cell(cell.cell, cell.n_points);
       }
     return std::sqrt(largest_square);
   }
