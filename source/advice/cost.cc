@@ -62,9 +62,11 @@ namespace scree
              rows * (row_seconds + row_seconds_per_point * scene.n_points() + 0.5 * rows * row_seconds_per_row);
     }
 
-    bool is_of_law(const std::string &part)
+    /// Core-seconds of a part of a step; 0 if it was not met.
+    double seconds_of(const StepCost &steps, const StepPart part)
     {
-      return part == "grid to points, stress";
+      const auto found = steps.parts.find(part);
+      return found == steps.parts.end() ? 0. : found->second;
     }
   } // namespace
 
@@ -75,10 +77,7 @@ namespace scree
     const auto step_at = [&](const double stiffness, const double speed) {
       return std::min(schedule.longest_step, clock.stable_step(scene.cell_size, scene.fastest.speed(stiffness), speed));
     };
-    double update = 0; // core-seconds a step of the law
-    for (const auto &[part, of_part] : first_steps.parts)
-      if (is_of_law(part))
-        update += of_part;
+    const double update = seconds_of(first_steps, StepPart::stress);
 
     RunCost cost;
     const auto add =
@@ -93,10 +92,9 @@ namespace scree
     const double speed = std::max(scene.initial_speed, part_of_fall_speed * std::sqrt(2. * scene.gravity * scene.fall));
     const double in_motion = step_at(stiffening(scene), speed);
     // Points are sorted in each step in which one leaves its cell.
-    const bool sorts   = scene.n_points() * speed * in_motion > scene.cell_size;
-    const auto sorting = first_steps.parts.find("sort into cells and ranks");
-    const double more =
-        sorts && sorting != first_steps.parts.end() ? std::max(0., first_steps.sorting - sorting->second) : 0.;
+    const bool sorts     = scene.n_points() * speed * in_motion > scene.cell_size;
+    const double sorting = seconds_of(first_steps, StepPart::sort);
+    const double more    = sorts && sorting > 0. ? std::max(0., first_steps.sorting - sorting) : 0.;
     add(0, motion, in_motion, flows ? 1. + substeps_of_strain * in_motion * rate / scene.substep_strain : 1., more);
     add(motion, scene.end_time, step_at(1., 0.), resting_update, 0.);
     cost.first_step     = step_at(1., scene.initial_speed);
@@ -135,10 +133,19 @@ namespace scree
     double seconds    = 0;
     for (auto &[part, of_part] : steps.parts)
       {
-        if (part.rfind("pressure", 0) == 0 || part == "grid to water points" || part == "nodes")
-          of_part = 0;
-        else if (!is_of_law(part))
-          of_part *= soil;
+        switch (part)
+          {
+          case StepPart::nodes:
+          case StepPart::pressure_system:
+          case StepPart::pressure_solve:
+          case StepPart::water_points:
+            of_part = 0;
+            break;
+          case StepPart::stress:
+            break;
+          default:
+            of_part *= soil;
+          }
         seconds += of_part;
       }
     steps.seconds = seconds;

@@ -12,13 +12,10 @@ namespace scree
 
   namespace
   {
-    constexpr unsigned int steps_between_looks        = 100;
+    constexpr unsigned int steps_between_looks        = 50;
     constexpr unsigned int steps_between_measurements = 10;
     constexpr double cost_of_unmeasured_point         = 1e-7; // s
-
-    // Where cells are too few to be shared out evenly, changes in vain take at most half as long as what they answer.
-    constexpr double surplus_per_duration = 2.;
-  } // namespace
+  }                                                           // namespace
 
 
   template <int dim>
@@ -112,7 +109,8 @@ namespace scree
         unsigned(mean(Work::to_points) > mean(Work::to_nodes) ? Work::to_points : Work::to_nodes);
     weights = longer == unsigned(Work::to_points) ? Weights::costs : Weights::points;
     surplus += ranks.largest[longer] - ranks.mean[longer];
-    return surplus > surplus_per_duration * duration;
+    // So changes in vain, where cells are too few to be shared out evenly, take no longer than what they answer.
+    return surplus > duration;
   }
 
 
@@ -155,7 +153,7 @@ namespace scree
   template <int dim>
   void Partition<dim>::repartition(const std::function<void()> &fit)
   {
-    const Timer timer;
+    const auto start = CPUClock::now();
     find_typical_costs();
     for (PointSet<dim> *points : sets)
       points->handler().prepare_for_coarsening_and_refinement();
@@ -169,7 +167,7 @@ namespace scree
     fit();
     n_changes += sum_of_mean > 0.;
     surplus  = 0.;
-    duration = Utilities::MPI::max(timer.wall_time(), communicator);
+    duration = Utilities::MPI::max(std::chrono::duration<double>(CPUClock::now() - start).count(), communicator);
   }
 
 

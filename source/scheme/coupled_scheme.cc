@@ -169,14 +169,12 @@ namespace scree
       {
         const auto &layout = body.layout;
         std::vector<double> scratch(layout.n_properties); // A state without stress must not reset internal variables.
-        for (const CellPoints<dim> &cell : body.points.cells())
-          for (unsigned int p = 0; p < cell.n_points; ++p)
-            {
-              double *properties = cell.properties + p * body.points.stride();
-              if (body.porosity(properties) > fluidisation_porosity)
-                body.material->initialise(
-                    no_stress, properties + layout.left_cauchy_green, properties + layout.stress, scratch.data());
-            }
+        for_each_point(body.points, [&](const auto &point) {
+          double *properties = point.properties;
+          if (body.porosity(properties) > fluidisation_porosity)
+            body.material->initialise(
+                no_stress, properties + layout.left_cauchy_green, properties + layout.stress, scratch.data());
+        });
       }
   }
 

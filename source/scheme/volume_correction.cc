@@ -95,16 +95,14 @@ namespace scree
       return;
     find_potential(mixture, time_step, balance);
     find_shifts(mixture, water_field, pores, time_step);
-    for (const CellPoints<dim> &cell : water.points().cells())
-      for (unsigned int p = 0; p < cell.n_points; ++p)
-        {
-          Tensor<1, dim> shift;
-          visit_nodes(grid, cell.cell, cell.reference_location[p], [&](const unsigned int node, const double shape) {
-            for (unsigned int c = 0; c < dim; ++c)
-              shift[c] += shape * shifts[node][dim + c];
-          });
-          cell.location[p] += shift;
-        }
+    for_each_point(water.points(), [&](const auto &point) {
+      Tensor<1, dim> shift;
+      visit_nodes(grid, point.cell, point.reference_location, [&](const unsigned int node, const double shape) {
+        for (unsigned int c = 0; c < dim; ++c)
+          shift[c] += shape * shifts[node][dim + c];
+      });
+      point.location += shift;
+    });
   }
 
   template class VolumeCorrection<2>;

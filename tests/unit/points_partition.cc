@@ -72,16 +72,16 @@ void test(std::ostream &out)
   out << dim << "D" << std::endl;
   out << "at the start, worth changing: " << partition.is_worth_changing() << std::endl;
   tell("as made");
-  for (unsigned int step = 0; step < 100; ++step)
+  for (unsigned int step = 0; step < 50; ++step)
     {
       partition.begin_step();
-      if (step == 50)
+      if (step == 20)
         work_unevenly(MPI_COMM_WORLD);
       partition.finish(Work::to_points);
       partition.wait();
       for (const auto &cell : mesh.active_cell_iterators())
         if (cell->is_locally_owned() && step % 10 == 0)
-          points.costs().add(cell->active_cell_index(), step == 70 ? 1. : true_cost<dim>(cell));
+          points.costs().add(cell->active_cell_index(), step == 30 ? 1. : true_cost<dim>(cell));
     }
   const bool is_worth_changing = partition.is_worth_changing();
   out << "rank 0 works three times as long, worth changing: " << is_worth_changing << std::endl;

@@ -37,8 +37,8 @@ FINEST = (DEFAULTS, "3 x 3 points", "FLIP", "FLIP, 3 x 3 points", "FLIP, PIC rat
 
 
 def measure(run):
-    return {**dry_slope.measure(run), "median p oscillation": np.median(run.statistics("^p oscillation")[1:]),
-            "largest p, kPa": np.max(run.statistics("^largest p ")) / 1e3, "CG iterations": np.mean(run.statistics("^CG iterations")[1:])}
+    return {**dry_slope.measure(run), "median p oscillation": np.median(run.statistics("p oscillation (-)")[1:]),
+            "largest p, kPa": np.max(run.statistics("Largest p (Pa)")) / 1e3, "CG iterations": np.mean(run.statistics("CG iterations per step")[1:])}
 
 
 def verdict(rows):

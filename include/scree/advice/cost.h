@@ -4,23 +4,23 @@
 
 #include <scree/advice/scene_numbers.h>
 #include <scree/output/output_parameters.h>
+#include <scree/scheme/step_part.h>
 #include <scree/scheme/time_step.h>
 
 #include <limits>
 #include <map>
-#include <string>
 
 namespace scree
 {
   /// What the first steps of a case took on this machine.
   struct StepCost
   {
-    double n_steps = 0;                  ///< looked at
-    double seconds = 0;                  ///< a step, of all ranks together
-    std::map<std::string, double> parts; ///< of `seconds`, by the names that a run tells at its end
-    double sorting        = 0;           ///< all points, as where some leave their cells, core-seconds
-    double memory         = 0;           ///< of all ranks, bytes
-    double program_memory = 1.2e8;       ///< of `memory`, what does not grow with points and cells, bytes
+    double n_steps = 0;               ///< looked at
+    double seconds = 0;               ///< a step, of all ranks together
+    std::map<StepPart, double> parts; ///< of `seconds`
+    double sorting        = 0;        ///< all points, as where some leave their cells, core-seconds
+    double memory         = 0;        ///< of all ranks, bytes
+    double program_memory = 1.2e8;    ///< of `memory`, what does not grow with points and cells, bytes
   };
 
   /// What a whole run will take.
