@@ -33,6 +33,8 @@ namespace scree
 
     MotionReport report;
     double largest_square = 0;
+    CellCosts &costs      = body.points.costs();
+    costs.start_pass();
     for (const auto &cell : body.points.cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
@@ -91,6 +93,7 @@ namespace scree
             motion.volume_ratio[p] = volume / motion.reference_volume[p];
           }
         body.material->update(points, motion.material_motion(), report.material);
+        costs.finish_cell(cell.cell, cell.n_points);
       }
     report.largest_speed = std::sqrt(largest_square);
     return report;

@@ -262,12 +262,14 @@ namespace scree
                                         const PressureOfCell<dim> &corner_pressure,
                                         const double time_step) const
   {
-    const double width     = grid.cell_size();
-    const double keep      = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
-    const auto &layout     = water.layout;
+    const double width        = grid.cell_size();
+    const double keep         = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
+    const auto &layout        = water.layout;
     const SoilBody<dim> *soil = water.carrier();
 
     double largest_square = 0;
+    CellCosts &costs      = water.points().costs();
+    costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
@@ -331,6 +333,7 @@ namespace scree
                 properties[layout.mass]   = water.density * properties[layout.volume];
               }
           }
+        costs.finish_cell(cell.cell, cell.n_points);
       }
     return std::sqrt(largest_square);
   }
