@@ -172,7 +172,7 @@ namespace scree
     surface_load.check(grid, dimension);
     body_force.check(dimension);
     settling.check(gravity);
-    require_entry(transfer.method != "APIC" || grid.basis == "spline",
+    require_entry(transfer.transfer_method() != TransferMethod::apic || grid.basis_kind() == Basis::spline,
                   "Transfer",
                   "Method",
                   transfer.method,
@@ -193,7 +193,7 @@ namespace scree
     water.check(gravity, bodies.size());
     pressure.check(bodies.size());
     water_boundaries.check(dimension);
-    require_entry(water.viscosity == 0 || transfer.method == "TPIC",
+    require_entry(water.viscosity == 0 || transfer.transfer_method() == TransferMethod::tpic,
                   "Water",
                   "Viscosity",
                   water.viscosity,
@@ -202,7 +202,7 @@ namespace scree
                       transfer.method + "\". Write \"Method = TPIC\" there, or remove the entry.");
     for (const SoilRegion &body : soil_regions())
       {
-        if (water.region == "same")
+        if (water.is_where_soil_is())
           require_pores(body);
         require_entry(body.porosity < water.fluidisation_porosity,
                       "Water",

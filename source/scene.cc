@@ -121,9 +121,9 @@ namespace scree
     for (auto &body : bodies)
       {
         const InitialStateParameters &state = (entries++)->initial_state;
-        if (state.type != "K0")
+        if (state.stress_kind() != InitialStress::k0)
           {
-            set_isotropic_stress(body, state.type == "isotropic" ? state.pressure : 0.);
+            set_isotropic_stress(body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0.);
             continue;
           }
         if (!overburden)
@@ -134,7 +134,8 @@ namespace scree
               grid.cell_size() / 4);
         set_k0_stress(body, *overburden, state.k0);
       }
-    if (!water.empty() && parameters.water.initial_pressure == "hydrostatic" && forcing.gravity().norm() > 0)
+    if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
+        forcing.gravity().norm() > 0)
       {
         Overburden<dim> water_above(
             grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);

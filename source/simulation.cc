@@ -28,6 +28,7 @@ namespace scree
       , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
       , scene(parameters, communicator)
       , scheme(scene.make_scheme(timer))
+      , partition(scene.grid.triangulation(), scheme->point_sets())
       , clock(parameters.time_step)
       , output_times(parameters.output, parameters.end_time)
       , graphics(scene.grid, parameters.output, parameters.output_directory)
@@ -37,15 +38,6 @@ namespace scree
     std::ostringstream all_entries;
     parameters.print(all_entries);
     folder.write("parameters.prm", all_entries.str());
-
-    // Cost sits where the points are; an empty cell costs a little.
-    scene.grid.triangulation().signals.weight.connect([this](const auto &cell, const auto) {
-      unsigned int weight = 1;
-      if (cell->is_active() && cell->is_locally_owned())
-        for (const PointSet<dim> *points : point_sets())
-          weight += 20 * points->handler().n_particles_in_cell(cell);
-      return weight;
-    });
 
     if (start == Start::resume)
       resume();
@@ -114,6 +106,8 @@ namespace scree
                        Utilities::MPI::sum(point_updates - updates_before, communicator),
                        Utilities::MPI::n_mpi_processes(communicator),
                        scene.name_of_a_point());
+    progress.summarise_ranks(
+        seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
     folder.log("Results are in " + parameters.output_directory +
                (parameters.output.graphics == "none" ? "." : " (open solution/points.pvd in ParaView)."));
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
@@ -125,24 +119,60 @@ namespace scree
   void Simulation<dim>::advance(const double time_step)
   {
     repartition();
+    partition.begin_step();
     StepReport<dim> step;
     scene.forcing.set_time(clock.time());
     scheme->to_grid(clock.time());
+    partition.finish(Work::to_nodes);
+    wait();
     scheme->solve(time_step, step);
+    partition.finish(Work::to_nodes);
     scheme->to_points(time_step, step);
-    {
-      const TimedPart part(timer, StepPart::sort);
-      for (PointSet<dim> *points : point_sets())
-        points->sort();
-    }
+    std::vector<int> has_left = update_places();
+    partition.finish(Work::to_points);
+
+    wait();
+    agree_on(step.speeds);
+    check_speed(time_step);
+    Utilities::MPI::max(has_left, communicator, has_left);
+    hand_over(has_left);
+    partition.finish(Work::to_nodes);
 
     totals.balance += step.balance;
     totals.add(step.material);
     last_update = step.material;
     point_updates += step.n_updates;
-    agree_on(step.speeds);
-    check_speed(time_step);
     scene.account_for_lost_points(totals, clock.time());
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::wait()
+  {
+    const TimedPart part(timer, StepPart::waiting);
+    partition.wait();
+  }
+
+
+  template <int dim>
+  std::vector<int> Simulation<dim>::update_places()
+  {
+    const TimedPart part(timer, StepPart::sort);
+    std::vector<int> has_left;
+    for (PointSet<dim> *points : point_sets())
+      has_left.push_back(!points->update_places());
+    return has_left;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::hand_over(const std::vector<int> &has_left)
+  {
+    const TimedPart part(timer, StepPart::sort);
+    const auto sets = point_sets();
+    for (unsigned int s = 0; s < sets.size(); ++s)
+      if (has_left[s])
+        sets[s]->hand_over();
   }
 
 
@@ -229,29 +259,10 @@ namespace scree
   template <int dim>
   void Simulation<dim>::repartition()
   {
-    constexpr unsigned int steps_between_looks = 100;
-    const unsigned int n_ranks                 = Utilities::MPI::n_mpi_processes(communicator);
-    if (n_ranks == 1 || steps_in_partition++ % steps_between_looks != 0)
+    if (!partition.is_worth_changing())
       return;
-    const auto sets = point_sets();
-    double n_points = 0;
-    for (const PointSet<dim> *points : sets)
-      n_points += points->handler().n_locally_owned_particles();
-    const auto of_ranks                   = Utilities::MPI::min_max_avg(n_points, communicator);
-    constexpr double worthwhile_imbalance = 1.1;
-    if (of_ranks.max < worthwhile_imbalance * of_ranks.avg)
-      return;
-
     const TimedPart part(timer, StepPart::repartition);
-    for (PointSet<dim> *points : sets)
-      points->handler().prepare_for_coarsening_and_refinement();
-    scene.grid.triangulation().repartition();
-    for (PointSet<dim> *points : sets)
-      {
-        points->handler().unpack_after_coarsening_and_refinement();
-        points->sort();
-      }
-    reinit();
+    partition.repartition([this] { reinit(); });
   }
 
 

@@ -6,6 +6,7 @@
 #include <scree/output/output_times.h>
 #include <scree/output/progress.h>
 #include <scree/output/statistics.h>
+#include <scree/points/partition.h>
 #include <scree/scene.h>
 #include <scree/scheme/step_part.h>
 
@@ -75,6 +76,15 @@ namespace scree
     /// Shares out the cells among the ranks anew, if that is due and worthwhile.
     void repartition();
 
+    /// Waits for the slowest rank.
+    void wait();
+
+    /// Sets places in cells; returns for each set of points whether one of this rank has left its cell.
+    std::vector<int> update_places();
+
+    /// Hands the points of such sets to the cells and ranks they are in now. Collective.
+    void hand_over(const std::vector<int> &has_left);
+
     /// Takes the largest of all ranks, for the next step.
     void agree_on(Speeds speeds);
 
@@ -94,6 +104,7 @@ namespace scree
     dealii::TimerOutput timer;
     Scene<dim> scene;
     std::unique_ptr<Scheme<dim>> scheme;
+    Partition<dim> partition;
 
     Clock clock;
     OutputTimes output_times;
@@ -101,11 +112,10 @@ namespace scree
     Statistics<dim> statistics;
 
     RunTotals<dim> totals;
-    double point_updates = 0;            // points times steps, of this rank
-    UpdateReport last_update;            // of this rank
-    Speeds speeds;                       // of all ranks
-    double last_time_step           = 0; // s
-    unsigned int steps_in_partition = 0; // since its last look
+    double point_updates = 0;  // points times steps, of this rank
+    UpdateReport last_update;  // of this rank
+    Speeds speeds;             // of all ranks
+    double last_time_step = 0; // s
   };
 } // namespace scree
 

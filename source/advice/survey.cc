@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/survey.h>
-#include <scree/output/measures.h>
+#include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -89,17 +89,11 @@ namespace scree
         scene.n_cells    = grid.triangulation().n_global_active_cells();
         scene.has_soil   = !parameters.bodies.empty();
         scene.is_elastic = scene.has_soil;
-        for (const auto &body : parameters.bodies)
-          {
-            scene.is_elastic = scene.is_elastic && body.material.law == "linear elastic";
-            if (body.material.law == "Nor-Sand")
-              scene.substep_strain = std::min(scene.substep_strain, body.material.nor_sand.substep_strain);
-          }
-        scene.has_water = parameters.has_water;
+        scene.has_water  = parameters.has_water;
         if (!scene.has_water)
           return;
         scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;
-        scene.water_fills_soil = parameters.water.region == "same";
+        scene.water_fills_soil = parameters.water.is_where_soil_is();
         scene.water_density    = parameters.water.density;
         scene.conductivity     = parameters.water.conductivity;
       }
@@ -129,7 +123,9 @@ namespace scree
       void look_at_soil(const SoilBody<dim> &body)
       {
         const Material<dim> &law = *body.material;
-        scene.stiffens           = scene.stiffens || law.initial_bulk_modulus(2e4) > law.initial_bulk_modulus(1e4);
+        scene.is_elastic         = scene.is_elastic && law.is_elastic();
+        scene.stiffens           = scene.stiffens || law.has_pressure_dependent_stiffness();
+        scene.substep_strain     = std::min(scene.substep_strain, law.substep_strain());
         // Soil without stress gets its first one from its weight.
         const double first_pressure = 2. / 3. * body.density * scene.gravity * scene.height;
         for_each_point(body.points, [&](const auto &point) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/element/element_driver.h>
+#include <scree/tensor/invariants.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -13,24 +14,21 @@ namespace scree
 {
   using Path = ElementParameters::Path;
 
-  double ElementDriver::State::mean_pressure() const
+  double ElementDriver::State::mean_effective_stress() const
   {
-    return -(stress[0] + stress[1] + stress[2]) / 3;
+    return scree::mean_effective_stress(stress.data());
   }
 
 
-  double ElementDriver::State::deviator() const
+  double ElementDriver::State::deviatoric_stress() const
   {
-    double square = 0; // dev sigma : dev sigma
-    for (unsigned int i = 0; i < 3; ++i)
-      square += (stress[i] + mean_pressure()) * (stress[i] + mean_pressure()) + 2 * stress[3 + i] * stress[3 + i];
-    return std::sqrt(1.5 * square);
+    return scree::deviatoric_stress<3>(stress.data());
   }
 
 
   double ElementDriver::State::stress_ratio() const
   {
-    return mean_pressure() > 0 ? deviator() / mean_pressure() : 0;
+    return scree::stress_ratio<3>(stress.data());
   }
 
 
@@ -52,9 +50,9 @@ namespace scree
   ElementDriver::State ElementDriver::start() const
   {
     State state;
-    state.internal_variables.resize(material->internal_variable_names().size());
-    const double vertical = -parameters.confining_pressure, lateral = parameters.K0 * vertical;
-    const std::array<double, 6> wanted = { { lateral, vertical, lateral, 0, 0, 0 } };
+    state.internal_variables.resize(material->internal_quantities().size());
+    std::array<double, 6> wanted{};
+    set_k0_components(parameters.confining_pressure, parameters.K0, /* axis */ 1, wanted.data());
     material->initialise(
         wanted.data(), state.left_cauchy_green.data(), state.stress.data(), state.internal_variables.data());
     return state;
@@ -161,24 +159,23 @@ namespace scree
 
   void ElementDriver::write_table(std::ostream &out) const
   {
-    const std::vector<std::string> derived_names  = material->output_names();
-    const std::vector<std::string> internal_names = material->internal_variable_names();
+    const std::vector<Quantity> internal_quantities = material->internal_quantities();
+    const std::vector<Quantity> derived_quantities  = material->output_quantities();
 
     out << "strain[-] volume_ratio[-] mean_pressure[Pa] deviator_stress[Pa] stress_ratio[-]";
     for (const std::string component : { "xx", "yy", "zz", "xy", "xz", "yz" })
       out << " stress_" << component << "[Pa]";
-    for (const std::string &name : internal_names)
-      out << ' ' << name << (name == "image_pressure" ? "[Pa]" : "[-]");
-    for (const std::string &name : derived_names)
-      out << ' ' << name << "[-]";
+    for (const auto &quantities : { internal_quantities, derived_quantities })
+      for (const Quantity &quantity : quantities)
+        out << ' ' << quantity.name << '[' << quantity.unit << ']';
 
     out << std::scientific << std::setprecision(9);
-    std::vector<double> derived(derived_names.size());
+    std::vector<double> derived(derived_quantities.size());
     for (const State &state : states)
       {
         out << '\n'
-            << state.strain << ' ' << state.volume_ratio << ' ' << state.mean_pressure() << ' ' << state.deviator()
-            << ' ' << state.stress_ratio();
+            << state.strain << ' ' << state.volume_ratio << ' ' << state.mean_effective_stress() << ' '
+            << state.deviatoric_stress() << ' ' << state.stress_ratio();
         for (const double component : state.stress)
           out << ' ' << component;
         for (const double variable : state.internal_variables)
@@ -217,17 +214,18 @@ namespace scree
         line("peak shear/vertical stress [-]", peak_mobilised);
         line("shear/vertical stress [-]", last.mobilised_ratio());
       }
-    line("P [kPa]", last.mean_pressure() / 1000);
+    line("P [kPa]", last.mean_effective_stress() / 1000);
     line("J [-]", last.volume_ratio);
 
-    std::vector<double> derived(material->output_names().size());
+    const std::vector<Quantity> quantities = material->output_quantities();
+    std::vector<double> derived(quantities.size());
     material->output(last.left_cauchy_green.data(),
                      last.stress.data(),
                      last.internal_variables.data(),
                      last.volume_ratio,
                      derived.data());
     for (unsigned int i = 0; i < derived.size(); ++i)
-      line(material->output_names()[i] + " [-]", derived[i]);
+      line(quantities[i].name + " [" + quantities[i].unit + "]", derived[i]);
     out << "sub-steps " << accepted.n_substeps << ", fallbacks " << accepted.n_fallbacks << ", vertices "
         << accepted.n_vertices << ", separated " << accepted.n_separated << ", unresolved " << accepted.n_unresolved
         << std::endl;

@@ -14,14 +14,6 @@ namespace scree
 
   namespace
   {
-    Basis basis_from_name(const std::string &name)
-    {
-      static const std::map<std::string, Basis> table{ { "spline", Basis::spline },
-                                                       { "quadratic", Basis::quadratic },
-                                                       { "linear", Basis::linear } };
-      return table.at(name);
-    }
-
     template <int dim>
     Point<dim> point_from_list(const std::vector<double> &list)
     {
@@ -94,6 +86,15 @@ namespace scree
   }
 
 
+  Basis GridParameters::basis_kind() const
+  {
+    static const std::map<std::string, Basis> table{ { "spline", Basis::spline },
+                                                     { "quadratic", Basis::quadratic },
+                                                     { "linear", Basis::linear } };
+    return table.at(basis);
+  }
+
+
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator)
       : width(parameters.cell_size)
@@ -102,7 +103,7 @@ namespace scree
       , mesh(communicator,
              Triangulation<dim>::none,
              parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
-      , nodes_of_mesh(basis_from_name(parameters.basis))
+      , nodes_of_mesh(parameters.basis_kind())
   {
     mesh.refine_global(make_coarse_mesh());
     distribute_nodes();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
 #include <scree/input/input_error.h>
+#include <scree/tensor/invariants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,9 +120,7 @@ namespace scree
     try
       {
         set_stress(body, [&](const Point<dim> &x, double *stress) {
-          const double vertical = -overburden.weight_above(x);
-          for (unsigned int a = 0; a < 3; ++a)
-            stress[a] = (a == overburden.vertical_axis() ? 1. : k0) * vertical;
+          set_k0_components(overburden.weight_above(x), k0, overburden.vertical_axis(), stress);
         });
       }
     catch (const ExceptionBase &error)

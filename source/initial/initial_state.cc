@@ -27,23 +27,27 @@ namespace scree
   {
     const std::string subsection = body + "/Initial state";
     const InitialStateParameters defaults;
-    require_entry(type == "isotropic" ? pressure > 0 : pressure == 0,
+    const bool is_k0 = stress_kind() == InitialStress::k0, is_isotropic = stress_kind() == InitialStress::isotropic;
+    require_entry(is_isotropic ? pressure > 0 : pressure == 0,
                   subsection,
                   "Pressure",
                   pressure,
-                  type == "isotropic" ? "an isotropic start needs a pressure above 0, in Pa."
-                                      : "nothing reads it. Remove it, or write \"Type = isotropic\".");
-    require_entry(type == "K0" || k0 == defaults.k0,
-                  subsection,
-                  "K0",
-                  k0,
-                  "nothing reads it. Remove it, or write \"Type = K0\".");
-    require_entry(type != "K0" || std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(gravity.size()),
+                  is_isotropic ? "an isotropic start needs a pressure above 0, in Pa."
+                               : "nothing reads it. Remove it, or write \"Type = isotropic\".");
+    require_entry(
+        is_k0 || k0 == defaults.k0, subsection, "K0", k0, "nothing reads it. Remove it, or write \"Type = K0\".");
+    require_entry(!is_k0 || std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(gravity.size()),
                   subsection,
                   "Type",
                   type,
                   "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
                       number_text(gravity) + ". Change it, or write \"Type = none\" or \"Type = isotropic\".");
+  }
+
+
+  InitialStress InitialStateParameters::stress_kind() const
+  {
+    return type == "K0" ? InitialStress::k0 : type == "isotropic" ? InitialStress::isotropic : InitialStress::none;
   }
 
 

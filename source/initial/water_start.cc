@@ -14,7 +14,7 @@ namespace scree
     std::vector<typename Overburden<dim>::Layer> layers;
     for (const SoilRegion &body : soil)
       layers.push_back({ Region<dim>(entry_name(body.name, "Region"), body.region), body.bulk_density });
-    if (water && water->initial_pressure == "hydrostatic")
+    if (water && water->initial_pressure_kind() == InitialPressure::hydrostatic)
       for (const WaterPart &part : water_parts(*water, soil))
         if (part.soil)
           layers.push_back(
@@ -30,7 +30,7 @@ namespace scree
     // Inside and outside of the soil together: a surface between them adds nothing but its error.
     const std::string where = entry_name("Water", "Region");
     std::vector<typename Overburden<dim>::Layer> layers;
-    if (water.region != "same")
+    if (!water.is_where_soil_is())
       layers.push_back({ Region<dim>(where, water.region), water.density });
     else
       for (const WaterPart &part : water_parts(water, soil))

@@ -72,13 +72,13 @@ namespace scree
   }
 
 
-  std::vector<std::string> LinearElastic::internal_variable_names()
+  std::vector<Quantity> LinearElastic::internal_quantities()
   {
     return {};
   }
 
 
-  std::vector<std::string> LinearElastic::output_names()
+  std::vector<Quantity> LinearElastic::output_quantities()
   {
     return {};
   }

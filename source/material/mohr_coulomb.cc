@@ -256,13 +256,13 @@ namespace scree
   }
 
 
-  std::vector<std::string> MohrCoulomb::internal_variable_names()
+  std::vector<Quantity> MohrCoulomb::internal_quantities()
   {
-    return { "plastic_shear_strain" };
+    return { { "plastic_shear_strain", "-" } };
   }
 
 
-  std::vector<std::string> MohrCoulomb::output_names()
+  std::vector<Quantity> MohrCoulomb::output_quantities()
   {
     return {};
   }

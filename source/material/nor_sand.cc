@@ -177,15 +177,15 @@ namespace scree
   }
 
 
-  std::vector<std::string> NorSand::internal_variable_names()
+  std::vector<Quantity> NorSand::internal_quantities()
   {
-    return { "image_pressure", "plastic_shear_strain" };
+    return { { "image_pressure", "Pa" }, { "plastic_shear_strain", "-" } };
   }
 
 
-  std::vector<std::string> NorSand::output_names()
+  std::vector<Quantity> NorSand::output_quantities()
   {
-    return { "specific_volume", "state_parameter" };
+    return { { "specific_volume", "-" }, { "state_parameter", "-" } };
   }
 
 

@@ -40,31 +40,47 @@ namespace scree
 
   void MaterialParameters::check(const std::string &subsection) const
   {
+    switch (law_kind())
+      {
+      case LawKind::linear_elastic:
+        linear_elastic.check(subsection_path(subsection, linear_elastic_subsection));
+        break;
+      case LawKind::mohr_coulomb:
+        mohr_coulomb.check(subsection_path(subsection, mohr_coulomb_name));
+        break;
+      case LawKind::nor_sand:
+        nor_sand.check(subsection_path(subsection, nor_sand_name));
+        break;
+      }
+  }
+
+
+  LawKind MaterialParameters::law_kind() const
+  {
     if (law == linear_elastic_name)
-      linear_elastic.check(subsection_path(subsection, linear_elastic_subsection));
-    else if (law == mohr_coulomb_name)
-      mohr_coulomb.check(subsection_path(subsection, mohr_coulomb_name));
-    else
-      nor_sand.check(subsection_path(subsection, nor_sand_name));
+      return LawKind::linear_elastic;
+    if (law == mohr_coulomb_name)
+      return LawKind::mohr_coulomb;
+    AssertThrow(law == nor_sand_name, ExcMessage("There is no material \"" + law + "\"."));
+    return LawKind::nor_sand;
   }
 
 
   template <int dim>
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters)
   {
-    if (parameters.law == linear_elastic_name)
+    switch (parameters.law_kind())
       {
+      case LawKind::linear_elastic:
         if constexpr (dim == 3)
           return std::make_unique<LinearElastic3D>(LinearElastic(parameters.linear_elastic));
         else
           return std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
+      case LawKind::mohr_coulomb:
+        return std::make_unique<HenckyMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
+      default:
+        return std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(parameters.nor_sand));
       }
-    if (parameters.law == mohr_coulomb_name)
-      return std::make_unique<HenckyMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
-    if (parameters.law == nor_sand_name)
-      return std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(parameters.nor_sand));
-    AssertThrow(false, ExcMessage("There is no material \"" + parameters.law + "\"."));
-    return nullptr;
   }
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/output/cell_contents.h>
 
-#include <scree/output/measures.h>
+#include <scree/tensor/invariants.h>
 
 #include <algorithm>
 

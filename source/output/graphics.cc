@@ -14,7 +14,7 @@ namespace scree
                           const OutputParameters &parameters,
                           const std::string &run_folder)
       : grid(grid)
-      , graphics(parameters.graphics)
+      , pictures(parameters.graphics_kind())
       , folder(run_folder + "/solution/")
   {
   }
@@ -26,9 +26,9 @@ namespace scree
                             const double time,
                             const WaterView<dim> *view)
   {
-    if (graphics == "none")
+    if (pictures == Pictures::none)
       return;
-    const bool with_grid = graphics == "points and grid";
+    const bool with_grid = pictures == Pictures::points_and_grid;
 
     Cells contents;
     const std::list<WaterPhase<dim>> no_water;

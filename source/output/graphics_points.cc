@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/output/graphics.h>
-#include <scree/output/measures.h>
 #include <scree/output/patch_output.h>
+#include <scree/tensor/invariants.h>
 
 #include <algorithm>
 
@@ -58,10 +58,9 @@ namespace scree
       const double xy = stress[3], xz = dim == 3 ? stress[dim + 1] : 0., yz = dim == 3 ? stress[dim + 2] : 0.;
       for (const double value : { stress[0], xy, xz, xy, stress[1], yz, xz, yz, stress[2] })
         rows.put(value);
-      const double P = mean_effective_stress(stress), q = deviatoric_stress<dim>(stress);
-      rows.put(P);
-      rows.put(q);
-      rows.put(P > 0 ? q / P : 0.);
+      rows.put(mean_effective_stress(stress));
+      rows.put(deviatoric_stress<dim>(stress));
+      rows.put(stress_ratio<dim>(stress));
       rows.put(properties[body.layout.mass]);
       rows.put(properties[body.layout.volume]);
       rows.put(number);
@@ -77,17 +76,17 @@ namespace scree
           , first_row(names.size())
       {
         for (const auto &body : bodies)
-          for (const auto &fields : { body.material->internal_variable_names(), body.material->output_names() })
-            for (const auto &field : fields)
-              if (std::find(names.begin() + first_row, names.end(), field) == names.end())
-                output.add_name(field);
+          for (const auto &fields : { body.material->internal_quantities(), body.material->output_quantities() })
+            for (const Quantity &field : fields)
+              if (std::find(names.begin() + first_row, names.end(), field.name) == names.end())
+                output.add_name(field.name);
       }
 
       /// Prepares put() for the points of a body.
       void begin(const SoilBody<dim> &body)
       {
-        internal = rows_of(body.material->internal_variable_names());
-        derived  = rows_of(body.material->output_names());
+        internal = rows_of(body.material->internal_quantities());
+        derived  = rows_of(body.material->output_quantities());
         values.resize(derived.size());
       }
 
@@ -106,11 +105,11 @@ namespace scree
       }
 
     private:
-      std::vector<unsigned int> rows_of(const std::vector<std::string> &fields) const
+      std::vector<unsigned int> rows_of(const std::vector<Quantity> &fields) const
       {
         std::vector<unsigned int> rows;
-        for (const auto &field : fields)
-          rows.push_back(std::find(names.begin() + first_row, names.end(), field) - names.begin());
+        for (const Quantity &field : fields)
+          rows.push_back(std::find(names.begin() + first_row, names.end(), field.name) - names.begin());
         return rows;
       }
 

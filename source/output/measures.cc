@@ -3,6 +3,7 @@
 
 #include <scree/output/cell_contents.h>
 #include <scree/output/point_sums.h>
+#include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>
@@ -15,19 +16,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  template <int dim>
-  double deviatoric_stress(const double *stress)
-  {
-    const double pressure = mean_effective_stress(stress);
-    double sum            = 0;
-    for (unsigned int c = 0; c < 3; ++c)
-      sum += (stress[c] + pressure) * (stress[c] + pressure);
-    for (unsigned int c = 3; c < n_symmetric_components<dim>; ++c)
-      sum += 2. * stress[c] * stress[c];
-    return std::sqrt(1.5 * sum);
-  }
-
 
   namespace
   {
@@ -309,7 +297,6 @@ namespace scree
     return measures;
   }
 
-  template double deviatoric_stress<2>(const double *);
   template std::vector<double> mass_percentiles(const std::list<SoilBody<2>> &,
                                                 const BackgroundGrid<2> &,
                                                 const unsigned int,
@@ -325,7 +312,6 @@ namespace scree
   template WaterMeasures
   measure_water(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
 
-  template double deviatoric_stress<3>(const double *);
   template std::vector<double> mass_percentiles(const std::list<SoilBody<3>> &,
                                                 const BackgroundGrid<3> &,
                                                 const unsigned int,

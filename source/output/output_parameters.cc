@@ -40,6 +40,12 @@ namespace scree
   }
 
 
+  Pictures OutputParameters::graphics_kind() const
+  {
+    return graphics == "none" ? Pictures::none : graphics == "points" ? Pictures::points : Pictures::points_and_grid;
+  }
+
+
   double OutputParameters::interval_of_statistics() const
   {
     return statistics_interval > 0 ? statistics_interval : interval;

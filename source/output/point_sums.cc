@@ -2,7 +2,7 @@
 #include <scree/output/point_sums.h>
 
 #include <scree/output/cell_contents.h>
-#include <scree/output/measures.h>
+#include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
 

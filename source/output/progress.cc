@@ -2,6 +2,8 @@
 #include <scree/output/progress.h>
 #include <scree/scheme/step_part.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -79,5 +81,24 @@ namespace scree
     line("everything else", total - accounted);
     line("total", total);
     folder.log(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates)", n_ranks, point_updates));
+  }
+
+
+  void Progress::summarise_ranks(const double waiting,
+                                 const double imbalance,
+                                 const unsigned int n_repartitions,
+                                 const MPI_Comm communicator)
+  {
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return;
+    const double total  = clock.wall_time();
+    const auto of_ranks = Utilities::MPI::min_max_avg(waiting, communicator);
+    folder.log(format("waiting: %.1f %% of the ranks' time (%.1f %% to %.1f %%)",
+                      100 * of_ranks.avg / total,
+                      100 * of_ranks.min / total,
+                      100 * of_ranks.max / total));
+    folder.log(format("imbalance: %.3f (slowest rank over mean, without waiting); cells shared out anew %u times",
+                      imbalance,
+                      n_repartitions));
   }
 } // namespace scree

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/points/lattice.h>
 #include <scree/points/seeding.h>

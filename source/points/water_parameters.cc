@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/points/region.h>
 #include <scree/points/water_parameters.h>
@@ -70,16 +71,16 @@ namespace scree
     const std::size_t dim = gravity.size();
     const WaterParameters defaults;
     require_entry(
-        region != "same" || n_bodies > 0,
+        !is_where_soil_is() || n_bodies > 0,
         "Water",
         "Region",
         region,
         "there is no soil, as entry \"Bodies\" is none. Write where the water is, for instance x < 1 && y < 1");
     const std::string where_region = entry_name("Water", "Region");
     const std::string where_speed  = entry_name("Water", "Initial velocity");
-    if (region != "same" && dim == 2)
+    if (!is_where_soil_is() && dim == 2)
       Region<2>(where_region, region);
-    if (region != "same" && dim == 3)
+    if (!is_where_soil_is() && dim == 3)
       Region<3>(where_region, region);
     if (!initial_velocity.empty() && dim == 2)
       parse_expression<2>(where_speed, initial_velocity, 2);
@@ -101,7 +102,8 @@ namespace scree
                       remedy);
       }
     // Gravity 0 is no fault: the pressure starts at 0.
-    require_entry(initial_pressure == "none" || std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
+    require_entry(initial_pressure_kind() == InitialPressure::none ||
+                      std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
                   "Water",
                   "Initial pressure",
                   initial_pressure,
@@ -113,7 +115,7 @@ namespace scree
   void WaterParameters::check_single_point() const
   {
     const WaterParameters defaults;
-    require_entry(region == "same",
+    require_entry(is_where_soil_is(),
                   "Water",
                   "Region",
                   region,
@@ -133,5 +135,23 @@ namespace scree
   PointSets WaterParameters::point_sets_kind() const
   {
     return point_sets == "single" ? PointSets::single_point : PointSets::double_point;
+  }
+
+
+  InitialPressure WaterParameters::initial_pressure_kind() const
+  {
+    return initial_pressure == "none" ? InitialPressure::none : InitialPressure::hydrostatic;
+  }
+
+
+  ConductivityLaw WaterParameters::conductivity_law_kind() const
+  {
+    return conductivity_law == "constant" ? ConductivityLaw::constant : ConductivityLaw::kozeny_carman;
+  }
+
+
+  bool WaterParameters::is_where_soil_is() const
+  {
+    return region == "same";
   }
 } // namespace scree

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/points/lattice.h>
 #include <scree/points/water_seeding.h>
@@ -13,7 +14,7 @@ namespace scree
 
   std::vector<WaterPart> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil)
   {
-    const bool as_soil = parameters.region == "same";
+    const bool as_soil = parameters.is_where_soil_is();
     std::vector<WaterPart> parts;
     std::string outside = "(" + parameters.region + ")";
     for (const SoilRegion &body : soil)

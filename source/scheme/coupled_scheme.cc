@@ -83,14 +83,14 @@ namespace scree
         soil.field.activate_cell(cell.cell);
         pores.activate_cell(cell.cell);
         water_field.activate_cell(cell.cell);
-        if (cell.saturation == 0 || cell.grain_volume == 0)
+        if (cell.effective_saturation == 0 || cell.grain_volume == 0)
           continue;
         const unsigned int *nodes = grid.nodes(cell.cell);
         const unsigned int n      = grid.n_nodes_1d();
         const NodeRow *moments    = mixture.grain_moments(record);
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
           pores[nodes[i]][PoreField<dim>::grain_volume] +=
-              cell.saturation * moments[(i / n) * Mixture<dim>::n_moments][i % n];
+              cell.effective_saturation * moments[(i / n) * Mixture<dim>::n_moments][i % n];
       }
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/points/region.h>
 #include <scree/scheme/forcing.h>
 
 #include <cmath>

@@ -91,7 +91,7 @@ namespace scree
             {
               double *node = filling[nodes[v]];
               node[water] += cell.water_at_corner[v];
-              node[filled] += cell.water_at_corner[v] + cell.saturation * cell.grains_at_corner[v];
+              node[filled] += cell.water_at_corner[v] + cell.effective_saturation * cell.grains_at_corner[v];
               node[weighted_pressure] += cell.pressure_at_corner[v];
               node[wet_cells] += 1.;
             }

@@ -91,7 +91,7 @@ namespace scree
     for (MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0)
         {
-          const double V_s = cell.saturation * cell.grain_volume, V_w = cell.water_volume;
+          const double V_s = cell.effective_saturation * cell.grain_volume, V_w = cell.water_volume;
           const double a = cell.soil_mass, b = cell.water_mass;
           double mobility = V_w * V_w / b;
           if (a > 0.)

@@ -54,8 +54,8 @@ namespace scree
     const double volume = Utilities::fixed_power<dim>(grid.cell_size());
     for (MixtureCell<dim> &cell : records)
       {
-        cell.saturation = saturation_of(cell.water_volume, cell.pore_volume);
-        cell.fill       = (cell.water_volume + cell.saturation * cell.grain_volume) / volume;
+        cell.effective_saturation = effective_saturation_of(cell.water_volume, cell.pore_volume);
+        cell.fill                 = (cell.water_volume + cell.effective_saturation * cell.grain_volume) / volume;
       }
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/transfer/affine_field.h>
-#include <scree/transfer/cell_velocity.h>
+#include <scree/transfer/velocity_transfer.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <cmath>
@@ -42,18 +41,82 @@ namespace scree
       return values;
     }
 
-    /// Adds the moments of a volume at a place of the cell to rows of nodes.
+    /// Adds the moments of a point's volume to rows of nodes.
     template <int dim, int n>
-    void add_moments(const RowFactors<dim, n> &rows,
-                     const NodeRow &volume_x,
-                     const std::array<double, Mixture<dim>::n_moments> &powers,
-                     NodeRow *moments)
+    void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
     {
+      const NodeRow volume_x = shape.value_x * volume;
+      const auto powers      = monomials(shape.x);
       for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
         {
-          const NodeRow volume = volume_x * rows.value[r];
+          const NodeRow volume_of_row = volume_x * shape.rows.value[r];
           for (unsigned int m = 0; m < Mixture<dim>::n_moments; ++m)
-            *moments++ += volume * powers[m];
+            *moments++ += volume_of_row * powers[m];
+        }
+    }
+
+    /// Adds volume and pressure of a point of water to the corners of its cell.
+    ///
+    /// @param rise of the pressure along each axis over the cell's width, Pa
+    template <int dim>
+    void add_to_corners(const Point<dim> &x,
+                        const double volume,
+                        const double pressure,
+                        const std::array<double, dim> &rise,
+                        MixtureCell<dim> &sums)
+    {
+      double pressure_at_lower = pressure;
+      for (unsigned int a = 0; a < dim; ++a)
+        pressure_at_lower -= rise[a] * x[a];
+      const auto corners = corner_values(x);
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        {
+          double pressure_at_corner = pressure_at_lower;
+          for (unsigned int a = 0; a < dim; ++a)
+            if ((v >> a) & 1)
+              pressure_at_corner += rise[a];
+          sums.water_at_corner[v] += volume * corners[v];
+          sums.pressure_at_corner[v] += volume * corners[v] * pressure_at_corner;
+        }
+    }
+
+    /// Newtonian stress 2 mu dev(sym grad v), Pa: incompressible beside the pressure.
+    ///
+    /// @param gradient of the velocity, 1/s, dim x dim
+    template <int dim>
+    Tensor<2, dim> viscous_stress(const double viscosity, const double *gradient)
+    {
+      double trace = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+        trace += gradient[c * dim + c];
+      Tensor<2, dim> stress;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int a = 0; a < dim; ++a)
+          stress[c][a] = viscosity * (gradient[c * dim + a] + gradient[a * dim + c] - (a == c ? 2. / 3. * trace : 0.));
+      return stress;
+    }
+
+    /// Value, Pa, and gradient, Pa/m, of a multilinear pressure at a place of a cell, into a point's slots.
+    template <int dim>
+    void set_pressure(const Multilinear<dim> &pressure,
+                      const Point<dim> &x,
+                      const double width,
+                      double &value,
+                      double *gradient)
+    {
+      const auto powers = monomials(x);
+      value             = pressure.back();
+      for (unsigned int a = 0; a < dim; ++a)
+        value *= x[a];
+      for (unsigned int m = 0; m < powers.size(); ++m)
+        value += pressure[m] * powers[m];
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          double slope = 0;
+          for (unsigned int m = 0; m < powers.size(); ++m)
+            if (!((m >> a) & 1))
+              slope += pressure[m | (1 << a)] * powers[m];
+          gradient[a] = slope / width;
         }
     }
   } // namespace
@@ -69,7 +132,7 @@ namespace scree
       , pic_rate(transfer.pic_rate)
       , unit_weight(water.density * standard_gravity)
       , reference_conductivity(water.conductivity)
-      , follows_porosity(water.conductivity_law == "Kozeny-Carman")
+      , conductivity_law(water.conductivity_law_kind())
       , viscosity(water.viscosity)
       , pressure_slope(pressure_slope)
   {
@@ -79,7 +142,7 @@ namespace scree
   template <int dim>
   double WaterTransfer<dim>::conductivity(const double porosity, const double initial_porosity) const
   {
-    if (!follows_porosity)
+    if (conductivity_law == ConductivityLaw::constant)
       return reference_conductivity;
     const auto kozeny = [](const double n) { return n * n * n / ((1. - n) * (1. - n)); };
     return reference_conductivity * kozeny(porosity) / kozeny(initial_porosity);
@@ -101,36 +164,31 @@ namespace scree
         MixtureCell<dim> sums     = mixture.cells()[record];
         NodeRow pore_sums[n_rows] = {}, drag_sums[n_rows] = {};
 
-        const double *properties = cell.properties;
-        for (unsigned int p = 0; p < cell.n_points; ++p, properties += soil.points.stride())
-          {
-            const Point<dim> &x = cell.reference_location[p];
-            const CellBasis<dim, n> basis(x, open);
-            const RowFactors<dim, n> rows(basis);
-            const NodeRow value_x = make_row(basis.value[0]);
+        for_each_point(cell, [&](const auto &point) {
+          const PointShape<dim, n> shape(point.reference_location, open);
+          const double *properties    = point.properties;
+          const double mass           = properties[layout.mass];
+          const double volume         = properties[layout.volume];
+          const double grains         = mass / soil.grain_density;
+          const double porosity       = std::max(1. - grains / volume, smallest_porosity);
+          const double pores_of_point = porosity * volume;
+          const double drag = pores_of_point * porosity * unit_weight / conductivity(porosity, initial_porosity);
 
-            const double mass           = properties[layout.mass];
-            const double volume         = properties[layout.volume];
-            const double grains         = mass / soil.grain_density;
-            const double porosity       = std::max(1. - grains / volume, smallest_porosity);
-            const double pores_of_point = porosity * volume;
-            const double drag = pores_of_point * porosity * unit_weight / conductivity(porosity, initial_porosity);
-
-            add_moments<dim, n>(rows, value_x * grains, monomials(x), moments);
-            const NodeRow pore_x = value_x * pores_of_point, drag_x = value_x * drag;
-            for (unsigned int r = 0; r < n_rows; ++r)
-              {
-                pore_sums[r] += pore_x * rows.value[r];
-                drag_sums[r] += drag_x * rows.value[r];
-              }
-            const auto corners = corner_values(x);
-            for (unsigned int v = 0; v < corners.size(); ++v)
-              sums.grains_at_corner[v] += grains * corners[v];
-            sums.soil_mass += mass;
-            sums.grain_volume += grains;
-            sums.pore_volume += pores_of_point;
-            sums.drag += drag;
-          }
+          add_moments(shape, grains, moments);
+          const NodeRow pore_x = shape.value_x * pores_of_point, drag_x = shape.value_x * drag;
+          for (unsigned int r = 0; r < n_rows; ++r)
+            {
+              pore_sums[r] += pore_x * shape.rows.value[r];
+              drag_sums[r] += drag_x * shape.rows.value[r];
+            }
+          const auto corners = corner_values(shape.x);
+          for (unsigned int v = 0; v < corners.size(); ++v)
+            sums.grains_at_corner[v] += grains * corners[v];
+          sums.soil_mass += mass;
+          sums.grain_volume += grains;
+          sums.pore_volume += pores_of_point;
+          sums.drag += drag;
+        });
         mixture.cells()[record] = sums;
         pores.activate_cell(cell.cell);
         const unsigned int *nodes = grid.nodes(cell.cell);
@@ -149,108 +207,43 @@ namespace scree
   template <int n, TransferMethod method>
   void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const
   {
-    constexpr bool is_affine      = method == TransferMethod::apic || method == TransferMethod::tpic;
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const double width            = grid.cell_size();
     const auto &layout            = water.layout;
     for (const auto &cell : water.points().cells())
       {
-        const OpenKnots open               = grid.open_knots(cell.cell);
-        const unsigned int record          = mixture.record(cell.cell);
-        NodeRow *moments                   = mixture.water_moments(record);
-        MixtureCell<dim> sums              = mixture.cells()[record];
-        NodeRow momentum_sums[n_rows][dim] = {}, force_sums[n_rows][dim] = {};
+        const OpenKnots open      = grid.open_knots(cell.cell);
+        const unsigned int record = mixture.record(cell.cell);
+        NodeRow *moments          = mixture.water_moments(record);
+        MixtureCell<dim> totals   = mixture.cells()[record];
+        CellSums<dim, n> sums(width);
         NodeRow volume_before[n_rows]; // of water that rides on another body's points in this cell
         for (unsigned int r = 0; r < n_rows; ++r)
           volume_before[r] = moments[r * Mixture<dim>::n_moments];
 
-        const double *properties = cell.properties;
-        for (unsigned int p = 0; p < cell.n_points; ++p, properties += water.points().stride())
-          {
-            const Point<dim> &x = cell.reference_location[p];
-            const CellBasis<dim, n> basis(x, open);
-            const RowFactors<dim, n> rows(basis);
-            const NodeRow value_x = make_row(basis.value[0]);
-            const double mass = properties[layout.mass], volume = properties[layout.volume];
-            const double *affine = properties + layout.affine;
+        for_each_point(cell, [&](const auto &point) {
+          const PointShape<dim, n> shape(point.reference_location, open);
+          const double *properties = point.properties, *affine = properties + layout.affine;
+          const double mass = properties[layout.mass], volume = properties[layout.volume];
+          sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
+          if (method == TransferMethod::tpic && viscosity > 0)
+            sums.add_force(shape, volume, viscous_stress<dim>(viscosity, affine));
+          add_moments(shape, volume, moments);
 
-            NodeRow momentum[dim];
-            for (unsigned int c = 0; c < dim; ++c)
-              momentum[c] = value_x * (mass * properties[layout.velocity + c]);
-            if constexpr (is_affine)
-              add_affine_momentum<method>(basis,
-                                          rows,
-                                          open,
-                                          x,
-                                          width,
-                                          mass,
-                                          affine,
-                                          momentum,
-                                          [&](const unsigned int r, const unsigned int c, const NodeRow &part) {
-                                            momentum_sums[r][c] += part;
-                                          });
-            for (unsigned int r = 0; r < n_rows; ++r)
-              for (unsigned int c = 0; c < dim; ++c)
-                momentum_sums[r][c] += momentum[c] * rows.value[r];
+          std::array<double, dim> rise;
+          for (unsigned int a = 0; a < dim; ++a)
+            rise[a] = pressure_slope * width * properties[layout.pressure_gradient + a];
+          add_to_corners<dim>(shape.x, volume, properties[layout.pressure], rise, totals);
+          totals.water_mass += mass;
+          totals.water_volume += volume;
+        });
+        mixture.cells()[record] = totals;
 
-            if (method == TransferMethod::tpic && viscosity > 0)
-              {
-                // Newtonian: 2 mu dev(sym grad v), incompressible beside the pressure
-                const NodeRow derivative_x = make_row(basis.derivative[0]);
-                double trace               = 0;
-                for (unsigned int c = 0; c < dim; ++c)
-                  trace += affine[c * dim + c];
-                for (unsigned int c = 0; c < dim; ++c)
-                  for (unsigned int a = 0; a < dim; ++a)
-                    {
-                      const double stress =
-                          viscosity * (affine[c * dim + a] + affine[a * dim + c] - (a == c ? 2. / 3. * trace : 0.));
-                      const NodeRow along = (a == 0 ? derivative_x : value_x) * (-volume / width * stress);
-                      for (unsigned int r = 0; r < n_rows; ++r)
-                        force_sums[r][c] += along * (a == 0 ? rows.value[r] : rows.derivative[a - 1][r]);
-                    }
-              }
-
-            add_moments<dim, n>(rows, value_x * volume, monomials(x), moments);
-
-            const auto corners       = corner_values(x);
-            const double *gradient   = properties + layout.pressure_gradient;
-            double pressure_at_lower = properties[layout.pressure];
-            std::array<double, dim> rise;
-            for (unsigned int a = 0; a < dim; ++a)
-              {
-                rise[a] = pressure_slope * width * gradient[a];
-                pressure_at_lower -= rise[a] * x[a];
-              }
-            for (unsigned int v = 0; v < corners.size(); ++v)
-              {
-                double pressure = pressure_at_lower;
-                for (unsigned int a = 0; a < dim; ++a)
-                  if ((v >> a) & 1)
-                    pressure += rise[a];
-                sums.water_at_corner[v] += volume * corners[v];
-                sums.pressure_at_corner[v] += volume * corners[v] * pressure;
-              }
-            sums.water_mass += mass;
-            sums.water_volume += volume;
-          }
-        mixture.cells()[record] = sums;
-
-        field.activate_cell(cell.cell);
-        const unsigned int *nodes = grid.nodes(cell.cell);
+        // The density of water is one for all points: mass follows from the volume's moments.
         for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              double *node = field[nodes[r * n + i]];
-              // The density of water is one for all points: mass follows from the volume's moments.
-              node[NodalField<dim>::mass] +=
-                  water.density * (moments[r * Mixture<dim>::n_moments][i] - volume_before[r][i]);
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  node[NodalField<dim>::momentum + c] += momentum_sums[r][c][i];
-                  node[NodalField<dim>::force + c] += force_sums[r][c][i];
-                }
-            }
+          sums.mass(r) = water.density * (moments[r * Mixture<dim>::n_moments] - volume_before[r]);
+        field.activate_cell(cell.cell);
+        sums.scatter(grid.nodes(cell.cell), field);
       }
   }
 
@@ -262,75 +255,40 @@ namespace scree
                                         const PressureOfCell<dim> &corner_pressure,
                                         const double time_step) const
   {
-    const double width     = grid.cell_size();
-    const double keep      = method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
-    const auto &layout     = water.layout;
+    const double keep         = kept_velocity(method, pic_rate, time_step);
+    const auto &layout        = water.layout;
     const SoilBody<dim> *soil = water.carrier();
 
     double largest_square = 0;
+    CellCosts &costs      = water.points().costs();
+    costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
-        const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field);
+        const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());
         const Multilinear<dim> pressure = multilinear_of<dim>(corner_pressure(cell.cell));
 
-        double *properties = cell.properties;
-        for (unsigned int p = 0; p < cell.n_points; ++p, properties += water.points().stride())
-          {
-            const Point<dim> &x = cell.reference_location[p];
-            const CellBasis<dim, n> basis(x, open);
-            const RowFactors<dim, n> rows(basis);
-            const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
-
-            double square = 0;
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                const NodeRow along   = contract(rows.value, nodes.velocity[c]);
-                const double velocity = sum(along * value_x);
-                double &own           = properties[layout.velocity + c];
-                if (method == TransferMethod::flip)
-                  own = keep * (own + sum(contract(rows.value, nodes.change[c]) * value_x)) + (1. - keep) * velocity;
-                else
-                  own = velocity;
-                if (soil == nullptr)
-                  cell.location[p][c] += time_step * velocity;
-                square += own * own;
-
-                double *affine = properties + layout.affine + c * dim;
-                if constexpr (method == TransferMethod::apic)
-                  affine_moment<dim, n>(basis, rows, open, x, width, nodes.velocity[c], affine);
-                if constexpr (method == TransferMethod::tpic)
-                  {
-                    affine[0] = sum(along * derivative_x) / width;
-                    for (unsigned int a = 1; a < dim; ++a)
-                      affine[a] = sum(contract(rows.derivative[a - 1], nodes.velocity[c]) * value_x) / width;
-                  }
-              }
-            if (!(square <= largest_square)) // keeps a NaN
-              largest_square = square;
-
-            const auto powers = monomials(x);
-            double value      = pressure.back();
-            for (unsigned int a = 0; a < dim; ++a)
-              value *= x[a];
-            for (unsigned int m = 0; m < powers.size(); ++m)
-              value += pressure[m] * powers[m];
-            properties[layout.pressure] = value;
-            for (unsigned int a = 0; a < dim; ++a)
-              {
-                double slope = 0;
-                for (unsigned int m = 0; m < powers.size(); ++m)
-                  if (!((m >> a) & 1))
-                    slope += pressure[m | (1 << a)] * powers[m];
-                properties[layout.pressure_gradient + a] = slope / width;
-              }
-
-            if (soil != nullptr)
-              {
-                properties[layout.volume] = std::max(soil->pore_volume(properties), 0.);
-                properties[layout.mass]   = water.density * properties[layout.volume];
-              }
-          }
+        for_each_point(cell, [&](const auto &point) {
+          const PointShape<dim, n> shape(point.reference_location, open);
+          double *properties  = point.properties;
+          const double square = nodes.template move<method>(shape,
+                                                            { properties + layout.velocity,
+                                                              properties + layout.affine,
+                                                              soil == nullptr ? &point.location : nullptr,
+                                                              nullptr },
+                                                            keep,
+                                                            time_step);
+          if (!(square <= largest_square)) // keeps a NaN
+            largest_square = square;
+          set_pressure(
+              pressure, shape.x, grid.cell_size(), properties[layout.pressure], properties + layout.pressure_gradient);
+          if (soil != nullptr)
+            {
+              properties[layout.volume] = std::max(soil->pore_volume(properties), 0.);
+              properties[layout.mass]   = water.density * properties[layout.volume];
+            }
+        });
+        costs.finish_cell(cell.cell, cell.n_points);
       }
     return std::sqrt(largest_square);
   }

@@ -57,7 +57,7 @@ void test_undrained(const double specific_volume, const double pressure)
 {
   const ElementDriver driver = run("undrained triaxial", specific_volume, 100e3, 0.2);
   compare("v_0 " + std::to_string(specific_volume) + ", undrained: P at 20 %, kPa",
-          driver.history().back().mean_pressure() / 1000,
+          driver.history().back().mean_effective_stress() / 1000,
           pressure);
 }
 

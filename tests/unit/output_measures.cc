@@ -4,6 +4,7 @@
 
 #include <scree/material/table.h>
 #include <scree/output/measures.h>
+#include <scree/tensor/invariants.h>
 #include <scree/output/point_sums.h>
 #include <scree/points/seeding.h>
 

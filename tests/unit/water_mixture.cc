@@ -116,7 +116,7 @@ void test(const std::string &basis, std::ostream &out)
   for (unsigned int record = 0; record < mixture.cells().size(); ++record)
     {
       const auto &cell      = mixture.cells()[record];
-      saturation[cell.cell] = cell.saturation;
+      saturation[cell.cell] = cell.effective_saturation;
       moments.activate_cell(cell.cell);
       points.activate_cell(cell.cell);
       mixture.add_pressure_gradient(

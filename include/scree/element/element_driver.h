@@ -23,10 +23,10 @@ namespace scree
       std::array<double, 6> stress;
       std::vector<double> internal_variables;
 
-      double mean_pressure() const;   ///< P, Pa
-      double deviator() const;        ///< q, Pa
-      double stress_ratio() const;    ///< q/P; 0 without pressure
-      double mobilised_ratio() const; ///< Shear over vertical stress; 0 without stress
+      double mean_effective_stress() const; ///< p', Pa
+      double deviatoric_stress() const;     ///< q, Pa
+      double stress_ratio() const;          ///< q/p'; 0 without pressure
+      double mobilised_ratio() const;       ///< Shear over vertical stress; 0 without stress
     };
 
     explicit ElementDriver(const ElementParameters &parameters);

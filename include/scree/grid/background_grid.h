@@ -23,6 +23,8 @@ namespace scree
 
     /// Throws EntryError unless the corners have `dim` coordinates and the cell size divides the box.
     void check(const unsigned int dim) const;
+
+    Basis basis_kind() const;
   };
 
   /// The background mesh and the nodes of the velocity.

@@ -24,8 +24,8 @@ namespace scree
   ///
   /// deal.II has no B-splines, but the free coefficients of the C1 quadratic splines are those Bernstein coefficients
   /// that sit inside a cell or on the boundary of the box: a coefficient on an interior face is the mean of its two
-  /// neighbours. A *node* is such a free coefficient; each cell stores the 3^dim nodes (2^dim of the linear basis) that act on
-  /// it. Nodes are numbered compactly: [0, n_owned()) are this rank's, then come the ghosts.
+  /// neighbours. A *node* is such a free coefficient; each cell stores the 3^dim nodes (2^dim of the linear basis) that
+  /// act on it. Nodes are numbered compactly: [0, n_owned()) are this rank's, then come the ghosts.
   template <int dim>
   class NodeNumbering
   {
@@ -82,6 +82,12 @@ namespace scree
     }
 
   private:
+    /// Fills what is known of nodes and cells, but the open knots.
+    /// @param global_nodes of owned cells, in the order of `cell_nodes`
+    void place_nodes(const dealii::Triangulation<dim> &mesh,
+                     const double width,
+                     const std::vector<dealii::types::global_dof_index> &global_nodes);
+
     const Basis basis;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> distribution;
     std::vector<unsigned int> cell_nodes;   // of owned cells, by active cell index

@@ -9,6 +9,14 @@
 
 namespace scree
 {
+  /// Stress of a body before the first step.
+  enum class InitialStress
+  {
+    none,
+    k0,       ///< the weight above a point, K0 times that sideways
+    isotropic ///< one pressure everywhere
+  };
+
   /// Subsection Initial state of a body: stress before the first step.
   struct InitialStateParameters
   {
@@ -20,6 +28,8 @@ namespace scree
 
     /// Throws EntryError at impossible combinations; `body` is the enclosing subsection.
     void check(const std::string &body, const std::vector<double> &gravity) const;
+
+    InitialStress stress_kind() const;
   };
 
   /// Subsection Settling: motion under gravity with damping, before the release at t = 0.

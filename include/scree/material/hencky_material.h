@@ -32,8 +32,11 @@ namespace scree
                     double *stress,
                     double *internal_variables) const override;
     double initial_porosity() const override;
-    std::vector<std::string> internal_variable_names() const override;
-    std::vector<std::string> output_names() const override;
+    bool is_elastic() const override;
+    bool has_pressure_dependent_stiffness() const override;
+    double substep_strain() const override;
+    std::vector<Quantity> internal_quantities() const override;
+    std::vector<Quantity> output_quantities() const override;
     void output(const double *left_cauchy_green,
                 const double *stress,
                 const double *internal_variables,
@@ -252,16 +255,37 @@ namespace scree
 
 
   template <int dim, typename Law>
-  std::vector<std::string> HenckyMaterial<dim, Law>::internal_variable_names() const
+  bool HenckyMaterial<dim, Law>::is_elastic() const
   {
-    return Law::internal_variable_names();
+    return Law::is_elastic;
   }
 
 
   template <int dim, typename Law>
-  std::vector<std::string> HenckyMaterial<dim, Law>::output_names() const
+  bool HenckyMaterial<dim, Law>::has_pressure_dependent_stiffness() const
   {
-    return Law::output_names();
+    return Law::has_pressure_dependent_stiffness;
+  }
+
+
+  template <int dim, typename Law>
+  double HenckyMaterial<dim, Law>::substep_strain() const
+  {
+    return law.substep_strain();
+  }
+
+
+  template <int dim, typename Law>
+  std::vector<Quantity> HenckyMaterial<dim, Law>::internal_quantities() const
+  {
+    return Law::internal_quantities();
+  }
+
+
+  template <int dim, typename Law>
+  std::vector<Quantity> HenckyMaterial<dim, Law>::output_quantities() const
+  {
+    return Law::output_quantities();
   }
 
 

@@ -29,6 +29,9 @@ namespace scree
   class LinearElastic
   {
   public:
+    static constexpr bool is_elastic                       = true;
+    static constexpr bool has_pressure_dependent_stiffness = false;
+
     explicit LinearElastic(const LinearElasticParameters &parameters);
 
     /// Largest strain of one return map: no limit, elasticity knows no path.
@@ -60,8 +63,8 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
-    static std::vector<std::string> internal_variable_names();
-    static std::vector<std::string> output_names();
+    static std::vector<Quantity> internal_quantities();
+    static std::vector<Quantity> output_quantities();
     void output(const PrincipalValues &strain,
                 const double *internal_variables,
                 const double volume_ratio,

@@ -13,6 +13,13 @@
 
 namespace scree
 {
+  /// A quantity of a point, in the field's words, and its unit.
+  struct Quantity
+  {
+    std::string name;
+    std::string unit; ///< "-" without
+  };
+
   /// Where a law finds the state of a cell's points: `n_points` records, `stride` doubles apart; each pointer is to the
   /// first point's slot. Tensors are stored as in tensor/components.h.
   template <int dim>
@@ -22,7 +29,7 @@ namespace scree
     std::size_t stride         = 0;
     double *left_cauchy_green  = nullptr; ///< Elastic b_e, n_symmetric_components<dim>
     double *stress             = nullptr; ///< Cauchy stress, Pa, tension positive, n_symmetric_components<dim>
-    double *internal_variables = nullptr; ///< As named by Material::internal_variable_names()
+    double *internal_variables = nullptr; ///< As named by Material::internal_quantities()
   };
 
   /// The motion of a cell's points over a step; arrays of MaterialPoints::n_points.
@@ -86,13 +93,22 @@ namespace scree
     /// Porosity at the start if the law fixes it (Nor-Sand: 1 - 1/v_0), else 0.
     virtual double initial_porosity() const = 0;
 
-    /// Names of a point's internal variables in storage order, in the field's words.
-    virtual std::vector<std::string> internal_variable_names() const = 0;
+    /// Whether the law has no plastic strain.
+    virtual bool is_elastic() const = 0;
 
-    /// Names of derived fields for output, in the order of output().
-    virtual std::vector<std::string> output_names() const = 0;
+    /// Whether the bulk modulus follows the pressure.
+    virtual bool has_pressure_dependent_stiffness() const = 0;
 
-    /// Derived fields of one point at J = `volume_ratio`; `values` has the size of output_names().
+    /// Largest strain of one return map, beyond which update() cuts a step; infinity: no limit.
+    virtual double substep_strain() const = 0;
+
+    /// A point's internal variables in storage order.
+    virtual std::vector<Quantity> internal_quantities() const = 0;
+
+    /// Derived fields for output, in the order of output().
+    virtual std::vector<Quantity> output_quantities() const = 0;
+
+    /// Derived fields of one point at J = `volume_ratio`; `values` has the size of output_quantities().
     virtual void output(const double *left_cauchy_green,
                         const double *stress,
                         const double *internal_variables,

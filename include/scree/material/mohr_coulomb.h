@@ -36,6 +36,9 @@ namespace scree
   class MohrCoulomb
   {
   public:
+    static constexpr bool is_elastic                       = false;
+    static constexpr bool has_pressure_dependent_stiffness = false;
+
     explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 
     /// No limit: the equations of a return are linear and have one root.
@@ -66,8 +69,8 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
-    static std::vector<std::string> internal_variable_names();
-    static std::vector<std::string> output_names();
+    static std::vector<Quantity> internal_quantities();
+    static std::vector<Quantity> output_quantities();
     void output(const PrincipalValues &strain,
                 const double *internal_variables,
                 const double volume_ratio,

@@ -55,6 +55,9 @@ namespace scree
   class NorSand
   {
   public:
+    static constexpr bool is_elastic                       = false;
+    static constexpr bool has_pressure_dependent_stiffness = true;
+
     explicit NorSand(const NorSandParameters &parameters);
 
     /// Largest strain of one return map.
@@ -87,8 +90,8 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
-    static std::vector<std::string> internal_variable_names();
-    static std::vector<std::string> output_names();
+    static std::vector<Quantity> internal_quantities();
+    static std::vector<Quantity> output_quantities();
     void output(const PrincipalValues &strain,
                 const double *internal_variables,
                 const double volume_ratio,

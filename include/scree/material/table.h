@@ -12,6 +12,14 @@
 
 namespace scree
 {
+  /// The laws that entry "Material" knows.
+  enum class LawKind
+  {
+    linear_elastic,
+    mohr_coulomb,
+    nor_sand
+  };
+
   /// Entry "Material" and the subsections of all laws; those of laws that are not chosen are read but not used.
   struct MaterialParameters
   {
@@ -25,6 +33,9 @@ namespace scree
 
     /// Check the chosen law; `subsection` is the path of the enclosing subsection for messages, e.g. "Soil".
     void check(const std::string &subsection) const;
+
+    /// Throws dealii::ExcMessage if there is no law of that name.
+    LawKind law_kind() const;
   };
 
   /// The law `parameters.law` names. Throws dealii::ExcMessage if there is none of that name.

@@ -66,7 +66,7 @@ namespace scree
                 const std::string &file) const;
 
     const BackgroundGrid<dim> &grid;
-    const std::string graphics;
+    const Pictures pictures;
     const std::string folder;
     std::vector<TimeAndFile> point_files, water_files, grid_files;
   };

@@ -11,16 +11,6 @@
 
 namespace scree
 {
-  /// Mean compressive effective stress P = -tr(sigma)/3, Pa, from stress components.
-  inline double mean_effective_stress(const double *stress)
-  {
-    return -(stress[0] + stress[1] + stress[2]) / 3.;
-  }
-
-  /// Deviatoric stress q = sqrt(3/2 s:s), Pa, from stress components.
-  template <int dim>
-  double deviatoric_stress(const double *stress);
-
   /// The coordinates along `axis` below which the given fractions of the mass of all bodies lie, m. Collective.
   template <int dim>
   std::vector<double> mass_percentiles(const std::list<SoilBody<dim>> &bodies,

@@ -16,6 +16,14 @@ namespace scree
     nothing
   };
 
+  /// The pictures a run writes.
+  enum class Pictures
+  {
+    none,
+    points,
+    points_and_grid
+  };
+
   /// Subsection Output.
   struct OutputParameters
   {
@@ -27,6 +35,7 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm);
     Screen screen_kind() const;
+    Pictures graphics_kind() const;
     double interval_of_statistics() const;
   };
 } // namespace scree

@@ -6,17 +6,10 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace scree
 {
-  /// Reads an expression of x, y (and z), and of t if `with_time`, or throws EntryError that begins with `where`
-  /// (see entry_name()) and shows the text. `n_components` expressions are separated by semicolons.
-  template <int dim>
-  std::unique_ptr<dealii::FunctionParser<dim>> parse_expression(const std::string &where,
-                                                                const std::string &text,
-                                                                const unsigned int n_components,
-                                                                const bool with_time = false);
-
   /// A part of space: inside where an expression of the coordinates is true (not 0).
   template <int dim>
   class Region

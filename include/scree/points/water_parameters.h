@@ -16,6 +16,20 @@ namespace scree
     single_point  ///< water rides on the soil's points
   };
 
+  /// What the water's pressure is at the start.
+  enum class InitialPressure
+  {
+    hydrostatic, ///< the weight of the water above
+    none
+  };
+
+  /// How the hydraulic conductivity follows the porosity.
+  enum class ConductivityLaw
+  {
+    constant,
+    kozeny_carman
+  };
+
   /// Subsection Water: where it is, and how it flows through the soil.
   struct WaterParameters
   {
@@ -41,6 +55,11 @@ namespace scree
     void check(const std::vector<double> &gravity, const unsigned int n_bodies) const;
 
     PointSets point_sets_kind() const;
+    InitialPressure initial_pressure_kind() const;
+    ConductivityLaw conductivity_law_kind() const;
+
+    /// Whether the region is wherever soil is, and not an expression.
+    bool is_where_soil_is() const;
 
   private:
     void check_single_point() const;

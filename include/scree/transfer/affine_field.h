@@ -9,32 +9,27 @@ namespace scree
 {
   /// Adds the momentum of a point's affine velocity field to a cell's nodes: phi_i m C (x_i - x).
   ///
-  /// @param reference place of the point in its cell
   /// @param width of the cell, m
   /// @param affine the point's slots: the velocity gradient (TPIC), or sum phi v (x_i - x)^T (APIC)
   /// @param momentum of the row of nodes, still to be multiplied with the factors of the other axes; is added to
   /// @param add_to_row called with (row, component, momentum) for what depends on the row
   template <TransferMethod method, int dim, int n, typename Function>
-  void add_affine_momentum(const CellBasis<dim, n> &basis,
-                           const RowFactors<dim, n> &rows,
-                           const OpenKnots open,
-                           const dealii::Point<dim> &reference,
+  void add_affine_momentum(const PointShape<dim, n> &shape,
                            const double width,
                            const double mass,
                            const double *affine,
                            NodeRow (&momentum)[dim],
                            const Function &add_to_row)
   {
-    const NodeRow value_x = make_row(basis.value[0]);
     std::array<std::array<double, n>, dim> offset; // of the nodes from the point, m
     std::array<double, dim> inertia{};
     for (unsigned int a = 0; a < dim; ++a)
       {
-        offset[a] = CellBasis<dim, n>::node_positions(open, a);
+        offset[a] = CellBasis<dim, n>::node_positions(shape.open, a);
         for (unsigned int i = 0; i < n; ++i)
           {
-            offset[a][i] = width * (offset[a][i] - reference[a]);
-            inertia[a] += basis.value[a][i] * offset[a][i] * offset[a][i];
+            offset[a][i] = width * (offset[a][i] - shape.x[a]);
+            inertia[a] += shape.basis.value[a][i] * offset[a][i] * offset[a][i];
           }
       }
     const NodeRow offset_x = make_row(offset[0]);
@@ -44,17 +39,18 @@ namespace scree
         for (unsigned int a = 0; a < dim; ++a)
           {
             slope[a] = mass * affine[c * dim + a];
-            // APIC stores sum phi v (x_i - x)^T; the linear basis makes this vanish at a node together with its inertia.
+            // APIC stores sum phi v (x_i - x)^T; the linear basis makes this vanish at a node together with its
+            // inertia.
             if (method == TransferMethod::apic)
               slope[a] = inertia[a] > 1e-12 * width * width ? slope[a] / inertia[a] : 0.;
           }
-        momentum[c] += value_x * offset_x * slope[0];
+        momentum[c] += shape.value_x * offset_x * slope[0];
         for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
           {
             double along = slope[1] * offset[1][r % n];
             if constexpr (dim == 3)
               along += slope[2] * offset[2][r / n];
-            add_to_row(r, c, value_x * (along * rows.value[r]));
+            add_to_row(r, c, shape.value_x * (along * shape.rows.value[r]));
           }
       }
   }
@@ -62,27 +58,24 @@ namespace scree
 
   /// A component of sum phi_i v_i (x_i - x)^T at a point, m^2/s: `dim` numbers, what APIC stores.
   template <int dim, int n>
-  void affine_moment(const CellBasis<dim, n> &basis,
-                     const RowFactors<dim, n> &rows,
-                     const OpenKnots open,
-                     const dealii::Point<dim> &x,
+  void affine_moment(const PointShape<dim, n> &shape,
                      const double width,
                      const NodeRow (&velocity)[RowFactors<dim, n>::n_rows],
                      double *moment)
   {
     const auto offset = [&](const unsigned int a, const unsigned int i) {
-      return width * (CellBasis<dim, n>::node_positions(open, a)[i] - x[a]);
+      return width * (CellBasis<dim, n>::node_positions(shape.open, a)[i] - shape.x[a]);
     };
     std::array<double, n> along_x;
     for (unsigned int i = 0; i < n; ++i)
-      along_x[i] = offset(0, i) * basis.value[0][i];
-    moment[0] = sum(contract(rows.value, velocity) * make_row(along_x));
+      along_x[i] = offset(0, i) * shape.basis.value[0][i];
+    moment[0] = sum(contract(shape.rows.value, velocity) * make_row(along_x));
     for (unsigned int a = 1; a < dim; ++a)
       {
-        auto factor = rows.value;
+        auto factor = shape.rows.value;
         for (unsigned int r = 0; r < factor.size(); ++r)
           factor[r] *= offset(a, a == 1 ? r % n : r / n);
-        moment[a] = sum(contract(factor, velocity) * make_row(basis.value[0]));
+        moment[a] = sum(contract(factor, velocity) * shape.value_x);
       }
   }
 } // namespace scree

@@ -16,9 +16,10 @@ namespace scree
   /// latter: of four points an axis three or five may be in a cell.
   constexpr double point_scatter = 0.3;
 
-  /// Part of the pores that water fills; 1 also where the scatter explains what is missing. Without this the scatter
-  /// takes buoyancy from the grains: a saturated soil settles under its own weight by 2 % too much.
-  inline double saturation_of(const double water_volume, const double pore_volume)
+  /// Effective saturation: part of the pores that water fills; 1 also where the scatter of points explains what is
+  /// missing (CellContents::saturation() is the part itself). Without this the scatter takes buoyancy from the grains: a
+  /// saturated soil settles under its own weight by 2 % too much.
+  inline double effective_saturation_of(const double water_volume, const double pore_volume)
   {
     const double full = (1. - point_scatter) * pore_volume;
     return water_volume < full ? water_volume / full : (water_volume > 0 ? 1. : 0.);
@@ -49,9 +50,9 @@ namespace scree
     AtCorners grains_at_corner{}, water_at_corner{}; ///< volume, m^3
     AtCorners pressure_at_corner{};                  ///< volume of water times pressure there, Pa m^3
 
-    double saturation = 0; ///< of the pores, at most 1
-    double fill       = 0; ///< volume of water and wet grains over that of the cell
-    double mobility   = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
+    double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
+    double fill                 = 0; ///< volume of water and wet grains over that of the cell
+    double mobility             = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
 
     explicit MixtureCell(const unsigned int cell)
         : cell(cell)
@@ -99,7 +100,7 @@ namespace scree
     /// The number of a cell's record, which is made if there is none.
     unsigned int record(const unsigned int cell);
 
-    /// Saturation and fill, when all points are in.
+    /// Effective saturation and fill, when all points are in.
     void finish();
 
     std::vector<MixtureCell<dim>> &cells()
@@ -190,8 +191,8 @@ namespace scree
       else
         add_gradient<3>(moments, nodes, slopes, values, at);
     };
-    if (cell.grain_volume > 0 && cell.saturation > 0)
-      add(&grains[std::size_t(record) * moments_per_cell], factor * cell.saturation, soil_nodes, first_soil);
+    if (cell.grain_volume > 0 && cell.effective_saturation > 0)
+      add(&grains[std::size_t(record) * moments_per_cell], factor * cell.effective_saturation, soil_nodes, first_soil);
     if (cell.water_volume > 0)
       add(&water[std::size_t(record) * moments_per_cell], factor, water_nodes, first_water);
   }

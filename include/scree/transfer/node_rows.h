@@ -52,6 +52,27 @@ namespace scree
     }
   };
 
+  /// A point as the nodes of its cell see it.
+  template <int dim, int n>
+  struct PointShape
+  {
+    const dealii::Point<dim> &x; ///< place in the cell
+    const OpenKnots open;
+    const CellBasis<dim, n> basis;
+    const RowFactors<dim, n> rows;
+    const NodeRow value_x, derivative_x; ///< shape functions of the first axis; the derivative per cell width
+
+    PointShape(const dealii::Point<dim> &x, const OpenKnots open)
+        : x(x)
+        , open(open)
+        , basis(x, open)
+        , rows(basis)
+        , value_x(make_row(basis.value[0]))
+        , derivative_x(make_row(basis.derivative[0]))
+    {
+    }
+  };
+
   /// sum over the rows of factor times values
   template <std::size_t n_rows>
   NodeRow contract(const std::array<double, n_rows> &factor, const NodeRow (&values)[n_rows])

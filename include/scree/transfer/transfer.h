@@ -43,6 +43,9 @@ namespace scree
     template <int n, TransferMethod method>
     MotionReport move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
 
+    /// F-bar, volume, stress and state of a cell's points from `motion`.
+    void update_state(const SoilBody<dim> &body, const CellPoints<dim> &cell, UpdateReport &report);
+
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
     const double pic_rate;

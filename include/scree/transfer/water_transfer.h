@@ -71,7 +71,7 @@ namespace scree
     const double pic_rate;
     const double unit_weight; ///< of water, N/m^3, at standard gravity: what defines the conductivity
     const double reference_conductivity;
-    const bool follows_porosity; ///< Kozeny-Carman
+    const ConductivityLaw conductivity_law;
     const double viscosity;
     const double pressure_slope;
   };

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_velocity_transfer_h
+#define scree_transfer_velocity_transfer_h
+
+#include <scree/grid/nodal_field.h>
+#include <scree/transfer/affine_field.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <cmath>
+
+namespace scree
+{
+  /// Mass, momentum and force of a cell's points at its nodes: one kernel for points of soil and of water.
+  template <int dim, int n>
+  class CellSums
+  {
+  public:
+    static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+
+    /// @param width of the cell, m
+    explicit CellSums(const double width)
+        : width(width)
+    {
+    }
+
+    /// Adds m phi_i of a point.
+    void add_mass(const PointShape<dim, n> &shape, const double mass)
+    {
+      const NodeRow mass_x = shape.value_x * mass;
+      for (unsigned int r = 0; r < n_rows; ++r)
+        sums[r][Field::mass] += mass_x * shape.rows.value[r];
+    }
+
+    /// Adds m phi_i (v + C (x_i - x)) of a point, with C = 0 for FLIP and PIC.
+    ///
+    /// @param velocity the point's slots
+    /// @param affine its slots of the affine field, which FLIP and PIC do not read
+    template <TransferMethod method>
+    void add_momentum(const PointShape<dim, n> &shape, const double mass, const double *velocity, const double *affine)
+    {
+      NodeRow momentum[dim];
+      for (unsigned int c = 0; c < dim; ++c)
+        momentum[c] = shape.value_x * (mass * velocity[c]);
+      if constexpr (method == TransferMethod::apic || method == TransferMethod::tpic)
+        add_affine_momentum<method>(shape,
+                                    width,
+                                    mass,
+                                    affine,
+                                    momentum,
+                                    [this](const unsigned int r, const unsigned int c, const NodeRow &part) {
+                                      sums[r][Field::momentum + c] += part;
+                                    });
+      for (unsigned int r = 0; r < n_rows; ++r)
+        for (unsigned int c = 0; c < dim; ++c)
+          sums[r][Field::momentum + c] += momentum[c] * shape.rows.value[r];
+    }
+
+    /// Adds -V sigma grad phi_i of a point.
+    ///
+    /// @param stress symmetric, dim x dim, Pa
+    template <typename Matrix>
+    void add_force(const PointShape<dim, n> &shape, const double volume, const Matrix &stress)
+    {
+      const double scale = -volume / width;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const NodeRow along_x = shape.derivative_x * (scale * stress[c][0]);
+          NodeRow along[dim - 1];
+          for (unsigned int a = 1; a < dim; ++a)
+            along[a - 1] = shape.value_x * (scale * stress[c][a]);
+          for (unsigned int r = 0; r < n_rows; ++r)
+            {
+              sums[r][Field::force + c] += along_x * shape.rows.value[r];
+              for (unsigned int a = 0; a < dim - 1; ++a)
+                sums[r][Field::force + c] += along[a] * shape.rows.derivative[a][r];
+            }
+        }
+    }
+
+    /// The mass at a row of nodes.
+    NodeRow &mass(const unsigned int row)
+    {
+      return sums[row][Field::mass];
+    }
+
+    /// Adds the sums to the field.
+    void scatter(const unsigned int *nodes, NodalField<dim> &field) const
+    {
+      for (unsigned int r = 0; r < n_rows; ++r)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            double *node = field[nodes[r * n + i]];
+            for (unsigned int c = 0; c < Field::n_components; ++c)
+              node[c] += sums[r][c][i];
+          }
+    }
+
+  private:
+    using Field = NodalField<dim>;
+
+    const double width;
+    NodeRow sums[n_rows][Field::n_components] = {};
+  };
+
+
+  /// What a point takes from the nodes.
+  template <int dim>
+  struct PointMotion
+  {
+    double *velocity;                 ///< slots, m/s: changed
+    double *affine;                   ///< slots of APIC and TPIC; else not touched
+    dealii::Point<dim> *location;     ///< m: moved, unless null
+    dealii::Tensor<2, dim> *gradient; ///< of the velocity, 1/s: set, unless null
+  };
+
+
+  /// End-of-step velocity and its change at a cell's nodes, and what they do to its points: one kernel for points of
+  /// soil and of water.
+  template <int dim, int n>
+  class CellVelocity
+  {
+  public:
+    /// @param nodes of the cell
+    /// @param width of the cell, m
+    CellVelocity(const unsigned int *nodes, const NodalField<dim> &field, const double width)
+        : width(width)
+    {
+      for (unsigned int r = 0; r < n_rows; ++r)
+        {
+          std::array<const double *, n> node;
+          for (unsigned int i = 0; i < n; ++i)
+            node[i] = field[nodes[r * n + i]];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              std::array<double, n> v, dv;
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  v[i]  = node[i][NodalField<dim>::velocity + c];
+                  dv[i] = node[i][NodalField<dim>::velocity_change + c];
+                }
+              velocity[c][r] = make_row(v);
+              change[c][r]   = make_row(dv);
+            }
+        }
+    }
+
+    /// Gives a point its velocity, affine field and place at the end of a step of `time_step` s; returns the square of
+    /// its speed, m^2/s^2.
+    ///
+    /// @param keep see kept_velocity()
+    template <TransferMethod method>
+    double move(const PointShape<dim, n> &shape,
+                const PointMotion<dim> &point,
+                const double keep,
+                const double time_step) const
+    {
+      const double inverse_width = 1. / width;
+      double square              = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const NodeRow along       = contract(shape.rows.value, velocity[c]);
+          const double new_velocity = sum(along * shape.value_x);
+          double &own               = point.velocity[c];
+          if constexpr (method == TransferMethod::flip)
+            own =
+                keep * (own + sum(contract(shape.rows.value, change[c]) * shape.value_x)) + (1. - keep) * new_velocity;
+          else
+            own = new_velocity;
+          if (point.location != nullptr)
+            (*point.location)[c] += time_step * new_velocity;
+          square += own * own;
+
+          if constexpr (method == TransferMethod::apic)
+            affine_moment<dim, n>(shape, width, velocity[c], point.affine + c * dim);
+          if (method == TransferMethod::tpic || point.gradient != nullptr)
+            {
+              double slope[dim];
+              slope[0] = inverse_width * sum(along * shape.derivative_x);
+              for (unsigned int a = 1; a < dim; ++a)
+                slope[a] = inverse_width * sum(contract(shape.rows.derivative[a - 1], velocity[c]) * shape.value_x);
+              for (unsigned int a = 0; a < dim; ++a)
+                {
+                  if constexpr (method == TransferMethod::tpic)
+                    point.affine[c * dim + a] = slope[a];
+                  if (point.gradient != nullptr)
+                    (*point.gradient)[c][a] = slope[a];
+                }
+            }
+        }
+      return square;
+    }
+
+  private:
+    static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+
+    const double width;
+    NodeRow velocity[dim][n_rows];
+    NodeRow change[dim][n_rows];
+  };
+
+
+  /// The part of their own velocity that points keep over a step: all but what PIC damps at `pic_rate`, 1/s, with FLIP.
+  inline double kept_velocity(const TransferMethod method, const double pic_rate, const double time_step)
+  {
+    return method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
+  }
+} // namespace scree
+
+#endif
