@@ -44,7 +44,7 @@ namespace scree
     for (const BodyParameters &body : parameters.bodies)
       {
         auto material = make_material<dim>(body.material);
-        const PropertyLayout<dim> layout(material->internal_variables().size(),
+        const PropertyLayout<dim> layout(material->internal_quantities().size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0);
         bodies.emplace_back(body.name,
