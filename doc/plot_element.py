@@ -25,9 +25,9 @@ def plot(directory):
     # Laws without pores: the volume ratio stands in for the specific volume.
     volume = "specific_volume" if "specific_volume" in columns else "volume_ratio"
     curves = [
-        (100 * columns["strain"], columns["stress_ratio"], "strain, %", "q/P, -"),
-        (pressure, columns[volume], "P, kPa", volume.replace("_", " ") + ", -"),
-        (pressure, columns["deviator_stress"] / 1000, "P, kPa", "q, kPa"),
+        (100 * columns["strain"], columns["stress_ratio"], "strain, %", "q/p', -"),
+        (pressure, columns[volume], "p', kPa", volume.replace("_", " ") + ", -"),
+        (pressure, columns["deviator_stress"] / 1000, "p', kPa", "q, kPa"),
     ]
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
     for axis, (x, y, x_label, y_label) in zip(axes, curves):

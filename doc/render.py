@@ -121,9 +121,11 @@ def read_box(run):
                float(entries["Mesh/Cell size"].split(",")[0]), vertical)
 
 
-def column(statistics, pattern):
-    """The first column whose name matches the regular expression (case ignored); None if there is none."""
-    return next((values for name, values in statistics.items() if re.search(pattern, name, re.IGNORECASE)), None)
+def column(statistics, name):
+    """A column of `read_statistics` by its whole name, such as "Front 90 % (m)"; a KeyError lists the names if there is none."""
+    if name not in statistics:
+        raise KeyError(f"No column {name}; there are: {', '.join(statistics) or 'none'}.")
+    return statistics[name]
 
 
 def _pictures(run, collection):
@@ -291,27 +293,28 @@ def render_points(run, output, name, times=None, limits=None, collection="points
     plt.close(figure)
 
 
-# Title of the panel, and which columns of the statistics belong to it. Each column is drawn once, in the first that fits.
-STATISTICS_PANELS = [
-    ("energy", r"energy|work|dissipat"),
-    ("front", r"front|run.?out"),
-    ("stress oscillation", r"oscillation"),
-    ("step size", r"step.*\(s\)"),
-]
+# Title of the panel, and the columns of the statistics that belong to it. A scene has some of them: water's, soil's, a load's.
+STATISTICS_PANELS = {
+    "energy": ["Kinetic energy (J)", "Potential energy (J)", "Elastic energy (J)", "Plastic dissipation (J)", "Wall dissipation (J)",
+               "Numerical dissipation (J)", "Drag dissipation (J)", "Load work (J)"],
+    "front": ["Front 90 % (m)", "Front 99 % (m)", "Front 99.5 % (m)", "Water front 90 % (m)", "Water front 99 % (m)", "Water front 99.5 % (m)"],
+    "oscillation": ["Stress oscillation (-)", "p oscillation (-)"],
+    "step size": ["Time step (s)"],
+}
 
 
 def render_statistics(run, output):
     """The columns of interest against time in one PNG; returns False when there is nothing to draw."""
     statistics = read_statistics(run)
-    time = column(statistics, r"^time\b(?!.*step)")
-    drawn, groups = set(), []
-    for title, pattern in STATISTICS_PANELS:
-        names = [name for name, values in statistics.items()
-                 if name not in drawn and re.search(pattern, name, re.IGNORECASE) and np.any(np.isfinite(values))]
-        drawn.update(names)
+    if not statistics:
+        return False
+    time = column(statistics, "Time (s)")
+    groups = []
+    for title, names in STATISTICS_PANELS.items():
+        names = [name for name in names if name in statistics and np.any(np.isfinite(statistics[name]))]
         if names:
             groups.append((title, names))
-    if time is None or not groups:
+    if not groups:
         return False
 
     figure, axes = plt.subplots(len(groups), 1, figsize=(8, 0.6 + 2.3 * len(groups)), squeeze=False, sharex=True,

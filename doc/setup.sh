@@ -71,7 +71,8 @@ export OMPI_MCA_btl_vader_single_copy_mechanism=none
 # How many compilers fit: one for each processor, and 1.5 GB of free memory for each (deal.II's headers are large).
 compile_jobs()
 {
-  jobs=$(nproc)
+  # nproc would obey OMP_NUM_THREADS, which is 1 by now.
+  jobs=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
   memory=$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo)
   limit=$(cat /sys/fs/cgroup/memory.max 2>/dev/null)
   case $limit in

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/advise.h>
 #include <scree/simulation.h>
+#include <scree/version.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,7 +16,8 @@ namespace
       "       scree --advise case.prm [--accuracy 0.05]\n"
       "                                  what the case is, what it will cost, what would serve it better\n"
       "       scree --print-parameters   all entries with defaults and explanations\n"
-      "       scree --help               this text\n"
+      "       scree --version            version and commit, libraries, compiler\n"
+      "       scree --help, -h           this text\n"
       "In parallel: mpirun -np 2 scree case.prm";
 
   void check_command_line(const std::vector<std::string> &arguments, const bool resume)
@@ -74,9 +76,14 @@ namespace
 
   int run_case(const std::vector<std::string> &arguments, std::ostream &out)
   {
-    if (arguments.size() == 1 && arguments[0] == "--help")
+    if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h"))
       {
         out << usage << '\n';
+        return 0;
+      }
+    if (arguments.size() == 1 && arguments[0] == "--version")
+      {
+        out << scree::version_text();
         return 0;
       }
     if (arguments.size() == 1 && arguments[0] == "--print-parameters")

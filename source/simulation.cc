@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/output/checkpoint.h>
 #include <scree/simulation.h>
-#include <scree/transfer/load_transfer.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <sstream>
 
 namespace scree
 {
@@ -16,29 +17,69 @@ namespace scree
   {
     const std::string remedy_for_instability =
         "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in subsection Stabilisation.";
-
-    /// The first multiple of `interval` after `time`; never, if there is no interval.
-    double first_after(const double time, const double interval)
-    {
-      return interval > 0 ? (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval
-                          : std::numeric_limits<double>::infinity();
-    }
-
-    /// Appointments that differ by rounding only are one.
-    bool reached(const double time, const double appointment)
-    {
-      return time >= appointment * (1. - 1e-12);
-    }
-
-    template <int dim>
-    std::string coordinates(const Point<dim> &x)
-    {
-      std::string text = Utilities::to_string(x[0]);
-      for (unsigned int a = 1; a < dim; ++a)
-        text += ", " + Utilities::to_string(x[a]);
-      return text;
-    }
   } // namespace
+
+
+  template <int dim>
+  Simulation<dim>::Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
+      : parameters(parameters)
+      , communicator(communicator)
+      , folder(parameters.output_directory, parameters.output.screen_kind() == Screen::progress, communicator)
+      , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+      , scene(parameters, communicator)
+      , scheme(scene.make_scheme(timer))
+      , partition(scene.grid.triangulation(), scheme->point_sets())
+      , clock(parameters.time_step)
+      , output_times(parameters.output, parameters.end_time)
+      , graphics(scene.grid, parameters.output, parameters.output_directory)
+      , statistics(scene.grid, scene.forcing.gravity())
+  {
+    folder.write("original.prm", parameters.original());
+    std::ostringstream all_entries;
+    parameters.print(all_entries);
+    folder.write("parameters.prm", all_entries.str());
+
+    if (start == Start::resume)
+      resume();
+    else
+      initialise();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::initialise()
+  {
+    scene.fill();
+    folder.remove_old_results(); // not before the input has proved good
+    repartition();
+    agree_on(scene.speeds());
+    if (parameters.settling.maximum_time > 0)
+      settle();
+    scheme->read_points();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::resume()
+  {
+    load_checkpoint(
+        parameters.output_directory, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
+    if (!folder.is_writer())
+      totals = RunTotals<dim>(); // The writer holds the sums.
+    reinit();
+    output_times.begin(clock.time());
+    folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) +
+               ".");
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::reinit()
+  {
+    scene.reinit();
+    scheme->reinit();
+    scheme->read_points();
+  }
 
 
   template <int dim>
@@ -48,28 +89,25 @@ namespace scree
     Progress progress(folder, clock.time(), parameters.end_time);
     if (clock.step() == 0)
       report();
-    const double updates_before = totals.n_updates;
+    const double updates_before = point_updates;
     const double first_step     = stable_step();
-    while (!reached(clock.time(), parameters.end_time))
+    while (!output_times.is_end(clock.time()))
       {
         const double largest_step = stable_step();
-        // A run that gains energy would creep on with ever smaller steps.
-        AssertThrow(largest_step > 1e-3 * first_step,
-                    ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
-                               " s the stable step has fallen to " + Utilities::to_string(largest_step) + " s, from " +
-                               Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
-        const double appointment = next_appointment(largest_step);
-        last_time_step           = clock.next_step(largest_step, appointment);
+        check_step(largest_step, first_step);
+        const double due = output_times.next(largest_step);
+        last_time_step   = clock.next_step(largest_step, due);
         advance(last_time_step);
-        clock.advance(last_time_step, appointment);
+        clock.advance(last_time_step, due);
         report();
         progress.report(clock.time(), clock.step(), last_time_step);
       }
-    const double updates = Utilities::MPI::sum(totals.n_updates - updates_before + water_updates, communicator);
     progress.summarise(timer,
-                       updates,
+                       Utilities::MPI::sum(point_updates - updates_before, communicator),
                        Utilities::MPI::n_mpi_processes(communicator),
-                       parameters.has_water ? "soil or water point" : "point");
+                       scene.name_of_a_point());
+    progress.summarise_ranks(
+        seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
     folder.log("Results are in " + parameters.output_directory +
                (parameters.output.graphics == "none" ? "." : " (open solution/points.pvd in ParaView)."));
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
@@ -80,259 +118,151 @@ namespace scree
   template <int dim>
   void Simulation<dim>::advance(const double time_step)
   {
-    constexpr unsigned int steps_between_balances = 100;
-    if (clock.step() % steps_between_balances == steps_between_balances - 1)
-      share_out_cells();
+    repartition();
+    partition.begin_step();
+    StepReport<dim> step;
+    scene.forcing.set_time(clock.time());
+    scheme->to_grid(clock.time());
+    partition.finish(Work::to_nodes);
+    wait();
+    scheme->solve(time_step, step);
+    partition.finish(Work::to_nodes);
+    scheme->to_points(time_step, step);
+    std::vector<int> has_left = update_places();
+    partition.finish(Work::to_points);
 
-    solve_nodes(time_step);
+    wait();
+    agree_on(step.speeds);
+    check_speed(time_step);
+    Utilities::MPI::max(has_left, communicator, has_left);
+    hand_over(has_left);
+    partition.finish(Work::to_nodes);
 
-    // largest wave speed and speed; whether a point left
-    std::vector<double> largest{ 0., 0., 0. };
-    move_points(time_step, largest);
-    {
-      TimerOutput::Scope part(timer, "sort into cells and ranks");
-      for (PointSet<dim> *points : point_sets())
-        {
-          points->sort();
-          largest[2] = std::max<double>(largest[2], points->lost().size());
-        }
-    }
-    {
-      TimerOutput::Scope part(timer, "agree on the next step");
-      largest = largest_of_ranks(largest);
-    }
-    wave_speed    = largest[0];
-    largest_speed = largest[1];
-    AssertThrow(std::isfinite(largest_speed) && largest_speed * time_step < 2 * grid.cell_size(),
-                ExcMessage("The motion is unstable at t = " + Utilities::to_string(clock.time()) +
-                           " s: a point moves at " + Utilities::to_string(largest_speed) + " m/s. " +
-                           remedy_for_instability));
-    if (largest[2] > 0)
-      account_for_lost_points();
+    totals.balance += step.balance;
+    totals.add(step.material);
+    last_update = step.material;
+    point_updates += step.n_updates;
+    scene.account_for_lost_points(totals, clock.time());
   }
 
 
   template <int dim>
-  void Simulation<dim>::solve_nodes(const double time_step)
+  void Simulation<dim>::wait()
   {
-    forcing.set_time(clock.time());
-    StepBalance<dim> balance;
-    {
-      TimerOutput::Scope part(timer, "points to grid");
-      field.clear();
-      for (const auto &phase : phases)
-        transfer.to_grid(phase, field);
-      if (semi_implicit)
-        semi_implicit->gather(phases, water);
-      if (load)
-        balance.load_impulse = time_step * add_load(*load, clock.time(), grid, field);
-      if (!semi_implicit)
-        field.add_contributions();
-    }
-    if (semi_implicit)
-      {
-        double shear_modulus = 0;
-        for (const auto &phase : phases)
-          shear_modulus = std::max(shear_modulus, phase.material->shear_modulus());
-        totals.balance += semi_implicit->solve(field, time_step, shear_modulus, timer);
-        // The scheme sees the load among the forces on the soil.
-        balance.pressure_impulse = -balance.load_impulse;
-      }
-    else
-      {
-        TimerOutput::Scope part(timer, "nodes");
-        totals.balance += scheme.solve(field, time_step);
-        field.update_ghosts();
-      }
-    totals.balance += balance;
+    const TimedPart part(timer, StepPart::waiting);
+    partition.wait();
   }
 
 
   template <int dim>
-  void Simulation<dim>::move_points(const double time_step, std::vector<double> &largest)
+  std::vector<int> Simulation<dim>::update_places()
   {
-    const auto keep_largest = [&](const double speed) {
-      largest[1] = speed <= largest[1] ? largest[1] : speed; // keeps a NaN
-    };
-    last_step = UpdateReport();
-    {
-      TimerOutput::Scope part(timer, "grid to points, stress");
-      for (auto &phase : phases)
-        {
-          const MotionReport motion = transfer.to_points(phase, field, time_step);
-          largest[0]                = std::max(largest[0], phase.wave_speed(motion.material.largest_bulk_modulus));
-          keep_largest(motion.largest_speed);
-          last_step.add(motion.material);
-          if (semi_implicit)
-            semi_implicit->fluidise(phase);
-        }
-      if (load)
-        totals.balance.load_work += move_load(*load, clock.time(), grid, field, time_step);
-    }
-    if (semi_implicit)
-      {
-        TimerOutput::Scope part(timer, "grid to water points");
-        for (auto &part_of_water : water)
-          {
-            keep_largest(semi_implicit->to_points(part_of_water, time_step));
-            semi_implicit->correct_volume(part_of_water, time_step, totals.balance);
-            if (const PointSet<dim> *own = part_of_water.own_points())
-              water_updates += own->handler().n_locally_owned_particles();
-          }
-      }
-    totals.add(last_step);
+    const TimedPart part(timer, StepPart::sort);
+    std::vector<int> has_left;
+    for (PointSet<dim> *points : point_sets())
+      has_left.push_back(!points->update_places());
+    return has_left;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::hand_over(const std::vector<int> &has_left)
+  {
+    const TimedPart part(timer, StepPart::sort);
+    const auto sets = point_sets();
+    for (unsigned int s = 0; s < sets.size(); ++s)
+      if (has_left[s])
+        sets[s]->hand_over();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::agree_on(Speeds of_rank)
+  {
+    const TimedPart part(timer, StepPart::waiting);
+    std::vector<double> largest{ of_rank.wave, of_rank.points };
+    for (double &value : largest)
+      if (std::isnan(value))
+        value = std::numeric_limits<double>::infinity();
+    Utilities::MPI::max(largest, communicator, largest);
+    speeds = { largest[0], largest[1] };
   }
 
 
   template <int dim>
   double Simulation<dim>::stable_step() const
   {
-    const double step = clock.stable_step(grid.cell_size(), wave_speed, largest_speed);
-    return semi_implicit ? std::min(step, semi_implicit->largest_step()) : step;
+    return scheme->stable_step(clock, speeds);
   }
 
 
   template <int dim>
-  std::vector<PointSet<dim> *> Simulation<dim>::point_sets()
+  void Simulation<dim>::check_step(const double largest_step, const double first_step) const
   {
-    std::vector<PointSet<dim> *> sets;
-    for (auto &phase : phases)
-      sets.push_back(&phase.points);
-    for (auto &part : water)
-      if (PointSet<dim> *own = part.own_points())
-        sets.push_back(own);
-    if (load)
-      sets.push_back(&load->points());
-    return sets;
+    // A run that gains energy would creep on with ever smaller steps.
+    AssertThrow(largest_step > 1e-3 * first_step,
+                ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
+                           " s the stable step has fallen to " + Utilities::to_string(largest_step) + " s, from " +
+                           Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
   }
 
 
   template <int dim>
-  std::vector<double> Simulation<dim>::largest_of_ranks(std::vector<double> values) const
+  void Simulation<dim>::check_speed(const double time_step) const
   {
-    for (double &value : values)
-      if (std::isnan(value))
-        value = std::numeric_limits<double>::infinity();
-    Utilities::MPI::max(values, communicator, values);
-    return values;
+    AssertThrow(std::isfinite(speeds.points) && speeds.points * time_step < 2 * scene.grid.cell_size(),
+                ExcMessage("The motion is unstable at t = " + Utilities::to_string(clock.time()) +
+                           " s: a point moves at " + Utilities::to_string(speeds.points) + " m/s. " +
+                           remedy_for_instability));
   }
 
 
   template <int dim>
-  void Simulation<dim>::account_for_lost_points()
+  void Simulation<dim>::settle()
   {
-    const auto leave = [&](const std::string &name,
-                           const LostPoint<dim> &point,
-                           const std::pair<std::string, bool> &face_and_whether_open,
-                           const unsigned int velocity_slot,
-                           const unsigned int mass_slot,
-                           double &lost_mass) {
-      const auto &[face, is_open] = face_and_whether_open;
-      AssertThrow(is_open,
-                  ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
-                             coordinates(point.location) + ") m, t = " + Utilities::to_string(clock.time()) +
-                             " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
-                             "Boundaries."));
-      const double mass = point.properties[mass_slot];
-      const Tensor<1, dim> velocity(
-          make_array_view(point.properties.begin() + velocity_slot, point.properties.begin() + velocity_slot + dim));
-      lost_mass += mass;
-      totals.lost_momentum += mass * velocity;
-      totals.lost_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (point.location - Point<dim>()));
-    };
-    for (auto &part : water)
-      for (const LostPoint<dim> &point : part.points().lost())
-        leave("the water",
-              point,
-              part.own_points() != nullptr ? water_walls->face_crossed(point.location)
-                                           : walls.face_crossed(point.location),
-              part.layout.velocity,
-              part.layout.mass,
-              totals.lost_water_mass);
-    for (auto &phase : phases)
-      for (const LostPoint<dim> &point : phase.points.lost())
-        {
-          leave(phase.name,
-                point,
-                walls.face_crossed(point.location),
-                phase.layout.velocity,
-                phase.layout.mass,
-                totals.lost_mass);
-          ++totals.n_lost;
-        }
-    for (PointSet<dim> *points : point_sets())
-      points->lost().clear();
-  }
+    const SettlingParameters &settling = parameters.settling;
+    if (!settling.gate.empty())
+      scene.constraints.close_gate(std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), settling.gate));
+    scene.forcing.set_damping(settling.damping_rate);
 
-
-  template <int dim>
-  void Simulation<dim>::share_out_cells()
-  {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    if (n_ranks == 1)
-      return;
-    const auto sets = point_sets();
-    double n_points = 0;
-    for (const PointSet<dim> *points : sets)
-      n_points += points->handler().n_locally_owned_particles();
-    const auto of_ranks                   = Utilities::MPI::min_max_avg(n_points, communicator);
-    constexpr double worthwhile_imbalance = 1.1;
-    if (of_ranks.max < worthwhile_imbalance * of_ranks.avg)
-      return;
-
-    TimerOutput::Scope part(timer, "balance load");
-    for (PointSet<dim> *points : sets)
-      points->handler().prepare_for_coarsening_and_refinement();
-    grid.triangulation().repartition();
-    for (PointSet<dim> *points : sets)
+    Clock settling_clock(parameters.time_step);
+    constexpr unsigned int steps_between_checks = 50;
+    double ratio                                = std::numeric_limits<double>::infinity();
+    while (settling_clock.time() < settling.maximum_time && ratio >= settling.kinetic_energy)
       {
-        points->handler().unpack_after_coarsening_and_refinement();
-        points->sort();
+        const double step = settling_clock.next_step(stable_step(), settling.maximum_time);
+        advance(step);
+        settling_clock.advance(step, settling.maximum_time);
+        if (settling_clock.step() % steps_between_checks == 0 || settling_clock.time() >= settling.maximum_time)
+          ratio = kinetic_to_elastic_energy(scene.bodies, scene.water, communicator);
       }
-    grid.distribute_nodes();
-    field.reinit();
-    if (semi_implicit)
-      semi_implicit->reinit();
+    folder.log(
+        "Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
+        std::to_string(settling_clock.step()) + " steps; kinetic over elastic energy " + Utilities::to_string(ratio) +
+        (ratio < settling.kinetic_energy ? ". Released."
+                                         : ", above the wanted " + Utilities::to_string(settling.kinetic_energy) +
+                                               ": not yet at rest. Released all the same."));
+
+    scene.forcing.set_damping(0.);
+    scene.constraints.open_gate();
+    scene.stop();
+    // Balances begin at the release; what was lost stays lost.
+    const RunTotals<dim> settled = totals;
+    totals                       = RunTotals<dim>();
+    totals.n_lost                = settled.n_lost;
+    totals.lost_mass             = settled.lost_mass;
+    totals.lost_water_mass       = settled.lost_water_mass;
+    agree_on(scene.speeds());
   }
 
 
   template <int dim>
-  void Simulation<dim>::make_appointments()
+  void Simulation<dim>::repartition()
   {
-    const OutputParameters &output = parameters.output;
-    next_picture                   = first_after(clock.time(), output.interval);
-    next_row                       = first_after(clock.time(), output.interval_of_statistics());
-    next_checkpoint                = first_after(clock.time(), output.checkpoint_interval);
-  }
-
-
-  template <int dim>
-  double Simulation<dim>::next_appointment(const double largest_step) const
-  {
-    const auto due     = { parameters.end_time, next_picture, next_row, next_checkpoint };
-    const double first = std::min(due);
-    // Those that follow at once are met together: in a step that is far shorter than the others the pressure would
-    // answer to what divergence the last one left with a shock.
-    double last = first;
-    for (const double time : due)
-      if (time <= first + 0.1 * largest_step)
-        last = std::max(last, time);
-    return std::min(last, parameters.end_time);
-  }
-
-
-  template <int dim>
-  void Simulation<dim>::write_picture(const double time)
-  {
-    if (!semi_implicit)
-      {
-        graphics.write(phases, field, time);
-        return;
-      }
-    const WaterView<dim> view{ water, semi_implicit->water_field(), [&](const unsigned int cell) {
-                                return semi_implicit->corner_pressure(cell);
-                              } };
-    graphics.write(phases, field, time, &view);
+    if (!partition.is_worth_changing())
+      return;
+    const TimedPart part(timer, StepPart::repartition);
+    partition.repartition([this] { reinit(); });
   }
 
 
@@ -340,20 +270,43 @@ namespace scree
   void Simulation<dim>::report()
   {
     const double time          = clock.time();
-    const bool at_start_or_end = clock.step() == 0 || reached(time, parameters.end_time);
-    TimerOutput::Scope part(timer, "output");
+    const bool at_start_or_end = clock.step() == 0 || output_times.is_end(time);
+    const TimedPart part(timer, StepPart::output);
 
-    if (at_start_or_end || reached(time, next_row))
+    if (at_start_or_end || output_times.row_is_due(time))
       {
-        statistics.collect(phases, water, totals, time, clock.step(), last_time_step, last_step);
+        statistics.collect(scene.bodies, scene.water, totals, time, clock.step(), last_time_step, last_update);
         if (folder.is_writer())
           statistics.write(folder.file("statistics"));
       }
-    if (at_start_or_end || reached(time, next_picture))
-      write_picture(time);
-    if (reached(time, next_checkpoint))
+    if (at_start_or_end || output_times.picture_is_due(time))
+      graphics.write(scene.bodies, scheme->soil_field(), time, scheme->water_view().get());
+    if (output_times.checkpoint_is_due(time))
       write_checkpoint();
-    make_appointments();
+    output_times.begin(time);
+  }
+
+
+  template <int dim>
+  template <class Archive>
+  void Simulation<dim>::serialize_state(Archive &archive)
+  {
+    double time             = clock.time();
+    unsigned long long step = clock.step();
+    archive &time &step &speeds.wave &speeds.points &last_time_step;
+    archive &totals &statistics &graphics;
+    clock.set(time, step);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::write_checkpoint()
+  {
+    const RunTotals<dim> own = totals;
+    totals                   = totals.sum_over_ranks(communicator);
+    save_checkpoint(
+        parameters.output_directory, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
+    totals = own;
   }
 
   template class Simulation<2>;

@@ -13,7 +13,7 @@ export OMPI_MCA_mpi_yield_when_idle=1
 run_tests()
 {
   log=$root/$1/tests.log
-  folder=$root/$1/tests
+  folder=$root/$1
   shift
   # Is one of the tests asked for here?
   ctest --test-dir "$folder" -N "$@" | grep -q 'Test *#' || return 0

@@ -25,7 +25,7 @@ CAUSES = {
 }
 
 
-def classify(run, oscillation=0.1, column="^p oscillation", scatter=None, gain=0.005, energy=None, volume_ratio=(0.1, 10.), error=0.,
+def classify(run, oscillation=0.1, column="p oscillation (-)", scatter=None, gain=0.005, energy=None, volume_ratio=(0.1, 10.), error=0.,
              tolerance=math.inf):
     """State of a run, the first of these that holds:
 
@@ -39,7 +39,7 @@ def classify(run, oscillation=0.1, column="^p oscillation", scatter=None, gain=0
     - "wrong": quiet, but the study's own `error` is above `tolerance`
     - "stable": none of these
 
-    `gain` is that of the scene tests. `oscillation` depends on the scene: P of points without stabilisation scatters by .7 of its
+    `gain` is that of the scene tests. `oscillation` depends on the scene: p' of points without stabilisation scatters by .7 of its
     mean in a collapse, p of a saturated slope by .02. `energy`, J, replaces the released one where there is next to none (rest).
     Raises ValueError if the program refused the case.
     """
@@ -69,36 +69,41 @@ def cause(run):
     return next((short for message, short in CAUSES.items() if message in run.log), f"exit code {run.exit_code}")
 
 
+def has_rows(run):
+    """Whether the run came to its first row of statistics."""
+    return any(len(values) for values in run.columns.values())
+
+
 def is_finite(run):
     """Whether all that the file statistics holds is finite; False without a row."""
-    file = pathlib.Path(run.folder) / "statistics"
-    columns = render.read_statistics(run.folder).values() if file.exists() else []
-    return any(len(values) for values in columns) and all(np.all(np.isfinite(values)) for values in columns)
+    columns = run.columns.values()
+    return has_rows(run) and all(np.all(np.isfinite(values)) for values in columns)
 
 
 def released_energy(run):
     """Energy that a run had to turn into motion or loss, J: largest fall of the potential energy, kinetic and elastic energy at the start,
     largest work of the load."""
-    potential, kinetic, elastic, load = (run.statistics(pattern) for pattern in ("^potential", "^kinetic", "^elastic", "^load work"))
-    if potential is None or not len(potential):
+    if not has_rows(run):
         return 0.
-    return float(potential[0] - np.nanmin(potential) + kinetic[0] + elastic[0] + (0. if load is None else np.nanmax(np.abs(load))))
+    potential, kinetic, elastic = (run.statistics(f"{kind} energy (J)") for kind in ("Potential", "Kinetic", "Elastic"))
+    load = run.columns.get("Load work (J)", 0.)  # only scenes with a load have it
+    return float(potential[0] - np.nanmin(potential) + kinetic[0] + elastic[0] + np.nanmax(np.abs(load)))
 
 
 def energy_gain(run, energy=None):
     """Largest fall of the numerical dissipation from a row to a later one over `energy`, J, by default the released one."""
-    dissipation = run.statistics("^numerical dissipation")
     scale = released_energy(run) if energy is None else energy
-    if dissipation is None or not len(dissipation) or scale <= 0:
+    if not has_rows(run) or scale <= 0:
         return 0.
+    dissipation = run.statistics("Numerical dissipation (J)")
     fall = np.max(np.maximum.accumulate(dissipation) - dissipation)
     return float(fall / scale) if np.isfinite(fall) else np.inf
 
 
-def mean_oscillation(run, column="^p oscillation"):
+def mean_oscillation(run, column="p oscillation (-)"):
     """Time mean of an oscillation of the statistics over its rows after the first; 0 without such rows."""
-    values = run.statistics(column)
-    return float(np.mean(values[1:])) if values is not None and len(values) > 1 else 0.
+    values = run.statistics(column) if has_rows(run) else []
+    return float(np.mean(values[1:])) if len(values) > 1 else 0.
 
 
 def volume_ratios(run):
@@ -108,8 +113,8 @@ def volume_ratios(run):
     tell volume over mass, of which that of a body's points at the start is the unit.
     """
     ratios = [1., *(float(ratio) for ratio in re.findall(r"det dF .*, J ([-+.\deinfa]+[\dfn])", run.log))]
-    porosity = run.statistics("^largest porosity")
-    if porosity is not None and len(porosity):
+    porosity = run.columns.get("Largest porosity (-)", [])
+    if len(porosity):
         with np.errstate(divide="ignore"):
             ratios.extend((1 - porosity[0]) / (1 - porosity))
     if (pathlib.Path(run.folder) / "solution" / "points.pvd").exists():

@@ -81,7 +81,7 @@ class Run:
         self.exit_code = exit_code
         self.reference = None
         self._whole = core_seconds, wall_seconds
-        self._statistics = None
+        self._columns = None
 
     @property
     def ended(self):
@@ -97,16 +97,20 @@ class Run:
         """What the program wrote on the screen, errors included."""
         return (self.folder / "screen.txt").read_text(encoding="utf-8", errors="replace")
 
-    def statistics(self, pattern):
-        """The first column of the file `statistics` whose name matches the regular expression (case ignored); None if there is none."""
-        if self._statistics is None:
-            file = self.folder / "statistics"
-            self._statistics = render.read_statistics(self.folder) if file.exists() else {}
-        return render.column(self._statistics, pattern)
+    @property
+    def columns(self):
+        """The file `statistics`, {"Time (s)": values, ...}: {} if the run broke before its first row."""
+        if self._columns is None:
+            self._columns = render.read_statistics(self.folder) if (self.folder / "statistics").exists() else {}
+        return self._columns
+
+    def statistics(self, name):
+        """A column by its whole name; a KeyError lists the names if there is none. For one that not all runs have: `columns.get(name)`."""
+        return render.column(self.columns, name)
 
     @property
     def time(self):
-        return self.statistics("^time")
+        return self.statistics("Time (s)")
 
     def points(self, time=None, collection="points"):
         """The points of the picture next to `time`, s (the last one without): positions (n, 3) and arrays by name."""
@@ -128,4 +132,4 @@ class Run:
             return {"steps": math.nan, "core-seconds": core_seconds, "ns per point and step": math.nan}
         updates = float(updates.group(1))
         of_steps = core_seconds * min(1., 1e-9 * float(total.group(1)) * updates / wall_seconds)
-        return {"steps": self.statistics("^step$")[-1], "core-seconds": of_steps, "ns per point and step": 1e9 * of_steps / updates}
+        return {"steps": self.statistics("Step")[-1], "core-seconds": of_steps, "ns per point and step": 1e9 * of_steps / updates}

@@ -12,7 +12,7 @@
 #include <scree/points/seeding.h>
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
-#include <scree/scheme/explicit_scheme.h>
+#include <scree/scheme/explicit_step.h>
 #include <scree/scheme/pressure_parameters.h>
 #include <scree/scheme/time_step.h>
 #include <scree/transfer/transfer_parameters.h>

@@ -3,14 +3,12 @@
 #define scree_simulation_h
 
 #include <scree/output/graphics.h>
+#include <scree/output/output_times.h>
 #include <scree/output/progress.h>
 #include <scree/output/statistics.h>
-#include <scree/parameters.h>
-#include <scree/scheme/explicit_scheme.h>
-#include <scree/scheme/semi_implicit_scheme.h>
-#include <scree/transfer/transfer.h>
-
-#include <list>
+#include <scree/points/partition.h>
+#include <scree/scene.h>
+#include <scree/scheme/step_part.h>
 
 namespace scree
 {
@@ -21,7 +19,7 @@ namespace scree
     resume ///< from the newest checkpoint in the run folder
   };
 
-  /// A run: owns everything, and nobody knows it.
+  /// A run: a scene, the scheme that moves it, and what is written of it. Owns everything, and nobody knows it.
   template <int dim>
   class Simulation
   {
@@ -37,15 +35,15 @@ namespace scree
 
     const std::list<SoilBody<dim>> &bodies() const
     {
-      return phases;
+      return scene.bodies;
     }
     const std::list<WaterPhase<dim>> &water_phases() const
     {
-      return water;
+      return scene.water;
     }
     const BackgroundGrid<dim> &background_grid() const
     {
-      return grid;
+      return scene.grid;
     }
 
     /// Largest step, s, of the points as they are.
@@ -62,35 +60,39 @@ namespace scree
     }
 
     /// All sets of points, in a fixed order.
-    std::vector<PointSet<dim> *> point_sets();
+    std::vector<PointSet<dim> *> point_sets()
+    {
+      return scheme->point_sets();
+    }
 
   private:
-    void make_phases();
     void initialise();
-    void fill_with_points();
-    void set_initial_state();
     void resume();
     void settle();
 
-    /// Velocity of the nodes at the end of a step, from the points.
-    void solve_nodes(const double time_step);
+    /// Fits scene and scheme to a new partition of the mesh.
+    void reinit();
 
-    /// Soil, water and markers follow the nodes; they are not sorted yet.
-    void move_points(const double time_step, std::vector<double> &largest);
+    /// Shares out the cells among the ranks anew, if that is due and worthwhile.
+    void repartition();
 
-    /// Wave speed and largest speed of the points as they are, for the first step.
-    void measure_speeds();
+    /// Waits for the slowest rank.
+    void wait();
 
-    void make_appointments();
-    double next_appointment(const double largest_step) const;
+    /// Sets places in cells; returns for each set of points whether one of this rank has left its cell.
+    std::vector<int> update_places();
+
+    /// Hands the points of such sets to the cells and ranks they are in now. Collective.
+    void hand_over(const std::vector<int> &has_left);
+
+    /// Takes the largest of all ranks, for the next step.
+    void agree_on(Speeds speeds);
+
+    /// Throws if the motion is unstable.
+    void check_step(const double largest_step, const double first_step) const;
+    void check_speed(const double time_step) const;
+
     void report();
-    void write_picture(const double time);
-    void account_for_lost_points();
-    void share_out_cells();
-
-    /// Largest over ranks; what is not a number counts as infinite.
-    std::vector<double> largest_of_ranks(std::vector<double> values) const;
-
     void write_checkpoint();
 
     template <class Archive>
@@ -100,31 +102,20 @@ namespace scree
     const MPI_Comm communicator;
     RunFolder folder;
     dealii::TimerOutput timer;
-    BackgroundGrid<dim> grid;
-    BoundaryConditions<dim> walls;
-    NodalField<dim> field;
-    Transfer<dim> transfer;
-    Forcing<dim> forcing;
-    ExplicitScheme<dim> scheme;
-    std::list<SoilBody<dim>> phases;
-    std::unique_ptr<SurfaceLoad<dim>> load; // null without
-
-    // Of a scene with water; else null and empty.
-    std::unique_ptr<WaterBoundaryConditions<dim>> water_walls;
-    std::unique_ptr<SemiImplicitScheme<dim>> semi_implicit;
-    std::list<WaterPhase<dim>> water;
+    Scene<dim> scene;
+    std::unique_ptr<Scheme<dim>> scheme;
+    Partition<dim> partition;
 
     Clock clock;
+    OutputTimes output_times;
     Graphics<dim> graphics;
     Statistics<dim> statistics;
 
     RunTotals<dim> totals;
-    double water_updates = 0;                                   // points times steps, of this rank
-    UpdateReport last_step;                                     // of this rank
-    double wave_speed     = 0;                                  // largest of all ranks, m/s
-    double largest_speed  = 0;                                  // of points, of all ranks, m/s
-    double last_time_step = 0;                                  // s
-    double next_picture = 0, next_row = 0, next_checkpoint = 0; // s
+    double point_updates = 0;  // points times steps, of this rank
+    UpdateReport last_update;  // of this rank
+    Speeds speeds;             // of all ranks
+    double last_time_step = 0; // s
   };
 } // namespace scree
 

@@ -99,7 +99,7 @@ namespace scree
     coarsen(parameters.grid, advice.coarser);
     Simulation<dim> simulation(parameters, Start::fresh, communicator);
     const double step_at_start = simulation.stable_step();
-    const Scene seeded         = survey(simulation, parameters, communicator);
+    const SceneNumbers seeded  = survey(simulation, parameters, communicator);
     const StepCost steps       = measure_steps(simulation, seconds_of_steps, communicator);
 
     advice.scene       = with_cell_size(seeded, advice.grid.cell_size);

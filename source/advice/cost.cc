@@ -13,12 +13,12 @@ namespace scree
     /// How long dry soil moves, over sqrt(H/g); water keeps it moving.
     constexpr double motion_lasts = 5.;
 
-    /// Largest speed of the points in motion over that of a free fall by Scene::fall.
+    /// Largest speed of the points in motion over that of a free fall by SceneNumbers::fall.
     constexpr double part_of_fall_speed = 0.8;
 
     /// Bulk modulus of soil in motion over that at the start, where it grows with the pressure: bodies that fall by d
     /// press on what is below with about rho g d more.
-    double stiffening(const Scene &scene)
+    double stiffening(const SceneNumbers &scene)
     {
       if (!scene.stiffens || scene.fastest.pressure <= 0)
         return 1.;
@@ -34,7 +34,7 @@ namespace scree
     constexpr double picture_seconds = 1.5e-3, picture_seconds_per_point = 8e-7;
     constexpr double row_seconds = 5e-5, row_seconds_per_point = 1.5e-7, row_seconds_per_row = 5e-7;
 
-    /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the appointments.
+    /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the output times.
     double count_steps(const OutputParameters &output, const double begin, const double end, const double step)
     {
       double n = 0, time = begin;
@@ -50,7 +50,7 @@ namespace scree
       return n;
     }
 
-    double seconds_of_output(const Scene &scene, const OutputParameters &output)
+    double seconds_of_output(const SceneNumbers &scene, const OutputParameters &output)
     {
       const auto count = [&](const double interval) {
         return interval > 0 ? std::floor(scene.end_time / interval) + 1. : 0.;
@@ -62,23 +62,22 @@ namespace scree
              rows * (row_seconds + row_seconds_per_point * scene.n_points() + 0.5 * rows * row_seconds_per_row);
     }
 
-    bool is_of_law(const std::string &part)
+    /// Core-seconds of a part of a step; 0 if it was not met.
+    double seconds_of(const StepCost &steps, const StepPart part)
     {
-      return part == "grid to points, stress";
+      const auto found = steps.parts.find(part);
+      return found == steps.parts.end() ? 0. : found->second;
     }
   } // namespace
 
 
-  RunCost cost_of_run(const Scene &scene, const StepCost &first_steps, const Schedule &schedule)
+  RunCost cost_of_run(const SceneNumbers &scene, const StepCost &first_steps, const Schedule &schedule)
   {
     const Clock clock(schedule.time_step);
     const auto step_at = [&](const double stiffness, const double speed) {
       return std::min(schedule.longest_step, clock.stable_step(scene.cell_size, scene.fastest.speed(stiffness), speed));
     };
-    double update = 0; // core-seconds a step of the law
-    for (const auto &[part, of_part] : first_steps.parts)
-      if (is_of_law(part))
-        update += of_part;
+    const double update = seconds_of(first_steps, StepPart::stress);
 
     RunCost cost;
     const auto add =
@@ -93,10 +92,9 @@ namespace scree
     const double speed = std::max(scene.initial_speed, part_of_fall_speed * std::sqrt(2. * scene.gravity * scene.fall));
     const double in_motion = step_at(stiffening(scene), speed);
     // Points are sorted in each step in which one leaves its cell.
-    const bool sorts   = scene.n_points() * speed * in_motion > scene.cell_size;
-    const auto sorting = first_steps.parts.find("sort into cells and ranks");
-    const double more =
-        sorts && sorting != first_steps.parts.end() ? std::max(0., first_steps.sorting - sorting->second) : 0.;
+    const bool sorts     = scene.n_points() * speed * in_motion > scene.cell_size;
+    const double sorting = seconds_of(first_steps, StepPart::sort);
+    const double more    = sorts && sorting > 0. ? std::max(0., first_steps.sorting - sorting) : 0.;
     add(0, motion, in_motion, flows ? 1. + substeps_of_strain * in_motion * rate / scene.substep_strain : 1., more);
     add(motion, scene.end_time, step_at(1., 0.), resting_update, 0.);
     cost.first_step     = step_at(1., scene.initial_speed);
@@ -107,7 +105,7 @@ namespace scree
   }
 
 
-  Scene with_cell_size(Scene scene, const double cell_size)
+  SceneNumbers with_cell_size(SceneNumbers scene, const double cell_size)
   {
     const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
     for (double *number : { &scene.n_cells, &scene.n_occupied, &scene.n_soil_points, &scene.n_water_points })
@@ -117,7 +115,7 @@ namespace scree
   }
 
 
-  StepCost with_cell_size(StepCost steps, const Scene &scene, const double cell_size)
+  StepCost with_cell_size(StepCost steps, const SceneNumbers &scene, const double cell_size)
   {
     const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
     steps.seconds *= factor;
@@ -129,16 +127,25 @@ namespace scree
   }
 
 
-  StepCost without_water(StepCost steps, const Scene &scene)
+  StepCost without_water(StepCost steps, const SceneNumbers &scene)
   {
     const double soil = scene.n_soil_points / scene.n_points();
     double seconds    = 0;
     for (auto &[part, of_part] : steps.parts)
       {
-        if (part.rfind("pressure", 0) == 0 || part == "grid to water points" || part == "nodes")
-          of_part = 0;
-        else if (!is_of_law(part))
-          of_part *= soil;
+        switch (part)
+          {
+          case StepPart::nodes:
+          case StepPart::pressure_system:
+          case StepPart::pressure_solve:
+          case StepPart::water_points:
+            of_part = 0;
+            break;
+          case StepPart::stress:
+            break;
+          default:
+            of_part *= soil;
+          }
         seconds += of_part;
       }
     steps.seconds = seconds;

@@ -10,7 +10,7 @@ namespace scree
   } // namespace
 
 
-  Groups groups_of(const Scene &scene)
+  Groups groups_of(const SceneNumbers &scene)
   {
     Groups groups;
     const double H = scene.height, g = scene.gravity, M = scene.constrained_modulus();
@@ -36,7 +36,7 @@ namespace scree
   }
 
 
-  double conductivity_for(const Scene &scene, const double drainage)
+  double conductivity_for(const SceneNumbers &scene, const double drainage)
   {
     const Groups groups = groups_of(scene);
     return scene.conductivity * groups.drainage / drainage;

@@ -32,8 +32,14 @@ namespace scree
   StepCost measure_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator)
   {
     simulation.advance(simulation.stable_step()); // makes room
-    const auto parts_of = [&] { return simulation.times_of_parts().get_summary_data(TimerOutput::total_wall_time); };
-    const auto before   = parts_of();
+    const auto parts_of = [&] {
+      std::map<StepPart, double> seconds;
+      for (const StepPart part : step_parts)
+        if (const double of_part = seconds_of(simulation.times_of_parts(), part); of_part > 0.)
+          seconds[part] = of_part;
+      return seconds;
+    };
+    auto before = parts_of();
 
     constexpr unsigned int most_steps = 2000;
     StepCost cost;
@@ -49,10 +55,7 @@ namespace scree
 
     cost.seconds = Utilities::MPI::sum(processor_time() - processor_start, communicator) / cost.n_steps;
     for (const auto &[part, of_part] : parts_of())
-      {
-        const auto earlier = before.find(part);
-        cost.parts[part]   = cost.seconds * (of_part - (earlier == before.end() ? 0. : earlier->second)) / wall;
-      }
+      cost.parts[part] = cost.seconds * (of_part - before[part]) / wall;
     // A body that has hardly moved yet is not sorted: deal.II's sort moves the points in memory, which makes ours due.
     for (PointSet<dim> *points : simulation.point_sets())
       {

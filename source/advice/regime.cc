@@ -17,7 +17,7 @@ namespace scree
   } // namespace
 
 
-  Regime regime_of(const Scene &scene)
+  Regime regime_of(const SceneNumbers &scene)
   {
     if (!scene.has_water)
       return Regime::dry;
@@ -44,7 +44,7 @@ namespace scree
   }
 
 
-  std::string reason_for(const Regime regime, const Scene &scene)
+  std::string reason_for(const Regime regime, const SceneNumbers &scene)
   {
     const Groups groups     = groups_of(scene);
     const std::string ratio = "drainage time over motion time is " + rounded(groups.drainage);
@@ -73,7 +73,7 @@ namespace scree
   }
 
 
-  PointSetChoice point_sets_for(const Regime regime, const Scene &scene)
+  PointSetChoice point_sets_for(const Regime regime, const SceneNumbers &scene)
   {
     constexpr double small_strain = 0.01;
     if (!scene.has_soil || !scene.water_fills_soil)

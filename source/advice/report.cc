@@ -53,7 +53,7 @@ namespace scree
     };
 
 
-    void write_groups(const Scene &scene, Writer &writer)
+    void write_groups(const SceneNumbers &scene, Writer &writer)
     {
       const Groups groups = groups_of(scene);
       writer.title("Scales");
@@ -77,7 +77,7 @@ namespace scree
     }
 
 
-    void write_water(const Scene &scene, const double step, Writer &writer)
+    void write_water(const SceneNumbers &scene, const double step, Writer &writer)
     {
       const Groups groups = groups_of(scene);
       writer.title("Soil and water");
@@ -94,7 +94,7 @@ namespace scree
 
     void write_size(const Advice &advice, const RunCost &cost, Writer &writer)
     {
-      const Scene &scene = advice.scene;
+      const SceneNumbers &scene = advice.scene;
       writer.title("Size");
       writer.line("cells of the box; with points", rounded(scene.n_cells) + "; " + rounded(scene.n_occupied));
       writer.line("cells over the height H/h", groups_of(scene).cells_over_height, "");
@@ -108,7 +108,7 @@ namespace scree
 
     void write_cost(const Advice &advice, const RunCost &cost, Writer &writer)
     {
-      const Scene &scene = advice.scene;
+      const SceneNumbers &scene = advice.scene;
       writer.title("Cost of the case as it stands");
       writer.line("step at the start; mean expected", rounded(cost.first_step) + "; " + rounded(cost.mean_step) + " s");
       writer.line("steps to " + rounded(scene.end_time) + " s", cost.n_steps, "");
@@ -117,7 +117,7 @@ namespace scree
                       (advice.coarser > 1 ? ", with cells " + std::to_string(advice.coarser) + " times as wide" : ""));
       for (const auto &[part, seconds] : advice.first_steps.parts)
         if (seconds >= 0.02 * advice.first_steps.seconds)
-          writer.line("  " + part, 1e9 * seconds / scene.n_points(), "ns a point");
+          writer.line("  " + name_of(part), 1e9 * seconds / scene.n_points(), "ns a point");
       writer.line("output", cost.output_seconds, "core-seconds");
       writer.line("run", core_time(cost.seconds()));
       if (advice.n_ranks > 1)
@@ -129,9 +129,9 @@ namespace scree
 
     void write_recommendation(const Advice &advice, Writer &writer)
     {
-      const Scene &scene  = advice.scene;
-      const Regime regime = regime_of(scene);
-      const ErrorLaw law  = error_law_of(scene);
+      const SceneNumbers &scene = advice.scene;
+      const Regime regime       = regime_of(scene);
+      const ErrorLaw law        = error_law_of(scene);
       writer.title("Recommendation for a relative error of " + rounded(advice.accuracy) + ' ' + law.measure);
       writer.line("model", name_of(regime) + ": " + reason_for(regime, scene));
       if (scene.has_water && scene.has_soil)
@@ -145,10 +145,10 @@ namespace scree
       writer.line("cell size",
                   rounded(size) + " m, H/h = " + rounded(scene.height / size) + " (now " + rounded(scene.cell_size) +
                       " m: error about " + rounded(law.error(scene.height / scene.cell_size)) + ")");
-      const Scene wanted   = with_cell_size(scene, size);
-      const StepCost steps = with_cell_size(advice.first_steps, scene, size);
-      Schedule schedule    = advice.schedule;
-      schedule.time_step   = time_step_for(wanted, schedule.time_step);
+      const SceneNumbers wanted = with_cell_size(scene, size);
+      const StepCost steps      = with_cell_size(advice.first_steps, scene, size);
+      Schedule schedule         = advice.schedule;
+      schedule.time_step        = time_step_for(wanted, schedule.time_step);
       schedule.longest_step *= size * size / (scene.cell_size * scene.cell_size);
       const RunCost cost = cost_of_run(wanted, steps, schedule);
       writer.line("step",
@@ -160,7 +160,7 @@ namespace scree
       writer.line("run", core_time(cost.seconds()));
       if (regime == Regime::drained || regime == Regime::undrained)
         {
-          Scene soil          = wanted;
+          SceneNumbers soil   = wanted;
           soil.n_water_points = 0;
           writer.line("run of the soil alone",
                       core_time(cost_of_run(soil, without_water(steps, wanted), schedule).seconds()));
@@ -172,8 +172,8 @@ namespace scree
   void write_report(const Advice &advice, std::ostream &out)
   {
     Writer writer(out);
-    const Scene &scene = advice.scene;
-    const RunCost cost = cost_of_run(scene, advice.first_steps, advice.schedule);
+    const SceneNumbers &scene = advice.scene;
+    const RunCost cost        = cost_of_run(scene, advice.first_steps, advice.schedule);
     out << scene.dim << "D, " << name_of(regime_of(scene)) << '\n';
     write_groups(scene, writer);
     if (scene.has_soil && scene.has_water)

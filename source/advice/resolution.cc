@@ -6,7 +6,7 @@
 
 namespace scree
 {
-  ErrorLaw error_law_of(const Scene &scene)
+  ErrorLaw error_law_of(const SceneNumbers &scene)
   {
     // Measured, doc/verification.md: fronts of columns and slopes at h = .1, .05, .025 m against the extrapolated one;
     // Terzaghi's column at T_v = .1 with 20 cells, order 1.9 to 2.25; the dam break's tip at h = .1 and .05 m.
@@ -43,7 +43,7 @@ namespace scree
   }
 
 
-  TimeStepParameters time_step_for(const Scene &scene, TimeStepParameters present)
+  TimeStepParameters time_step_for(const SceneNumbers &scene, TimeStepParameters present)
   {
     // Measured, doc/verification.md: the front of a dense column differs by 0.7 % between Courant numbers 0.2 and 0.6,
     // and larger ones contaminate the stress; Terzaghi's error is the same at 0.1 and 0.9; the dam breaks ran with 0.04

@@ -66,7 +66,7 @@ namespace scree
             axis = a;
       }
 
-      Scene look()
+      SceneNumbers look()
       {
         read_entries();
         find_height();
@@ -223,7 +223,7 @@ namespace scree
       const BackgroundGrid<dim> &grid;
       const MPI_Comm communicator;
       unsigned int axis; // of gravity
-      Scene scene;
+      SceneNumbers scene;
 
       std::vector<char> occupied; // cells, on this rank
       // Sums over the points, SI units; pressure and moduli times volume.
@@ -236,11 +236,11 @@ namespace scree
 
 
   template <int dim>
-  Scene survey(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator)
+  SceneNumbers survey(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator)
   {
     return Surveyor<dim>(simulation, parameters, communicator).look();
   }
 
-  template Scene survey(const Simulation<2> &, const Parameters &, const MPI_Comm);
-  template Scene survey(const Simulation<3> &, const Parameters &, const MPI_Comm);
+  template SceneNumbers survey(const Simulation<2> &, const Parameters &, const MPI_Comm);
+  template SceneNumbers survey(const Simulation<3> &, const Parameters &, const MPI_Comm);
 } // namespace scree

@@ -2,6 +2,7 @@
 
 #include <scree/element/element_driver.h>
 #include <scree/input/input_file.h>
+#include <scree/version.h>
 
 #include <filesystem>
 #include <fstream>
@@ -70,7 +71,9 @@ namespace
 
   void print_help()
   {
-    std::cout << "scree-element FILE.prm\n\n"
+    std::cout << "Usage: scree-element FILE.prm     run a path\n"
+                 "       scree-element --version    version and commit, libraries, compiler\n"
+                 "       scree-element --help, -h   this text\n\n"
                  "One material point along the path of a laboratory test. All entries and their defaults:\n\n";
     dealii::ParameterHandler prm;
     ElementParameters parameters;
@@ -83,9 +86,14 @@ namespace
 int main(int argc, char *argv[])
 {
   const std::string argument = argc == 2 ? argv[1] : "";
-  if (argument == "--help")
+  if (argument == "--help" || argument == "-h")
     {
       print_help();
+      return 0;
+    }
+  if (argument == "--version")
+    {
+      std::cout << scree::version_text();
       return 0;
     }
   if (argument.empty())

@@ -116,7 +116,6 @@ namespace scree
     mesh.clear();
     make_coarse_mesh();
     mesh.load(file);
-    distribute_nodes();
   }
 
 

@@ -81,62 +81,30 @@ namespace scree
 
 
   template <int dim>
-  void BoundaryConditions<dim>::apply(Tensor<1, dim> &velocity, const std::uint8_t faces) const
+  std::vector<NodeConstraint<dim>> BoundaryConditions<dim>::constraints(const std::uint8_t faces) const
   {
+    using Type = typename NodeConstraint<dim>::Type;
+    std::vector<NodeConstraint<dim>> result;
     for (unsigned int f = 0; f < 2 * dim; ++f)
       if ((faces >> f) & 1)
         {
-          const unsigned int axis = f / 2;
+          const Tensor<1, dim> inward = (f % 2 == 0 ? 1. : -1.) * Point<dim>::unit_vector(f / 2);
           switch (wall_list[f].type)
             {
             case WallType::fixed:
-              velocity = 0.;
-              return;
+              for (unsigned int a = 0; a < dim; ++a)
+                result.push_back({ Point<dim>::unit_vector(a), Type::fixed, 0. });
+              break;
             case WallType::free_slip:
-              velocity[axis] = 0.;
+              result.push_back({ inward, Type::fixed, 0. });
               break;
             case WallType::friction:
-              {
-                const double inward = (f % 2 == 0 ? 1. : -1.) * velocity[axis];
-                if (inward >= 0.)
-                  break;
-                // The wall stops the normal motion; its impulse bounds the tangential one (Coulomb).
-                velocity[axis]     = 0.;
-                const double speed = velocity.norm();
-                const double loss  = -wall_list[f].friction_coefficient * inward;
-                velocity *= speed > loss ? 1. - loss / speed : 0.;
-                break;
-              }
+              result.push_back({ inward, Type::unilateral, wall_list[f].friction_coefficient });
+              break;
             case WallType::open:
               break;
             }
         }
-  }
-
-
-  template <int dim>
-  unsigned int BoundaryConditions<dim>::fixed_components(const std::uint8_t faces) const
-  {
-    unsigned int fixed = 0;
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if ((faces >> f) & 1)
-        {
-          if (wall_list[f].type == WallType::fixed)
-            fixed |= (1u << dim) - 1;
-          else if (wall_list[f].type == WallType::free_slip)
-            fixed |= 1u << (f / 2);
-        }
-    return fixed;
-  }
-
-
-  template <int dim>
-  std::uint8_t BoundaryConditions<dim>::friction_faces(const std::uint8_t faces) const
-  {
-    std::uint8_t result = 0;
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if (wall_list[f].type == WallType::friction)
-        result |= faces & (1u << f);
     return result;
   }
 

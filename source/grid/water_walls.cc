@@ -87,18 +87,18 @@ namespace scree
 
 
   template <int dim>
-  unsigned int WaterBoundaryConditions<dim>::fixed_components(const std::uint8_t faces) const
+  HeldDirections<dim> WaterBoundaryConditions<dim>::held_directions(const std::uint8_t faces) const
   {
-    unsigned int fixed = 0;
+    HeldDirections<dim> held;
     for (unsigned int f = 0; f < 2 * dim; ++f)
       if ((faces >> f) & 1)
         {
           if (wall_list[f].type == WaterWallType::no_slip)
-            fixed |= (1u << dim) - 1;
+            held.hold_all();
           else if (wall_list[f].type == WaterWallType::impermeable)
-            fixed |= 1u << (f / 2);
+            held.hold(Point<dim>::unit_vector(f / 2));
         }
-    return fixed;
+    return held;
   }
 
 

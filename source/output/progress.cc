@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/output/progress.h>
+#include <scree/scheme/step_part.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +65,6 @@ namespace scree
       return;
     const double total            = clock.wall_time();
     const double to_ns            = 1e9 * n_ranks / point_updates;
-    const auto seconds            = parts.get_summary_data(TimerOutput::total_wall_time);
     double accounted              = 0;
     const std::string last_column = "ns per " + point + " and step";
     const int width               = std::max<int>(22, last_column.size());
@@ -70,13 +72,33 @@ namespace scree
     const auto line = [&](const std::string &name, const double s) {
       folder.log(format("%-34s %10.2f %6.1f %% %*.1f", name.c_str(), s, 100 * s / total, width, s * to_ns));
     };
-    for (const auto &[name, s] : seconds)
-      {
-        line(name, s);
-        accounted += s;
-      }
+    for (const StepPart part : step_parts)
+      if (const double s = seconds_of(parts, part); s > 0)
+        {
+          line(name_of(part), s);
+          accounted += s;
+        }
     line("everything else", total - accounted);
     line("total", total);
     folder.log(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates)", n_ranks, point_updates));
+  }
+
+
+  void Progress::summarise_ranks(const double waiting,
+                                 const double imbalance,
+                                 const unsigned int n_repartitions,
+                                 const MPI_Comm communicator)
+  {
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return;
+    const double total  = clock.wall_time();
+    const auto of_ranks = Utilities::MPI::min_max_avg(waiting, communicator);
+    folder.log(format("waiting: %.1f %% of the ranks' time (%.1f %% to %.1f %%)",
+                      100 * of_ranks.avg / total,
+                      100 * of_ranks.min / total,
+                      100 * of_ranks.max / total));
+    folder.log(format("imbalance: %.3f (slowest rank over mean, without waiting); cells shared out anew %u times",
+                      imbalance,
+                      n_repartitions));
   }
 } // namespace scree

@@ -136,8 +136,8 @@ namespace scree
     add("Front 99.5 % (m)", front[2]);
     add("Height (m)", std::max(now.height, grid.lower_corner()[dim - 1]));
     add("Stress oscillation (-)", stress_oscillation(bodies, grid));
-    add("Mean P (Pa)", now.soil_points > 0 ? now.pressure / now.soil_points : 0.);
-    add("Largest P (Pa)", now.largest_pressure);
+    add("Mean effective stress (Pa)", now.soil_points > 0 ? now.pressure / now.soil_points : 0.);
+    add("Largest effective stress (Pa)", now.largest_pressure);
     add("Separated points",
         Utilities::MPI::sum(double(last_step.n_separated), grid.triangulation().get_communicator()));
     add("Substeps per update", totals.n_updates > 0 ? totals.n_substeps / totals.n_updates : 0.);

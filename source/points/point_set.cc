@@ -46,7 +46,7 @@ namespace scree
     /// Sets the points' places in their cells. Returns whether all points are still there, and in memory as `cells`
     /// says, so that sorting would change nothing; if not, some places are not set.
     template <int dim>
-    bool update_places(Particles::ParticleHandler<dim> &handler, const std::vector<CellPoints<dim>> &cells)
+    bool set_places(Particles::ParticleHandler<dim> &handler, const std::vector<CellPoints<dim>> &cells)
     {
       auto listed = cells.begin();
       for (auto point = handler.begin(); point != handler.end(); ++listed)
@@ -98,9 +98,21 @@ namespace scree
   template <int dim>
   void PointSet<dim>::sort()
   {
-    const bool all_in_place = Utilities::MPI::min<int>(update_places(particle_handler, cell_list), communicator);
-    if (all_in_place)
-      return;
+    if (Utilities::MPI::min<int>(update_places(), communicator) == 0)
+      hand_over();
+  }
+
+
+  template <int dim>
+  bool PointSet<dim>::update_places()
+  {
+    return set_places(particle_handler, cell_list);
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::hand_over()
+  {
     particle_handler.sort_particles_into_subdomains_and_cells();
     update_cells();
   }

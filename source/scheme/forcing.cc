@@ -49,22 +49,6 @@ namespace scree
 
 
   template <int dim>
-  void Forcing<dim>::start_settling(const double rate, std::vector<char> held)
-  {
-    damping_rate = rate;
-    this->held   = std::move(held);
-  }
-
-
-  template <int dim>
-  void Forcing<dim>::release()
-  {
-    damping_rate = 0;
-    held.clear();
-  }
-
-
-  template <int dim>
   double Forcing<dim>::decay(const double time_step) const
   {
     return std::exp(-damping_rate * time_step);

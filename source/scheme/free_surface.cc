@@ -11,21 +11,6 @@ namespace scree
 
   namespace
   {
-    enum Filling : unsigned int
-    {
-      water,
-      filled,
-      weighted_pressure,
-      wet_cells
-    };
-
-    enum Neighbours : unsigned int
-    {
-      number,
-      sum_of_distances,
-      sum_of_pressures
-    };
-
     double distance_from_fill(const double fill)
     {
       return fill < 0.5 ? std::sqrt(2. * fill) - 1. : 1. - std::sqrt(2. * std::max(1. - fill, 0.));

@@ -2,6 +2,7 @@
 #include <scree/scheme/pressure_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
@@ -11,6 +12,18 @@
 namespace scree
 {
   using namespace dealii;
+
+  template <int dim>
+  struct PressureSolver<dim>::Multigrid
+  {
+    TrilinosWrappers::SparseMatrix matrix; // The preconditioner refers to it.
+    TrilinosWrappers::PreconditionAMG preconditioner;
+  };
+
+
+  template <int dim>
+  PressureSolver<dim>::~PressureSolver() = default;
+
 
   template <int dim>
   PressureSolver<dim>::PressureSolver(const BackgroundGrid<dim> &grid,
@@ -50,84 +63,106 @@ namespace scree
     const auto &nodes = *corners.partitioner();
     number_of_corner.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), numbers::invalid_unsigned_int);
     partitioner.reset();
-    preconditioner.reset();
+    multigrid.reset();
     is_worn = true;
   }
 
 
   template <int dim>
-  void PressureSolver<dim>::number(const Mixture<dim> &mixture)
+  bool PressureSolver<dim>::numbers_serve(const Mixture<dim> &mixture) const
   {
-    const auto all_corners = [&](const unsigned int cell, const auto &condition) {
-      return std::all_of(corners.nodes(cell), corners.nodes(cell) + n_corners, condition);
-    };
-    bool serves = partitioner != nullptr;
+    bool serve = partitioner != nullptr;
     for (const MixtureCell<dim> &cell : mixture.cells())
-      serves = serves && (cell.water_volume == 0 || all_corners(cell.cell, [&](const unsigned int corner) {
-                            return number_of_corner[corner] != numbers::invalid_unsigned_int;
-                          }));
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
-    if (Utilities::MPI::min(int(serves), communicator) == 1)
-      return;
+      for (unsigned int v = 0; v < n_corners && serve && cell.water_volume > 0; ++v)
+        serve = number_of_corner[corners.nodes(cell.cell)[v]] != numbers::invalid_unsigned_int;
+    return Utilities::MPI::min(int(serve), grid.triangulation().get_communicator()) == 1;
+  }
 
-    // The corners of wet cells, and those of the cells around them, `margin` cells deep.
+
+  template <int dim>
+  std::vector<unsigned int> PressureSolver<dim>::mark_corners(const Mixture<dim> &mixture, CornerVector &marks) const
+  {
     constexpr unsigned int margin = 2;
-    CornerVector marks(corners.partitioner());
-    std::vector<unsigned int> numbered_cells;
+    std::vector<unsigned int> marked_cells;
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0)
-        numbered_cells.push_back(cell.cell);
+        marked_cells.push_back(cell.cell);
+    const auto is_touched = [&](const unsigned int cell) {
+      return std::any_of(corners.nodes(cell), corners.nodes(cell) + n_corners, [&](const unsigned int corner) {
+        return marks.local_element(corner) != 0.;
+      });
+    };
     for (unsigned int layer = 0; layer <= margin; ++layer)
       {
-        for (const unsigned int cell : numbered_cells)
+        for (const unsigned int cell : marked_cells)
           for (unsigned int v = 0; v < n_corners; ++v)
             marks.local_element(corners.nodes(cell)[v]) += 1.;
         marks.compress(VectorOperation::add);
         if (layer == margin)
           break;
         marks.update_ghost_values();
-        numbered_cells.clear();
+        marked_cells.clear();
         for (const auto &cell : grid.triangulation().active_cell_iterators())
-          if (cell->is_locally_owned() && !all_corners(cell->active_cell_index(), [&](const unsigned int corner) {
-                return marks.local_element(corner) == 0.;
-              }))
-            numbered_cells.push_back(cell->active_cell_index());
+          if (cell->is_locally_owned() && is_touched(cell->active_cell_index()))
+            marked_cells.push_back(cell->active_cell_index());
         marks.zero_out_ghost_values();
       }
+    return marked_cells;
+  }
 
+
+  template <int dim>
+  IndexSet PressureSolver<dim>::number_marked(CornerVector &marks) const
+  {
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const auto begin = marks.begin(), end = begin + corners.n_owned();
+    const auto is_marked = [](const double mark) { return mark > 0.; };
     // Trilinos needs a row of every rank.
     AssertThrow(corners.n_owned() > 0, ExcMessage("A rank has no node of its own. Remedy: fewer ranks."));
-    if (std::none_of(marks.begin(), marks.begin() + corners.n_owned(), [](const double mark) { return mark > 0.; }))
-      marks.local_element(0) = 1.;
-    const unsigned int n_owned =
-        std::count_if(marks.begin(), marks.begin() + corners.n_owned(), [](const double mark) { return mark > 0.; });
+    if (std::none_of(begin, end, is_marked))
+      *begin = 1.;
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
-        communicator, n_owned)[Utilities::MPI::this_mpi_process(communicator)];
+        communicator, std::count_if(begin, end, is_marked))[Utilities::MPI::this_mpi_process(communicator)];
     auto next = owned.begin();
-    for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
-      marks.local_element(corner) = marks.local_element(corner) > 0. ? double(*next++) : -1.;
+    for (auto mark = begin; mark != end; ++mark)
+      *mark = is_marked(*mark) ? double(*next++) : -1.;
     marks.update_ghost_values();
+    return owned;
+  }
 
+
+  template <int dim>
+  void PressureSolver<dim>::number(const Mixture<dim> &mixture)
+  {
+    if (numbers_serve(mixture))
+      return;
+    CornerVector global(corners.partitioner()); // marks at first, then numbers
+    const std::vector<unsigned int> numbered_cells = mark_corners(mixture, global);
+    const IndexSet owned                           = number_marked(global);
+    const auto number_of                           = [&](const unsigned int corner) {
+      return static_cast<types::global_dof_index>(global.local_element(corner));
+    };
+    const auto for_corners_of_cells = [&](const auto &act) {
+      for (const unsigned int cell : numbered_cells)
+        std::for_each(corners.nodes(cell), corners.nodes(cell) + n_corners, act);
+    };
     IndexSet ghosts(owned.size());
-    for (const unsigned int cell : numbered_cells)
-      for (unsigned int v = 0; v < n_corners; ++v)
-        if (const unsigned int corner = corners.nodes(cell)[v]; corner >= corners.n_owned())
-          ghosts.add_index(static_cast<types::global_dof_index>(marks.local_element(corner)));
-    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, communicator);
+    for_corners_of_cells([&](const unsigned int corner) {
+      if (corner >= corners.n_owned())
+        ghosts.add_index(number_of(corner));
+    });
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, grid.triangulation().get_communicator());
 
     std::fill(number_of_corner.begin(), number_of_corner.end(), numbers::invalid_unsigned_int);
-    corner_of_number.assign(n_owned + ghosts.n_elements(), numbers::invalid_unsigned_int);
+    corner_of_number.assign(owned.n_elements() + ghosts.n_elements(), numbers::invalid_unsigned_int);
     const auto take = [&](const unsigned int corner) {
-      number_of_corner[corner] =
-          partitioner->global_to_local(static_cast<types::global_dof_index>(marks.local_element(corner)));
+      number_of_corner[corner]                   = partitioner->global_to_local(number_of(corner));
       corner_of_number[number_of_corner[corner]] = corner;
     };
     for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
-      if (marks.local_element(corner) >= 0.)
+      if (global.local_element(corner) >= 0.)
         take(corner);
-    for (const unsigned int cell : numbered_cells)
-      for (unsigned int v = 0; v < n_corners; ++v)
-        take(corners.nodes(cell)[v]);
+    for_corners_of_cells(take);
 
     for (CornerVector *vector : { &source, &solution, &scratch })
       vector->reinit(partitioner);
@@ -256,8 +291,9 @@ namespace scree
       }
     pattern.compress();
 
-    preconditioner.reset();
-    stored_matrix.reinit(pattern);
+    multigrid           = std::make_unique<Multigrid>();
+    auto &matrix_of_all = multigrid->matrix;
+    matrix_of_all.reinit(pattern);
     for (const Cell &cell : cells)
       {
         globalise(cell);
@@ -265,19 +301,18 @@ namespace scree
         for (unsigned int v = 0; v < n_corners; ++v)
           for (unsigned int w = 0; w < n_corners; ++w)
             if (is_unknown[cell.numbers[v]] && is_unknown[cell.numbers[w]])
-              stored_matrix.add(global[v], global[w], own[v][w]);
+              matrix_of_all.add(global[v], global[w], own[v][w]);
       }
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       {
         const auto row = partitioner->local_to_global(i);
-        stored_matrix.add(row, row, is_unknown[i] ? diagonal[i] : unit);
+        matrix_of_all.add(row, row, is_unknown[i] ? diagonal[i] : unit);
       }
-    stored_matrix.compress(VectorOperation::add);
+    matrix_of_all.compress(VectorOperation::add);
 
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic  = true;
-    preconditioner = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    preconditioner->initialize(stored_matrix, data);
+    data.elliptic = true;
+    multigrid->preconditioner.initialize(matrix_of_all, data);
   }
 
 
@@ -303,7 +338,7 @@ namespace scree
       SolverControl control(most, tolerance);
       try
         {
-          SolverCG<CornerVector>(control).solve(system, solution, source, *preconditioner);
+          SolverCG<CornerVector>(control).solve(system, solution, source, multigrid->preconditioner);
         }
       catch (const SolverControl::NoConvergence &)
         {

@@ -42,17 +42,17 @@ namespace scree
   }
 
 
-  double Clock::next_step(const double stable_step, const double appointment) const
+  double Clock::next_step(const double stable_step, const double due) const
   {
-    const double remaining = appointment - current_time;
+    const double remaining = due - current_time;
     return remaining / std::max(1., std::ceil(remaining / stable_step * (1. - 1e-12)));
   }
 
 
-  void Clock::advance(const double time_step, const double appointment)
+  void Clock::advance(const double time_step, const double due)
   {
-    const bool arrives = current_time + 1.5 * time_step > appointment;
-    current_time       = arrives ? appointment : current_time + time_step;
+    const bool arrives = current_time + 1.5 * time_step > due;
+    current_time       = arrives ? due : current_time + time_step;
     ++n_steps;
   }
 } // namespace scree

@@ -9,93 +9,98 @@ namespace scree
 
   namespace
   {
-    /// The component of a vector that points from a face into the box.
     template <int dim>
-    double inward(const Tensor<1, dim> &vector, const unsigned int face)
+    bool is_unilateral(const NodeConstraint<dim> &constraint)
     {
-      return face % 2 == 0 ? vector[face / 2] : -vector[face / 2];
+      return constraint.type == NodeConstraint<dim>::Type::unilateral;
     }
   } // namespace
 
 
   template <int dim>
-  WallFriction<dim>::WallFriction(const BackgroundGrid<dim> &grid, const BoundaryConditions<dim> &walls)
-      : grid(grid)
-      , walls(walls)
+  WallFriction<dim>::WallFriction(const Constraints<dim> &constraints)
+      : constraints(constraints)
   {
-    reinit();
   }
 
 
   template <int dim>
-  void WallFriction<dim>::reinit()
+  void WallFriction<dim>::reinit(const unsigned int n_owned_nodes)
   {
-    const bool any = std::any_of(
-        walls.walls().begin(), walls.walls().end(), [](const Wall &wall) { return wall.type == WallType::friction; });
-    contacts.assign(any ? grid.n_owned_nodes() : 0, 0);
-    reactions.assign(contacts.size(), Tensor<1, dim>());
-    resistances = reactions;
+    contacts.assign(constraints.has_unilateral() ? n_owned_nodes : 0, Contact());
   }
 
 
   template <int dim>
   void WallFriction<dim>::clear()
   {
-    std::fill(contacts.begin(), contacts.end(), 0);
+    std::fill(contacts.begin(), contacts.end(), Contact());
+  }
+
+
+  template <int dim>
+  HeldDirections<dim> WallFriction<dim>::held(const unsigned int node) const
+  {
+    HeldDirections<dim> result;
+    const NodeConstraints<dim> *walls = constraints.at(node);
+    if (walls == nullptr)
+      return result;
+    result = walls->soil_held;
+    if (contacts.empty() || !contacts[node].any())
+      return result;
+    if (contacts[node].sticks)
+      result.hold_all();
+    for (unsigned int i = 0; i < walls->soil.size(); ++i)
+      if ((contacts[node].pushing >> i) & 1)
+        result.hold(walls->soil[i].normal);
+    return result;
   }
 
 
   template <int dim>
   bool WallFriction<dim>::find_contact(const unsigned int node, const Tensor<1, dim> &velocity)
   {
-    if (contacts.empty())
+    const NodeConstraints<dim> *walls = contacts.empty() ? nullptr : constraints.at(node);
+    if (walls == nullptr)
       return false;
-    const std::uint8_t faces = walls.friction_faces(grid.node_faces(node));
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if (((faces >> f) & 1) && inward(velocity, f) < 0.)
-        contacts[node] |= 1 << (f / 2);
-    resistances[node] = 0.;
-    return contacts[node] != 0;
+    for (unsigned int i = 0; i < walls->soil.size(); ++i)
+      if (is_unilateral(walls->soil[i]) && velocity * walls->soil[i].normal < 0.)
+        contacts[node].pushing |= 1u << i;
+    return contacts[node].any();
   }
 
 
   template <int dim>
   double WallFriction<dim>::bound(const unsigned int node, const Tensor<1, dim> &reaction) const
   {
-    const std::uint8_t faces = walls.friction_faces(grid.node_faces(node));
-    double result            = 0;
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if ((faces >> f) & 1)
-        result += walls.walls()[f].friction_coefficient * std::max(0., inward(reaction, f));
+    double result = 0;
+    for (const NodeConstraint<dim> &wall : constraints.at(node)->soil)
+      if (is_unilateral(wall))
+        result += wall.friction_coefficient * std::max(0., reaction * wall.normal);
     return result;
   }
 
 
   template <int dim>
-  Tensor<1, dim> WallFriction<dim>::resist(const unsigned int node,
-                                           const DragPair<dim> &pair,
-                                           const Tensor<1, dim> &soil_impulse,
-                                           const Tensor<1, dim> &water_impulse)
+  Tensor<1, dim>
+  WallFriction<dim>::resist(const unsigned int node, const DragPair<dim> &pair, const SoilAndWater<dim> &impulses)
   {
-    // A wall that holds all components: what it needs along itself is what sticking takes.
+    // A wall that holds the soil altogether: what it needs along itself is what sticking takes.
     DragPair<dim> stuck = pair;
-    stuck.fixed_soil    = (1u << dim) - 1;
-    Tensor<1, dim> soil, water, normal, along;
-    stuck.solve(soil_impulse, water_impulse, soil, water);
-    const Tensor<1, dim> wall = stuck.soil_reaction(soil_impulse, water);
-    for (unsigned int c = 0; c < dim; ++c)
-      if ((contacts[node] >> c) & 1)
-        normal[c] = wall[c];
-      else if (((pair.fixed_soil >> c) & 1) == 0)
-        along[c] = wall[c];
+    stuck.held_soil.hold_all();
+    const Tensor<1, dim> wall = stuck.reactions(impulses, stuck.solve(impulses)).soil;
+    Contact &contact          = contacts[node];
+    HeldDirections<dim> normals;
+    for (unsigned int i = 0; i < constraints.at(node)->soil.size(); ++i)
+      if ((contact.pushing >> i) & 1)
+        normals.hold(constraints.at(node)->soil[i].normal);
+    contact.reaction = normals.held_part(wall);
 
-    reactions[node]        = normal;
-    const double available = bound(node, normal), needed = along.norm();
-    if (needed < available)
-      contacts[node] = stuck.fixed_soil;
-    else if (needed > 0.)
-      resistances[node] = available / needed * along;
-    return resistances[node];
+    const auto friction = coulomb_friction(pair.held_soil.free_part(wall), bound(node, contact.reaction));
+    contact.sticks      = friction.sticks;
+    if (!friction.sticks)
+      contact.resistance = friction.impulse;
+    return contact.resistance;
   }
 
 
@@ -106,9 +111,9 @@ namespace scree
                                            const Tensor<1, dim> &velocity) const
   {
     const double speed = velocity.norm(); // along the wall: the rest is stopped
-    if (stopped_components(node) == 0 || speed == 0.)
+    if (contacts.empty() || !contacts[node].any() || speed == 0.)
       return Tensor<1, dim>();
-    const double change = bound(node, reactions[node] + reaction_change) - resistances[node].norm();
+    const double change = bound(node, contacts[node].reaction + reaction_change) - contacts[node].resistance.norm();
     return -std::min(change, mass * speed) / speed * velocity; // friction does not turn the motion round
   }
 

@@ -30,6 +30,8 @@ namespace scree
 
     MotionReport report;
     double largest_square = 0;
+    CellCosts &costs      = body.points.costs();
+    costs.start_pass();
     for (const auto &cell : body.points.cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
@@ -56,6 +58,7 @@ namespace scree
             motion.reference_volume[p]      = properties[layout.mass] / body.density;
           }
         update_state(body, cell, report.material);
+        costs.finish_cell(cell.cell, cell.n_points);
       }
     report.largest_speed = std::sqrt(largest_square);
     return report;

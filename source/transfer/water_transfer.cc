@@ -260,6 +260,8 @@ namespace scree
     const SoilBody<dim> *soil = water.carrier();
 
     double largest_square = 0;
+    CellCosts &costs      = water.points().costs();
+    costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
         const OpenKnots open = grid.open_knots(cell.cell);
@@ -286,6 +288,7 @@ namespace scree
               properties[layout.mass]   = water.density * properties[layout.volume];
             }
         });
+        costs.finish_cell(cell.cell, cell.n_points);
       }
     return std::sqrt(largest_square);
   }

@@ -13,9 +13,9 @@
 using namespace scree;
 
 /// prm/terzaghi.prm: c_v = 0.11326 m^2/s, drainage time 8.829 s, T_v = 1 at the end.
-Scene terzaghi()
+SceneNumbers terzaghi()
 {
-  Scene scene;
+  SceneNumbers scene;
   scene.gravity          = 0;
   scene.end_time         = 8.829;
   scene.height           = 1;
@@ -37,9 +37,9 @@ Scene terzaghi()
 }
 
 /// A saturated slope, 2 m high, of soil that flows and stiffens with its pressure.
-Scene slope()
+SceneNumbers slope()
 {
-  Scene scene          = terzaghi();
+  SceneNumbers scene   = terzaghi();
   scene.gravity        = 9.81;
   scene.end_time       = 12;
   scene.height         = 2;
@@ -62,22 +62,22 @@ void test_groups()
   std::cout << "  drag time over (1590 400/1990)/1.5696e6 s: " << column.drag_time / (1590. * 400. / 1990. / 1.5696e6)
             << "; wave H/c over 1/sqrt(1.1111e6/1590): " << column.motion_time * std::sqrt(1e6 / 0.9 / 1590) << '\n';
 
-  const Scene scene   = slope();
-  const Groups groups = groups_of(scene);
+  const SceneNumbers scene = slope();
+  const Groups groups      = groups_of(scene);
   // M = 9.3333e6 Pa, rho = 1500 + 400 kg/m^3
   std::cout << "Slope: sqrt(H/g) " << groups.motion_time << " s, rho g H/M in per mille " << 1e3 * groups.own_strain
             << ", rho g H/G " << 1e3 * groups.shear_stress_ratio << ", Mach number in per cent "
             << 100 * groups.mach_number << ", drainage over motion " << groups.drainage << '\n';
 
-  Scene dry     = scene;
-  dry.has_water = false;
+  SceneNumbers dry = scene;
+  dry.has_water    = false;
   std::cout << "Dry: density " << dry.density() << ", drainage " << groups_of(dry).drainage << '\n';
 }
 
 void test_regimes()
 {
   std::cout << "Regimes of the slope over k:";
-  Scene scene = slope();
+  SceneNumbers scene = slope();
   for (int exponent = 1; exponent >= -9; exponent -= 2)
     {
       scene.conductivity = std::pow(10., exponent);
@@ -94,7 +94,7 @@ void test_regimes()
       std::cout << "At the threshold: drainage over threshold " << groups_of(scene).drainage / threshold << ',';
       for (const double factor : { 1.01, 0.99 })
         {
-          Scene beside        = scene;
+          SceneNumbers beside = scene;
           beside.conductivity = factor * scene.conductivity;
           std::cout << ' ' << name_of(regime_of(beside));
         }
@@ -105,18 +105,18 @@ void test_regimes()
   scene.end_time = 100;
   std::cout << "The same for 100 s: " << name_of(regime_of(scene)) << '\n';
 
-  Scene dry      = slope();
-  dry.has_water  = false;
-  Scene water    = slope();
-  water.has_soil = false;
+  SceneNumbers dry   = slope();
+  dry.has_water      = false;
+  SceneNumbers water = slope();
+  water.has_soil     = false;
   std::cout << "Without water: " << name_of(regime_of(dry)) << "; without soil: " << name_of(regime_of(water)) << '\n';
 
-  const auto points = [](const Scene &scene) {
+  const auto points = [](const SceneNumbers &scene) {
     return point_sets_for(regime_of(scene), scene).sets == PointSets::double_point ? "double" : "single";
   };
-  Scene reservoir            = terzaghi();
+  SceneNumbers reservoir     = terzaghi();
   reservoir.water_fills_soil = false;
-  Scene tight                = slope();
+  SceneNumbers tight         = slope();
   tight.conductivity         = 1e-9;
   std::cout << "Points of water: slope " << points(slope()) << ", tight slope " << points(tight) << ", Terzaghi "
             << points(terzaghi()) << ", with a reservoir " << points(reservoir) << '\n';
@@ -124,7 +124,7 @@ void test_regimes()
 
 void test_resolution()
 {
-  for (const Scene &scene : { slope(), terzaghi() })
+  for (const SceneNumbers &scene : { slope(), terzaghi() })
     {
       const ErrorLaw law = error_law_of(scene);
       std::cout << "Error " << law.measure << ": law and its inverse " << law.error(law.cells_over_height(0.02)) / 0.02
@@ -144,8 +144,8 @@ void test_resolution()
   grid.cell_size    = 0.1;
   std::cout << "A box of 7 x 13 cells, at least 25 over 1 m: " << 1 / cell_size_for(grid, 1, 25) << '\n';
   TimeStepParameters step;
-  Scene water    = slope();
-  water.has_soil = false;
+  SceneNumbers water = slope();
+  water.has_soil     = false;
   std::cout << "Courant number: slope " << time_step_for(slope(), step).courant_number << ", Terzaghi "
             << time_step_for(terzaghi(), step).courant_number << "; step of free water over cell "
             << time_step_for(water, step).maximum_time_step / water.cell_size << '\n';
@@ -158,8 +158,8 @@ double clock_steps(const Schedule &schedule, const double end, const double step
   double next = schedule.output.interval;
   while (clock.time() < end * (1 - 1e-12))
     {
-      const double appointment = std::min(end, next);
-      clock.advance(clock.next_step(step, appointment), appointment);
+      const double due = std::min(end, next);
+      clock.advance(clock.next_step(step, due), due);
       if (clock.time() >= next * (1 - 1e-12))
         next += schedule.output.interval;
     }
@@ -171,14 +171,14 @@ void test_cost()
   StepCost steps;
   steps.seconds = 1e-3;
   steps.memory  = 2e8;
-  steps.parts   = { { "grid to points, stress", 5e-4 },
-                    { "points to grid", 2e-4 },
-                    { "pressure: solve", 2e-4 },
-                    { "sort into cells and ranks", 1e-4 } };
+  steps.parts   = { { StepPart::stress, 5e-4 },
+                    { StepPart::points_to_grid, 2e-4 },
+                    { StepPart::pressure_solve, 2e-4 },
+                    { StepPart::sort, 1e-4 } };
   Schedule schedule;
-  schedule.output.interval = 0.7;
-  const Scene column       = terzaghi();
-  const RunCost cost       = cost_of_run(column, steps, schedule);
+  schedule.output.interval  = 0.7;
+  const SceneNumbers column = terzaghi();
+  const RunCost cost        = cost_of_run(column, steps, schedule);
   std::cout << "Terzaghi: step over 0.6 h/c " << cost.first_step / (0.6 * 0.05 / column.fastest.speed())
             << ", steps over the clock's " << cost.n_steps / clock_steps(schedule, column.end_time, cost.first_step)
             << ", seconds of steps over steps times step " << cost.step_seconds / cost.n_steps / steps.seconds << '\n';
@@ -187,17 +187,17 @@ void test_cost()
   std::cout << "Slope: later steps are shorter (" << (of_slope.mean_step < 0.99 * of_slope.first_step)
             << ") and dearer (" << (of_slope.step_seconds > of_slope.n_steps * steps.seconds) << ")\n";
 
-  Scene long_dry     = slope();
-  long_dry.has_water = false;
-  long_dry.end_time  = 1000;
-  const RunCost rest = cost_of_run(long_dry, steps, schedule);
+  SceneNumbers long_dry = slope();
+  long_dry.has_water    = false;
+  long_dry.end_time     = 1000;
+  const RunCost rest    = cost_of_run(long_dry, steps, schedule);
   std::cout << "Dry slope, long after: cheaper steps (" << (rest.step_seconds < rest.n_steps * steps.seconds)
             << "), as long as the first (" << (rest.mean_step > 0.99 * rest.first_step) << ")\n";
 
-  Scene block             = slope();
-  block.dim               = 3;
-  const Scene finer       = with_cell_size(block, 0.025);
-  const StepCost of_finer = with_cell_size(steps, block, 0.025);
+  SceneNumbers block       = slope();
+  block.dim                = 3;
+  const SceneNumbers finer = with_cell_size(block, 0.025);
+  const StepCost of_finer  = with_cell_size(steps, block, 0.025);
   std::cout << "Halved cells in 3D: points " << finer.n_points() / block.n_points() << ", time of a step "
             << of_finer.seconds / steps.seconds << ", steps "
             << std::round(cost_of_run(finer, of_finer, schedule).n_steps / cost_of_run(block, steps, schedule).n_steps)

@@ -39,7 +39,7 @@ template <int dim>
 void tell(Parameters &parameters, const std::string &name)
 {
   Simulation<dim> simulation(parameters, Start::fresh, MPI_COMM_WORLD);
-  const Scene scene   = survey(simulation, parameters, MPI_COMM_WORLD);
+  const SceneNumbers scene   = survey(simulation, parameters, MPI_COMM_WORLD);
   const StepCost cost = measure_steps(simulation, 1e-3, MPI_COMM_WORLD);
   double parts        = 0;
   for (const auto &part : cost.parts)

@@ -11,22 +11,37 @@
 using namespace dealii;
 using namespace scree;
 
+/// Holds the axes, turned by an angle, whose bit is set.
+void hold(const unsigned int axes, const double angle, HeldDirections<2> &held)
+{
+  for (unsigned int a = 0; a < 2; ++a)
+    if ((axes >> a) & 1)
+      held.hold(a == 0 ? Tensor<1, 2>({ std::cos(angle), std::sin(angle) })
+                       : Tensor<1, 2>({ -std::sin(angle), std::cos(angle) }));
+}
+
 int main()
 {
   RandomNumbers random;
-  double residual = 0, momentum = 0;
+  double residual = 0, momentum = 0, slip = 0;
   for (unsigned int trial = 0; trial < 10000; ++trial)
     {
       const double drag = random.log_uniform(1e-12, 1e12);
-      const DragPair<2> pair{ random.uniform(1e-6, 2.), random.uniform(1e-6, 2.), drag, trial % 4, (trial / 4) % 4 };
-      Tensor<1, 2> r_s, r_w, v_s, v_w;
+      // Walls along the axes, and every other time along axes that are turned.
+      const double angle = trial % 32 < 16 ? 0. : random.uniform(0., 6.3);
+      DragPair<2> pair{ random.uniform(1e-6, 2.), random.uniform(1e-6, 2.), drag, {}, {} };
+      hold(trial % 4, angle, pair.held_soil);
+      hold((trial / 4) % 4, angle, pair.held_water);
+      SoilAndWater<2> r;
       for (unsigned int c = 0; c < 2; ++c)
         {
-          r_s[c] = random.uniform(-1., 1.);
-          r_w[c] = random.uniform(-1., 1.);
+          r.soil[c]  = random.uniform(-1., 1.);
+          r.water[c] = random.uniform(-1., 1.);
         }
-      pair.solve(r_s, r_w, v_s, v_w);
-      const Tensor<1, 2> wall_s = pair.soil_reaction(r_s, v_w), wall_w = pair.water_reaction(r_w, v_s);
+      const SoilAndWater<2> v = pair.solve(r), walls = pair.reactions(r, v);
+      const Tensor<1, 2> &r_s = r.soil, &r_w = r.water, &v_s = v.soil, &v_w = v.water;
+      const Tensor<1, 2> &wall_s = walls.soil, &wall_w = walls.water;
+      slip = std::max({ slip, pair.held_soil.held_part(v_s).norm(), pair.held_water.held_part(v_w).norm() });
       for (unsigned int c = 0; c < 2; ++c)
         {
           // Relative to what is subtracted: with much drag both velocities are nearly one.
@@ -41,17 +56,21 @@ int main()
         }
     }
   std::cout << "10000 random pairs: equations hold: " << (residual < 1e-12 ? "yes" : "NO")
-            << ", momentum is kept: " << (momentum < 1e-12 ? "yes" : "NO") << std::endl;
+            << ", momentum is kept: " << (momentum < 1e-12 ? "yes" : "NO")
+            << ", nothing moves into walls: " << (slip < 1e-9 ? "yes" : "NO") << std::endl;
 
-  Tensor<1, 2> r_s, r_w, v_s, v_w;
-  r_s[0] = 3.;
-  r_w[0] = -1.;
-  DragPair<2>{ 2., 1., 0., 0, 0 }.solve(r_s, r_w, v_s, v_w);
-  std::cout << "no drag: " << v_s[0] << ' ' << v_w[0] << std::endl;
-  DragPair<2>{ 2., 1., 1e300, 0, 0 }.solve(r_s, r_w, v_s, v_w);
-  std::cout << "endless drag: " << 3. * v_s[0] << ' ' << 3. * v_w[0] << std::endl;
-  DragPair<2>{ 2., 0., 0., 0, 0 }.solve(r_s, Tensor<1, 2>(), v_s, v_w);
-  std::cout << "soil alone: " << v_s[0] << ' ' << v_w[0] << std::endl;
-  DragPair<2>{ 2., 1., 3., 1, 0 }.solve(r_s, r_w, v_s, v_w);
-  std::cout << "soil fixed along x: " << v_s[0] << ' ' << v_w[0] << std::endl;
+  SoilAndWater<2> r;
+  r.soil[0]          = 3.;
+  r.water[0]         = -1.;
+  const auto no_wall = HeldDirections<2>();
+  SoilAndWater<2> v  = DragPair<2>{ 2., 1., 0., no_wall, no_wall }.solve(r);
+  std::cout << "no drag: " << v.soil[0] << ' ' << v.water[0] << std::endl;
+  v = DragPair<2>{ 2., 1., 1e300, no_wall, no_wall }.solve(r);
+  std::cout << "endless drag: " << 3. * v.soil[0] << ' ' << 3. * v.water[0] << std::endl;
+  v = DragPair<2>{ 2., 0., 0., no_wall, no_wall }.solve({ r.soil, Tensor<1, 2>() });
+  std::cout << "soil alone: " << v.soil[0] << ' ' << v.water[0] << std::endl;
+  HeldDirections<2> wall;
+  hold(1, 0., wall);
+  v = DragPair<2>{ 2., 1., 3., wall, no_wall }.solve(r);
+  std::cout << "soil fixed along x: " << v.soil[0] << ' ' << v.water[0] << std::endl;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Walls: what each does to the velocity of a node, of soil and of water; a block that slides on friction; points that
-// leave.
-// that leave.
+// Walls: what each does to the velocity of a node, of soil and of water; walls oblique to the axes and Coulomb's law; a
+// gate; a block that slides on friction; points that leave.
 
+#include <scree/grid/constraints.h>
 #include <scree/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,7 +25,10 @@ Tensor<1, 2> after_wall(const std::string &wall, const Tensor<1, 2> &velocity, c
   parameters.left = parameters.top = wall;
   const BackgroundGrid<2> grid(box, MPI_COMM_WORLD);
   Tensor<1, 2> result = velocity;
-  BoundaryConditions<2>(grid, parameters).apply(result, faces);
+  NodeConstraints<2> constraints;
+  for (const auto &constraint : BoundaryConditions<2>(grid, parameters).constraints(faces))
+    constraints.add(constraint);
+  constraints.apply(result);
   return result;
 }
 
@@ -74,8 +77,15 @@ void test_water(std::ostream &out)
   wet.check(3);
   const WaterBoundaryConditions<3> water(grid, wet);
   const std::uint8_t left = 1, right = 2, front = 4, top = 32;
-  AssertThrow(water.fixed_components(left) == 7 && water.fixed_components(front) == 2 &&
-                  water.fixed_components(right | front) == 2 && water.fixed_components(top) == 0,
+  const auto held = [](const HeldDirections<3> &directions) {
+    unsigned int axes = 0;
+    for (unsigned int a = 0; a < 3; ++a)
+      if (directions.free_part(Point<3>::unit_vector(a)).norm() == 0)
+        axes |= 1u << a;
+    return axes;
+  };
+  AssertThrow(held(water.held_directions(left)) == 7 && held(water.held_directions(front)) == 2 &&
+                  held(water.held_directions(right | front)) == 2 && held(water.held_directions(top)) == 0,
               ExcMessage("The water's walls hold the wrong components."));
   AssertThrow(water.prescribes_pressure(top | left) && !water.prescribes_pressure(left | front) &&
                   water.is_drained(1) && !water.is_drained(0),
@@ -92,12 +102,73 @@ void test_water(std::ostream &out)
   dry.back = "friction 30";
   const BoundaryConditions<3> soil(grid, dry);
   const std::uint8_t back = 8;
-  AssertThrow(soil.fixed_components(left | back) == 7 && soil.fixed_components(right | top) == 1 &&
-                  soil.fixed_components(back | top) == 0,
+  const auto of_faces     = [&](const std::uint8_t faces) {
+    NodeConstraints<3> constraints;
+    for (const auto &constraint : soil.constraints(faces))
+      constraints.add(constraint);
+    return constraints;
+  };
+  AssertThrow(held(of_faces(left | back).soil_held) == 7 && held(of_faces(right | top).soil_held) == 1 &&
+                  held(of_faces(back | top).soil_held) == 0,
               ExcMessage("The soil's walls hold the wrong components."));
-  AssertThrow(soil.has_friction(back | left) && soil.friction_faces(back | left) == back && !soil.has_friction(left),
+  const auto friction = soil.constraints(back | top);
+  AssertThrow(friction.size() == 1 && friction[0].type == NodeConstraint<3>::Type::unilateral &&
+                  friction[0].normal == Tensor<1, 3>({ 0., -1., 0. }) && !of_faces(top).any(),
               ExcMessage("The wrong walls have friction."));
   out << "water: OK" << std::endl;
+}
+
+/// Coulomb's law; walls that are oblique to the axes; a gate that is closed and opened, and does not mind a new
+/// partition.
+void test_constraints(std::ostream &out)
+{
+  const Tensor<1, 2> needed({ 3., -4. });
+  const auto slides = coulomb_friction(needed, 1.), sticks = coulomb_friction(needed, 6.);
+  AssertThrow(!slides.sticks && (slides.impulse - 0.2 * needed).norm() < 1e-14 && sticks.sticks &&
+                  sticks.impulse == needed && coulomb_friction(Tensor<1, 2>(), 0.).impulse.norm() == 0,
+              ExcMessage("This is not Coulomb's law."));
+
+  // What a wall along an axis does, turned.
+  const double angle = 0.6, mu = 0.5;
+  const Tensor<1, 2> normal({ -std::sin(angle), std::cos(angle) }), along({ std::cos(angle), std::sin(angle) });
+  using Type            = NodeConstraint<2>::Type;
+  const auto after_wall = [&](const Type type, Tensor<1, 2> velocity) {
+    NodeConstraints<2> constraints;
+    constraints.add({ normal, type, mu });
+    constraints.apply(velocity);
+    return velocity;
+  };
+  const auto is = [](const Tensor<1, 2> &a, const Tensor<1, 2> &b) { return (a - b).norm() < 1e-14; };
+  AssertThrow(is(after_wall(Type::fixed, 2. * normal + 3. * along), 3. * along) &&
+                  is(after_wall(Type::unilateral, 2. * normal + 3. * along), 2. * normal + 3. * along) &&
+                  is(after_wall(Type::unilateral, -2. * normal + 3. * along), 2. * along) &&
+                  is(after_wall(Type::unilateral, -2. * normal + 0.9 * along), Tensor<1, 2>()),
+              ExcMessage("An oblique wall acts otherwise."));
+  HeldDirections<2> held;
+  held.hold(normal);
+  held.hold((normal + along) / std::sqrt(2.));
+  AssertThrow(held.free_part(needed).norm() < 1e-14, ExcMessage("Two walls leave something free in the plane."));
+
+  BackgroundGrid<2> grid(GridParameters(), MPI_COMM_WORLD);
+  const BoundaryConditions<2> walls(grid, BoundaryParameters());
+  Constraints<2> constraints(grid, walls, nullptr);
+  const auto n_held = [&] {
+    unsigned int n = 0;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      if (const auto *at = constraints.at(node))
+        n += at->soil_held.free_part(Tensor<1, 2>({ 1., 2. })).norm() == 0;
+    return Utilities::MPI::sum(n, MPI_COMM_WORLD);
+  };
+  const unsigned int open = n_held();
+  constraints.close_gate(std::make_unique<Region<2>>("gate", "x > 0.5"));
+  const unsigned int closed = n_held();
+  grid.triangulation().repartition();
+  grid.distribute_nodes();
+  constraints.reinit();
+  AssertThrow(closed == n_held() && closed > open + 50, ExcMessage("The gate does not hold."));
+  constraints.open_gate();
+  AssertThrow(open == n_held(), ExcMessage("The gate does not open."));
+  out << "constraints: OK, " << open << " nodes held, " << closed << " with a gate" << std::endl;
 }
 
 /// A block of elastic soil, 0.4 m x 0.2 m, on the bottom of a wide box.
@@ -217,6 +288,7 @@ int main(int argc, char *argv[])
   std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
   test_nodes(out);
   test_water(out);
+  test_constraints(out);
   test_friction(out);
   test_open(out);
   test_fixed(out);

@@ -40,12 +40,12 @@ void test(const std::string &name,
   constexpr double density = 1000;
   double all_mass = 0, all_volume = 0;
   out << dim << "D " << name << ':';
-  for (const Body<dim> &body : bodies)
+  for (const Body<dim> &shape : bodies)
     {
       MaterialParameters material;
       material.law = "linear elastic";
       SeedingParameters seeding;
-      seeding.region          = body.region;
+      seeding.region          = shape.region;
       seeding.points_per_cell = points_per_cell;
       SoilBody<dim> soil("Soil",
                          density,
@@ -74,11 +74,11 @@ void test(const std::string &name,
       mass = Utilities::MPI::sum(mass, MPI_COMM_WORLD);
       n    = Utilities::MPI::sum(n, MPI_COMM_WORLD);
 
-      const double error = std::abs(mass / (density * body.volume) - 1.);
-      AssertThrow(error < body.tolerance,
-                  ExcMessage(name + ": the mass of '" + body.region + "' is wrong by " + Utilities::to_string(error)));
+      const double error = std::abs(mass / (density * shape.volume) - 1.);
+      AssertThrow(error < shape.tolerance,
+                  ExcMessage(name + ": the mass of '" + shape.region + "' is wrong by " + Utilities::to_string(error)));
       all_mass += mass;
-      all_volume += body.volume;
+      all_volume += shape.volume;
       out << ' ' << n << " points, mass OK;";
     }
   const double error = std::abs(all_mass / (density * all_volume) - 1.);

@@ -223,7 +223,7 @@ void test(const std::string &basis, std::ostream &out)
   CornerVector source(corners.partitioner()), change(corners.partitioner());
   for (const unsigned int corner : surface.wet_corners())
     if (surface.kind(corner) == CornerKind::unknown)
-      source.local_element(corner) = surface.hat_volume(corner);
+      source.local_element(corner) = surface.volume_under(corner);
   double work[2];
   for (double &sum : work)
     {

@@ -40,8 +40,8 @@ def measure(run):
     upper = np.argsort(water.positions[:, 1])[len(volumes) // 2:]
     left = (np.average(water.positions[upper, 1], weights=volumes[upper]) - 1.5 * HEIGHT) / CELL
     return {"state": classify(run, scatter=rough), "air left, cells": left, "gain, %": 100 * energy_gain(run), "roughness of p": rough,
-            "peak p, kPa": 1e-3 * max(run.statistics(r"(?-i:^Largest p )")), "lowest p, kPa": 1e-3 * min(run.statistics("^smallest p")),
-            "volume error": max(run.statistics("^volume error"))}
+            "peak p, kPa": 1e-3 * max(run.statistics("Largest p (Pa)")), "lowest p, kPa": 1e-3 * min(run.statistics("Smallest p (Pa)")),
+            "volume error": max(run.statistics("Volume error (-)"))}
 
 
 def verdict(rows):

@@ -41,7 +41,7 @@ def relative(computed, exact):
 
 def measure(run):
     points = run.points()
-    x, omega, step = points.positions[:, 0], math.pi * SPEED, run.statistics("^time step")[-1]
+    x, omega, step = points.positions[:, 0], math.pi * SPEED, run.statistics("Time step (s)")[-1]
     computed, shape = points.arrays["velocity"][:, 0], AMPLITUDE * np.sin(math.pi * x)
     velocity = relative(computed, shape * math.cos(omega * (TIME - step / 2)))
     stress = relative(points.arrays["stress"][:, 0], MODULUS * AMPLITUDE / SPEED * np.cos(math.pi * x) * math.sin(omega * TIME))
@@ -64,7 +64,7 @@ def verdict(rows):
         Claim(f"Courant number 0.9 blows up at h = {', '.join(f'{h:.2g}' for h in rejected)} m: the default 0.6 is right.", len(rejected) == 3, quick=False),
         Claim(f"As long as points stay in their cells, 2 x 2 of them do: {few:.3g} times the error, "
               f"{ratio(rows, '2 x 2 points', 'core-seconds'):.2g} times the time.", few < 1.05),
-        Claim(f"Hats (linear) give a stress of first order only: {linear:.2g} on the finest mesh, against {splines:.2g} with splines.", linear > 3 * splines,
+        Claim(f"Linear functions give a stress of first order only: {linear:.2g} on the finest mesh, against {splines:.2g} with splines.", linear > 3 * splines,
               quick=False),
         Claim("Core-seconds for the same error, over those of the defaults: " + listed(costs(rows)) + ". The case's FLIP without PIC rate is not on the "
               "front, TPIC is; of the points the case takes more than it needs.", costs(rows)["TPIC"] < 0.9, quick=False),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How nearly incompressible may soil be before its stress oscillates? An elastic block, 0.5 m x 0.5 m in 8 x 8 cells, is left to its weight, sags
 and swings for 0.5 s; K/G from 1 to 10^4 at the same G. It bulges sideways into cells that were empty, or stands between smooth walls that touch
-it (strain along the vertical only). The number is the scatter of P: the stress oscillation times the mean P, over rho g H/2, mean over time.
+it (strain along the vertical only). The number is the scatter of p': the stress oscillation times the mean p', over rho g H/2, mean over time.
 Oscillating: above .2; energy gain: above .05 of the released energy (an elastic block in explicit steps swings by .02).
 """
 
@@ -21,9 +21,9 @@ def elastic(ratio):
 
 
 def measure(run):
-    # The block swings, and its mean P may vanish: the unit is that of the weight.
-    scatter = run.statistics("^stress oscillation") * run.statistics("^mean P") / (DENSITY * closed_forms.GRAVITY * SIDE / 2)
-    top = run.statistics("^height")
+    # The block swings, and its mean p' may vanish: the unit is that of the weight.
+    scatter = run.statistics("Stress oscillation (-)") * run.statistics("Mean effective stress (Pa)") / (DENSITY * closed_forms.GRAVITY * SIDE / 2)
+    top = run.statistics("Height (m)")
     scatter = float(np.mean(scatter[1:])) if len(scatter) > 1 else float("nan")
     return {"state": measures.classify(run, scatter=scatter, oscillation=0.2, gain=0.05), "scatter": scatter, "gain": measures.energy_gain(run),
             "largest settlement": float(top[0] - np.min(top)), "smallest J": measures.volume_ratios(run)[0],
@@ -42,19 +42,19 @@ def verdict(rows):
         chosen = [row for row in rows if row["basis"] == basis and row["sides"] == sides]
         return sum(not row["ended"] for row in chosen), len(chosen)
 
-    hats, hats_between, quadratics, quadratics_between = (broken(basis, sides) for basis in ("linear", "quadratic")
+    linear, linear_between, quadratics, quadratics_between = (broken(basis, sides) for basis in ("linear", "quadratic")
                                                                 for sides in ("free", "walls"))
     return [
-        Claim(f"The defaults (splines, modified F-bar) are stable up to K/G = {stable:g}; at {stiffest:g} the scatter of P is {ours['scatter']:.2g}, "
+        Claim(f"The defaults (splines, modified F-bar) are stable up to K/G = {stable:g}; at {stiffest:g} the scatter of p' is {ours['scatter']:.2g}, "
               f"without F-bar {none['scatter']:.2g}.", stable >= 1000 and ours["scatter"] < 0.3 and none["scatter"] > 1),
         Claim(f"Standard F-bar gains {standard['gain']:.2g} of the released energy at K/G = {stiffest:g}; modified gains {ours['gain']:.1g}.",
               standard["gain"] > 0.1 > ours["gain"]),
         Claim(f"Without F-bar the block locks: at K/G = {stiffest:g} it sags {100 * stiffness:.0f} % less than with the modified one.",
               stiffness > 0.05),
-        Claim(f"Hats break when an edge of the block enters a new cell, whatever the F-bar: {hats[0]} of {hats[1]} runs with free sides, "
-              f"{hats_between[0]} of {hats_between[1]} between walls. The node beyond the edge has next to no mass, and a point in the new cell "
+        Claim(f"Linear functions break when an edge of the block enters a new cell, whatever the F-bar: {linear[0]} of {linear[1]} runs with free sides, "
+              f"{linear_between[0]} of {linear_between[1]} between walls. The node beyond the edge has next to no mass, and a point in the new cell "
               "feels its full gradient at once; a spline's gradient vanishes there, as its value does.",
-              hats[0] > hats[1] / 2 and hats_between[0] == 0, quick=False),
+              linear[0] > linear[1] / 2 and linear_between[0] == 0, quick=False),
         Claim(f"So do C0 quadratics ({quadratics[0]} of {quadratics[1]}), which without F-bar may break between walls, too "
               f"({quadratics_between[0]} of {quadratics_between[1]}).", quadratics[0] > quadratics[1] / 2, quick=False),
     ]

@@ -3,7 +3,7 @@
 
 Xie, Navas & Lopez-Querol 2024 show the stress of their dry landslides with and without stabilisation as coloured contours. Here are those of our slope
 (crest and height 2 m, 45 degrees: the paper does not give its geometry), dense and loose with cells of 0.05 m, dense with 0.1 and 0.025 m, while it
-fails at 0.4 s; the dense one with 0.05 m goes on to 1 s. The oscillation is the rms of P about a plane through 3 x 3 cells, over the mean of P (manual,
+fails at 0.4 s; the dense one with 0.05 m goes on to 1 s. The oscillation is the rms of p' about a plane through 3 x 3 cells, over the mean of p' (manual,
 chapter 6), as a mean over time. Energy gained is the largest fall of the numerical dissipation, which no scheme should have, over
 the potential energy released.
 """
@@ -26,17 +26,17 @@ def first_time(time, true):
 
 def measure(run):
     CHART.keep(run)
-    time, oscillation, largest, dissipation = run.time, *map(run.statistics, ("oscillation", "^largest p", "^numerical"))
+    time, oscillation, largest, dissipation = run.time, *map(run.statistics, ("Stress oscillation (-)", "Largest effective stress (Pa)", "Numerical dissipation (J)"))
     gained = np.maximum.accumulate(dissipation) - dissipation
-    released = np.maximum(run.statistics("^potential")[0] - run.statistics("^potential"), 1e-9)
-    columns = {"largest P doubled at (s)": first_time(time, largest > 2 * largest[0]),
+    released = np.maximum(run.statistics("Potential energy (J)")[0] - run.statistics("Potential energy (J)"), 1e-9)
+    columns = {"largest effective stress doubled at (s)": first_time(time, largest > 2 * largest[0]),
                "a tenth of the released energy gained at (s)": first_time(time, (gained > 0.1 * released) & (time > 0.1))}
     for name, chosen in ((f" to {SHOWN:g} s", time <= SHOWN * (1 + 1e-9)), (" to the end", time >= 0)):
         columns.update({"oscillation" + name: np.trapz(oscillation[chosen], time[chosen]) / np.ptp(time[chosen]),
-                        "largest P (kPa)" + name: 1e-3 * np.max(largest[chosen]),
+                        "largest effective stress (kPa)" + name: 1e-3 * np.max(largest[chosen]),
                         "energy gained over released" + name: np.max(gained[chosen]) / released[chosen][-1],
-                        "front 99.5 % (m)" + name: run.statistics(r"^front 99\.5")[chosen][-1],
-                        "steps" + name: run.statistics("^step$")[chosen][-1]})
+                        "front 99.5 % (m)" + name: run.statistics("Front 99.5 % (m)")[chosen][-1],
+                        "steps" + name: run.statistics("Step")[chosen][-1]})
     return columns
 
 
@@ -55,14 +55,14 @@ def verdict(rows):
     def joined(values):
         return ", ".join(f"{value:.3f}" for value in values)
 
-    oscillation, largest, gained = (f"{name} to {SHOWN:g} s" for name in ("oscillation", "largest P (kPa)", "energy gained over released"))
+    oscillation, largest, gained = (f"{name} to {SHOWN:g} s" for name in ("oscillation", "largest effective stress (kPa)", "energy gained over released"))
     order = ", ".join(f"{row['soil']} {row['h']:g} m" for row in rows if row["F-bar"] == "modified")
-    doubled, late = "largest P doubled at (s)", [row for row in rows if row["end"] > SHOWN]
+    doubled, late = "largest effective stress doubled at (s)", [row for row in rows if row["end"] > SHOWN]
     claims = [
-        Claim(f"Modified F-bar keeps the stress smooth: oscillation of P up to {SHOWN:g} s {each('modified', oscillation, '{:.3f}')} ({order}), without "
+        Claim(f"Modified F-bar keeps the stress smooth: oscillation of p' up to {SHOWN:g} s {each('modified', oscillation, '{:.3f}')} ({order}), without "
               f"stabilisation {each('none', oscillation, '{:.3f}')}, with F-bar {each('standard', oscillation, '{:.3f}')}.",
               holds=np.all(of("modified", oscillation) < of("none", oscillation)) and np.all(of("modified", oscillation) < of("standard", oscillation))),
-        Claim(f"Largest P up to {SHOWN:g} s, kPa: modified {each('modified', largest, '{:.0f}')}; none {each('none', largest, '{:.0f}')}; F-bar "
+        Claim(f"Largest p' up to {SHOWN:g} s, kPa: modified {each('modified', largest, '{:.0f}')}; none {each('none', largest, '{:.0f}')}; F-bar "
               f"{each('standard', largest, '{:.0f}')}. It has doubled since the start at {each('none', doubled)} s without stabilisation and at "
               f"{each('standard', doubled)} s with F-bar.",
               holds=np.all(of("modified", largest) < of("standard", largest))),

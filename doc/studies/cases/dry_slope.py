@@ -34,8 +34,8 @@ FINEST = (DEFAULTS, "3 x 3 points", "TPIC", "PIC rate 5")  # run on a fourth mes
 
 def lengths(run, gravity=9.81):
     """Fronts of 90 and 99 % of the soil and the height of the centre of mass at the times of the rows, m."""
-    mass = run.statistics("^mass ") if run.statistics("^water mass") is None else run.statistics("^mass ") + run.statistics("^water mass")
-    return np.array([run.statistics("^front 90"), run.statistics("^front 99 "), run.statistics("^potential") / (mass * gravity)])
+    mass = run.statistics("Mass (kg)") + run.columns.get("Water mass (kg)", 0.)  # the study of the saturated slope measures so, too
+    return np.array([run.statistics("Front 90 % (m)"), run.statistics("Front 99 % (m)"), run.statistics("Potential energy (J)") / (mass * gravity)])
 
 
 def measure(run):
@@ -43,11 +43,11 @@ def measure(run):
     scale = np.abs(exact[:, -1] - exact[:, 0])
     late = run.time > 0.45
     errors = np.sqrt(np.mean(((own - exact)[:, late] / scale[:, None])**2, axis=1))
-    dissipation = run.statistics("^numerical")
-    released = run.statistics("^potential")[0] - run.statistics("^potential")[-1]
+    dissipation = run.statistics("Numerical dissipation (J)")
+    released = run.statistics("Potential energy (J)")[0] - run.statistics("Potential energy (J)")[-1]
     return {"error": math.sqrt(np.mean(errors**2)), "error of front 90 %": errors[0], "error of front 99 %": errors[1],
             "error of centre of mass": errors[2], "front 99 % at the end, m": own[1, -1],
-            "mean oscillation": np.mean(run.statistics("^stress oscillation")[1:]),
+            "mean oscillation": np.mean(run.statistics("Stress oscillation (-)")[1:]),
             "numerical dissipation": dissipation[-1] / released,
             "energy gained": np.max(np.maximum.accumulate(dissipation) - dissipation) / released}
 

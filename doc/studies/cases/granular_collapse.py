@@ -52,7 +52,7 @@ def column(aspect):
 def measure(run):
     aspect = run.labels["a"]
     width = max(1., 1 / aspect)
-    front, height = run.statistics(r"^front 99\.5"), run.statistics("^height")
+    front, height = run.statistics("Front 99.5 % (m)"), run.statistics("Height (m)")
     return {"run-out": front[-1] / width - 1, "height": height[-1] / width,
             "run-out in the last sixth": (front[-1] - np.interp(5 / 6 * run.time[-1], run.time, front)) / width}
 

@@ -70,7 +70,7 @@ def verdict(rows):
     rejected = {basis: failed(rows, basis) for basis in ("linear", "quadratic")}
     best = at_finest(rows, DEFAULTS)
     return [
-        Claim(f"Where points cross cells, only splines serve: with hats the run stops at h = {', '.join(f'{h:.2g}' for h in rejected['linear'])} m.",
+        Claim(f"Where points cross cells, only splines serve: with linear functions the run stops at h = {', '.join(f'{h:.2g}' for h in rejected['linear'])} m.",
               len(rejected["linear"]) > 0 and not failed(rows, DEFAULTS)),
         Claim(f"So it does with quadratic elements at h = {', '.join(f'{h:.2g}' for h in rejected['quadratic'])} m.", len(rejected["quadratic"]) == 3, quick=False),
         Claim(f"Points count here, as they cross cells and water leaves the soil: 3 x 3 make {ratio(rows, '3 x 3 points'):.2g} times the error of 4 x 4, 2 x 2 "

@@ -30,12 +30,12 @@ def with_case(variants):
 
 
 def measure(run):
-    oscillation = mean_oscillation(run, "^stress oscillation")
+    oscillation = mean_oscillation(run, "Stress oscillation (-)")
     height = run.labels["height"]
-    suction = run.statistics("^smallest p")
-    return {"state": classify(run, column="^stress oscillation", oscillation=0.5), "P oscillation": oscillation, "gain, %": 100 * energy_gain(run),
-            "front/height": run.statistics("^front 99 %")[-1] / height, "suction/weight": 0. if suction is None else -min(suction) / (1000 * 9.81 * run.labels["gravity"] * height),
-            "unresolved": run.statistics("^unresolved")[-1]}
+    suction = -min(run.columns.get("Smallest p (Pa)", [0.]))  # dry soil has none
+    return {"state": classify(run, column="Stress oscillation (-)", oscillation=0.5), "stress oscillation": oscillation, "gain, %": 100 * energy_gain(run),
+            "front/height": run.statistics("Front 99 % (m)")[-1] / height, "suction/weight": suction / (1000 * 9.81 * run.labels["gravity"] * height),
+            "unresolved": run.statistics("Unresolved")[-1]}
 
 
 def verdict(rows):
@@ -45,7 +45,7 @@ def verdict(rows):
     smallest, largest = (pick(row["height"] * row["gravity"] for row in rows) for pick in (min, max))
 
     def mean(scale):
-        chosen = [row["P oscillation"] for row in rows if row["height"] * row["gravity"] == scale]
+        chosen = [row["stress oscillation"] for row in rows if row["height"] * row["gravity"] == scale]
         return sum(chosen) / len(chosen)
     return [
         Claim(f"{len(ended)} of {len(rows)} columns collapse to their end, {len(calm)} without gain of energy or volumes out of bounds.", len(ended) == len(rows)),
@@ -54,7 +54,7 @@ def verdict(rows):
                  "weight of the column's water. An error of the velocity's divergence costs a pressure of rho h v/dt whatever gravity is, and here nothing "
                  "holds against it.", quick=False,
                  holds=all(row["soil"] == "Mohr-Coulomb, saturated" and row["gravity"] == 0.01 for row in failed))] if failed else []),
-        Claim(f"What low stress costs is smoothness: P oscillates by {mean(largest):.2g} of its mean at the largest stress and {mean(smallest):.2g} at the smallest (means over "
+        Claim(f"What low stress costs is smoothness: p' oscillates by {mean(largest):.2g} of its mean at the largest stress and {mean(smallest):.2g} at the smallest (means over "
               "soils): the soil is as stiff as ever, its weight next to nothing.", mean(smallest) > mean(largest)),
         Claim(f"The return map leaves {sum(row['unresolved'] for row in rows):g} updates unresolved.", sum(row["unresolved"] for row in rows) == 0),
     ]
@@ -65,4 +65,4 @@ STUDY = Study(title="Low stress", base="prm/column_loose.prm", needs_end=False, 
                                          axis("height", lambda _: {}, [0.02, 0.1, 0.5, 2.]))),
               quick=lambda labels: labels["gravity"] == 1. and labels["height"] in (0.1, 2.),
               measure=measure, verdict=verdict,
-              chart=StabilityMap("height", "gravity", panels=["soil"], number="P oscillation", xlabel="height, m", ylabel="gravity, 9.81 m/s$^2$"))
+              chart=StabilityMap("height", "gravity", panels=["soil"], number="stress oscillation", xlabel="height, m", ylabel="gravity, 9.81 m/s$^2$"))

@@ -50,7 +50,7 @@ def body_force(x):
 
 
 def measure(run):
-    points, step = run.points(), run.statistics("^time step")[-1]
+    points, step = run.points(), run.statistics("Time step (s)")[-1]
     x, y = points.positions[:, 0], points.positions[:, 1]
     computed = points.arrays["velocity"][:, 0]
 
@@ -73,7 +73,7 @@ def verdict(rows):
     denser, linear, rejected = order(rows, "points as fine as cells^2"), ratio(rows, "linear"), failed(rows, "quadratic")
     large = ratio(rows, "Courant number 0.9")
     return [
-        Claim(f"Where points cross cells, only splines serve: hats make {linear:.2g} times the error, quadratic elements fail at "
+        Claim(f"Where points cross cells, only splines serve: linear functions make {linear:.2g} times the error, quadratic elements fail at "
               f"h = {', '.join(f'{h:.2g}' for h in rejected)} m.", linear > 5 and len(rejected) > 0),
         Claim(f"With 4 x 4 points a cell the error levels out, at {fine:.2g} ({middle:.2g} with cells twice as large): the points, not the cells, "
               f"are what integrates. Finer cells pay only with denser points: spaced as h^2, order {denser:.2g}.", fine > 0.7 * middle and denser > 1,

@@ -30,7 +30,7 @@ def experiment(name):
 
 def front(run):
     """T and Z."""
-    return run.time * math.sqrt(2 * GRAVITY / WIDTH), run.statistics("^water tip") / WIDTH
+    return run.time * math.sqrt(2 * GRAVITY / WIDTH), run.statistics("Water tip (m)") / WIDTH
 
 
 def height(run):
@@ -70,7 +70,7 @@ def measure(run):
             "rms of H, delayed": rms(residuals(heights, experiment("height"), delay / math.sqrt(2))),
             "mean of H": np.mean(residuals(heights, experiment("height"), 0)),
             "Z at T = 2.98": np.interp(2.98, *fronts), "H at Y = 2": np.interp(2, *heights),
-            "largest volume error": np.max(run.statistics("^volume error"))}
+            "largest volume error": np.max(run.statistics("Volume error (-)"))}
 
 
 def verdict(rows):

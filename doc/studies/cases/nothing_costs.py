@@ -53,7 +53,8 @@ def measure(run):
     def share(parts):
         return sum(float(percent) for percent in re.findall(rf"^(?:{parts}) +[\d.]+ +([\d.]+) %", run.log, re.MULTILINE))
 
-    return {"ms per step": 1e3 * cost["core-seconds"] / cost["steps"], "front": run.statistics("front 99 %")[-1],
+    front = "Front 99 % (m)" if "Front 99 % (m)" in run.columns else "Water front 99 % (m)"
+    return {"ms per step": 1e3 * cost["core-seconds"] / cost["steps"], "front": run.statistics(front)[-1],
             "share of water (%)": share(OF_WATER), "share of soil (%)": share(OF_SOIL)}
 
 

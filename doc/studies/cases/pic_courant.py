@@ -27,10 +27,10 @@ SCENES = [Variant({"scene": "vibrating bar"}, {"Mesh/Cell size": 0.0625, "Mesh/U
 
 def measure(run):
     bar = run.labels["scene"] == "vibrating bar"
-    front = run.statistics("^front 99.5")
-    lost = run.statistics("^numerical")[-1] / measures.released_energy(run)
-    return {"state": measures.classify(run, column="^stress oscillation", oscillation=1e9 if bar else 0.3),
-            "energy lost": float(lost), "gain": measures.energy_gain(run), "P oscillation": measures.mean_oscillation(run, "^stress oscillation"),
+    front = run.statistics("Front 99.5 % (m)")
+    lost = run.statistics("Numerical dissipation (J)")[-1] / measures.released_energy(run)
+    return {"state": measures.classify(run, column="Stress oscillation (-)", oscillation=1e9 if bar else 0.3),
+            "energy lost": float(lost), "gain": measures.energy_gain(run), "stress oscillation": measures.mean_oscillation(run, "Stress oscillation (-)"),
             "front": float(front[-1]), "cause": measures.cause(run)}
 
 
@@ -47,7 +47,7 @@ def verdict(rows):
 
     column, default = "Mohr-Coulomb column", "FLIP, 5/s"
     columns = [row for row in rows if row["scene"] != "vibrating bar" and row["step/limit"] <= 1.2]
-    tpic = {row["step/limit"]: row["P oscillation"] for row in select("TPIC", "Nor-Sand column")}
+    tpic = {row["step/limit"]: row["stress oscillation"] for row in select("TPIC", "Nor-Sand column")}
     bar = [row for row in rows if row["scene"] == "vibrating bar"]
     limit, beyond = (max((row["step/limit"] for row in bar if row["state"] == "stable"), default=math.nan),
                      min((row["step/limit"] for row in bar if row["state"] != "stable"), default=math.nan))

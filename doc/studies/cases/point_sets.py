@@ -50,13 +50,13 @@ def measure(run):
     time, whole = run.time, run.labels["end"] > 1
     if whole:
         CHART.keep(run)
-    water, oscillation = run.statistics("^water mass") + run.statistics("^water lost"), run.statistics("^p oscillation")
-    return {"reached (s)": time[-1], "pressure share (%)": pressure_share(run), "front 90 % (m)": run.statistics("^front 90")[-1],
-            "front 99.5 % (m)": run.statistics(r"^front 99\.5")[-1], "water front 99.5 % (m)": run.statistics(r"^water front 99\.5")[-1],
+    water, oscillation = run.statistics("Water mass (kg)") + run.statistics("Water lost (kg)"), run.statistics("p oscillation (-)")
+    return {"reached (s)": time[-1], "pressure share (%)": pressure_share(run), "front 90 % (m)": run.statistics("Front 90 % (m)")[-1],
+            "front 99.5 % (m)": run.statistics("Front 99.5 % (m)")[-1], "water front 99.5 % (m)": run.statistics("Water front 99.5 % (m)")[-1],
             "angle (degrees)": deposit_angle(run.points()) if whole else math.nan,
-            "p oscillation": np.trapz(oscillation, time) / np.ptp(time), "largest suction (kPa)": -1e-3 * np.nanmin(run.statistics("^smallest p")),
-            "change of water mass": water[-1] / water[0] - 1, "numerical dissipation (J)": run.statistics("^numerical")[-1],
-            "J released": run.statistics("^potential")[0] - run.statistics("^potential")[-1]}
+            "p oscillation": np.trapz(oscillation, time) / np.ptp(time), "largest suction (kPa)": -1e-3 * np.nanmin(run.statistics("Smallest p (Pa)")),
+            "change of water mass": water[-1] / water[0] - 1, "numerical dissipation (J)": run.statistics("Numerical dissipation (J)")[-1],
+            "J released": run.statistics("Potential energy (J)")[0] - run.statistics("Potential energy (J)")[-1]}
 
 
 def verdict(rows):

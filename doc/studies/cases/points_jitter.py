@@ -27,7 +27,7 @@ SURFACE = {"water": 1., "water, surface at 1/4": 1.025, "saturated soil": 1.}
 def measure(run):
     surface = SURFACE[run.labels["scene"]]
     error = measures.hydrostatic_error(run, surface) if run.ended else float("nan")
-    mass = run.statistics("^water mass")[0] / surface * CELL
+    mass = run.statistics("Water mass (kg)")[0] / surface * CELL
     energy = mass * 9.81 * CELL
     state = measures.classify(run, energy=energy, error=error, tolerance=0.05)
     return {"state": state, "error": error, "p oscillation": measures.mean_oscillation(run), "gain": measures.energy_gain(run, energy),

@@ -14,10 +14,10 @@ from study import Claim, Study, Variant, axis, product
 
 
 def measure(run):
-    front = run.statistics("^front 99.5")
+    front = run.statistics("Front 99.5 % (m)")
     scatter = measures.pressure_scatter(run)
     return {"state": measures.classify(run, scatter=scatter, oscillation=0.1), "scatter": scatter, "gain": measures.energy_gain(run),
-            "front": float(front[-1]), "time reached": float(run.time[-1]), "largest p": float(max(run.statistics("^largest p \\("))),
+            "front": float(front[-1]), "time reached": float(run.time[-1]), "largest p": float(max(run.statistics("Largest p (Pa)"))),
             "cause": measures.cause(run)}
 
 

@@ -122,10 +122,10 @@ def variants():
 def measure(run):
     height, young, k = (run.labels[name] for name in ("H", "E", "k"))
     if run.labels["scene"] == "load":
-        top = run.statistics("^height")
+        top = run.statistics("Height (m)")
         values = (top[0] - top) / (STRAIN * height)
     else:
-        values = run.statistics("^front 90") / height
+        values = run.statistics("Front 90 % (m)") / height
     samples = np.interp(np.array(TIMES) * math.sqrt(height / GRAVITY), run.time, values)
     return {"group": group(height, young, k) if k else math.nan, **{f"at {time}": value for time, value in zip(TIMES, samples)}}
 

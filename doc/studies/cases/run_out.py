@@ -56,11 +56,11 @@ def front_of_depth(points, depth, width=0.1):
 
 def measure(run):
     points = run.points()
-    potential = run.statistics("^potential energy")
+    potential = run.statistics("Potential energy (J)")
     return {**{f"front {percent:g} % (m)": front(points, percent) for percent in QUANTILES},
             "front by depth 0.05 m (m)": front_of_depth(points, 0.05),
             "centre of mass (m)": np.average(points.positions[:, 0], weights=points.arrays["mass"]),
-            "energy lost numerically (-)": run.statistics("^numerical dissipation")[-1] / (potential[0] - potential[-1])}
+            "energy lost numerically (-)": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}
 
 
 def variant(scene, soil, treatment, cells_per_metre):

@@ -21,13 +21,13 @@ def point_sets(name):
 
 
 def measure(run):
-    mass = run.statistics("^water mass") + run.statistics("^water lost")
+    mass = run.statistics("Water mass (kg)") + run.statistics("Water lost (kg)")
     made = float(np.max(np.abs(mass / mass[0] - 1)))
     scatter = measures.pressure_scatter(run)
     return {"state": measures.classify(run, scatter=scatter, oscillation=0.3, error=made, tolerance=0.01,
                                       volume_ratio=(0.1, math.inf)), "water made": made, "scatter": scatter,
-            "largest porosity": float(np.max(run.statistics("^largest porosity"))), "front 90": float(run.statistics("^front 90")[-1]),
-            "water lost": float(run.statistics("^water lost")[-1] / mass[0]), "gain": measures.energy_gain(run), "cause": measures.cause(run)}
+            "largest porosity": float(np.max(run.statistics("Largest porosity (-)"))), "front 90": float(run.statistics("Front 90 % (m)")[-1]),
+            "water lost": float(run.statistics("Water lost (kg)")[-1] / mass[0]), "gain": measures.energy_gain(run), "cause": measures.cause(run)}
 
 
 def verdict(rows):

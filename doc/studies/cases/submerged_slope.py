@@ -23,13 +23,13 @@ def measure(run):
     water, soil, start = run.points(None, "water"), run.points(), run.points(0.)
     mass = start.arrays["mass"].sum()
     speeds = np.linalg.norm(water.arrays["velocity"][water.arrays["inside_soil"] < 0.5], axis=1)
-    front = run.statistics("^front 99 %")
+    front = run.statistics("Front 99 % (m)")
     moved, fastest = 1e3 * (front[-1] - front[0]), 1e3 * np.max(np.linalg.norm(soil.arrays["velocity"], axis=1))
     angle = run.labels["angle"]
     wrong = moved > 1 if angle < FRICTION else fastest < 5 if angle > FRICTION else False
     return {"state": classify(run, energy=mass * 9.81 * 0.01, error=wrong, tolerance=0.5), "water, mm/s": 1e3 * math.sqrt(np.mean(speeds ** 2)),
             "soil, mm/s": fastest, "front moved, mm": moved,
-            "p oscillation": np.mean(run.statistics("^p oscillation")), "volume error": max(run.statistics("^volume error"))}
+            "p oscillation": np.mean(run.statistics("p oscillation (-)")), "volume error": max(run.statistics("Volume error (-)"))}
 
 
 def verdict(rows):

@@ -27,7 +27,7 @@ def measure(run):
     surface = 1 + run.labels["surface"] * CELL
     error = measures.hydrostatic_error(run, surface) if run.ended else float("nan")
     # Next to nothing is released: the weight of a layer of one cell, lifted by it, is the measure of energy.
-    mass = run.statistics("^water mass")[0] / surface * CELL
+    mass = run.statistics("Water mass (kg)")[0] / surface * CELL
     state = measures.classify(run, energy=mass * 9.81 * CELL, error=error, tolerance=0.05)
     return {"state": state, "error": error, "p oscillation": measures.mean_oscillation(run), "gain": measures.energy_gain(run, mass * 9.81 * CELL),
             "cause": measures.cause(run)}

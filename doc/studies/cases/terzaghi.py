@@ -64,14 +64,14 @@ def verdict(rows):
     small, large = ratio(rows, "Courant number 0.2"), ratio(rows, "Courant number 0.9")
     found = costs(rows)
     return [
-        Claim(f"The error is the mesh's, of order {order(rows):.2g} (hats {order(rows, 'linear'):.2g}): with Courant number 0.2 instead of 0.6 it is {small:.2g} "
+        Claim(f"The error is the mesh's, of order {order(rows):.2g} (linear functions {order(rows, 'linear'):.2g}): with Courant number 0.2 instead of 0.6 it is {small:.2g} "
               f"times as large, for {ratio(rows, 'Courant number 0.2', 'core-seconds'):.2g} times the time, with 0.9 {large:.2g} times, for "
               f"{ratio(rows, 'Courant number 0.9', 'core-seconds'):.2g} times the time. The largest stable step wins.",
               order(rows) > 1.8 and order(rows, "linear") > 1.7 and small > 0.85 and large < 1.15),
         Claim(f"Single-point water is as accurate ({ratio(rows, 'single-point'):.3g} times the error) and no cheaper "
               f"({ratio(rows, 'single-point', 'core-seconds'):.2g} times the time) in a column where nothing moves.",
               0.98 < ratio(rows, "single-point") < 1.02),
-        Claim(f"On points that stay in their cells C0 elements do well: quadratic {ratio(rows, 'quadratic'):.2g} times the error, hats {ratio(rows, 'linear'):.2g}. "
+        Claim(f"On points that stay in their cells C0 elements do well: quadratic {ratio(rows, 'quadratic'):.2g} times the error, linear functions {ratio(rows, 'linear'):.2g}. "
               "The manufactured solution shows what they do when points cross.", ratio(rows, "quadratic") < 0.6 and ratio(rows, "linear") < 1.1),
         Claim(f"The tolerance of the pressure does not matter: with 1e-3 instead of 1e-4 the error is the same to "
               f"{100 * abs(ratio(rows, 'tolerance 1e-3') - 1):.1g} %.", abs(ratio(rows, "tolerance 1e-3") - 1) < 0.01),

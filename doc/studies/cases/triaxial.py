@@ -6,10 +6,10 @@ isotropic stress of 10 or 100 kPa on the yield surface. What the published text 
 grain-by-grain (DEM) tests that the parameters were fitted to are in its figures only, so that nothing is compared with them; the
 reference pressure of the critical state line (1 Pa: with 1 kPa the loose sand would dilate as a dense one); the overconsolidation at the start (none);
 for the slopes their geometry and K0 (crest 2 m, height 2 m, 45 degrees, K0 = 1 - sin phi_c = .683: ours). What can be checked without the
-curves is the theory: both sands must come to the same critical state, M and v_c = v_c0 - lambda ln(P/p_ref).
+curves is the theory: both sands must come to the same critical state, M and v_c = v_c0 - lambda ln(p'/p_ref).
 
 Strains are logarithmic, compression positive. q = sigma_1 - sigma_3; undrained tests hold the volume, so that the pore pressure is what
-P lacks of the total mean stress. A path is followed in 2000 steps, to an axial strain of 50 % (drained) or 20 % (undrained).
+p' lacks of the total mean stress. A path is followed in 2000 steps, to an axial strain of 50 % (drained) or 20 % (undrained).
 """
 import numpy as np
 
@@ -30,33 +30,33 @@ def measure(run):
     columns = plot_element.read(run.folder / "table.txt")
     strain, ratio, pressure = columns["strain"], columns["stress_ratio"], columns["mean_pressure"]
     peak = np.argmax(ratio)
-    return {"peak q/P": ratio[peak], "strain at peak": strain[peak], "q/P at the end": ratio[-1], "P at the end (kPa)": 1e-3 * pressure[-1],
-            "smallest P (kPa)": 1e-3 * np.min(pressure), "v at the end": columns["specific_volume"][-1],
+    return {"peak stress ratio": ratio[peak], "strain at peak": strain[peak], "stress ratio at the end": ratio[-1], "effective stress at the end (kPa)": 1e-3 * pressure[-1],
+            "smallest effective stress (kPa)": 1e-3 * np.min(pressure), "v at the end": columns["specific_volume"][-1],
             "v beyond critical at the end": columns["specific_volume"][-1] - critical_volume(pressure[-1]),
             "smallest volume ratio": np.min(columns["volume_ratio"]), "volume ratio at the end": columns["volume_ratio"][-1]}
 
 
 def verdict(rows):
     def row(path, soil, pressure=100):
-        return next(row for row in rows if (row["path"], row["soil"], row["P_0"]) == (path, soil, pressure))
+        return next(row for row in rows if (row["path"], row["soil"], row["confining pressure (kPa)"]) == (path, soil, pressure))
 
     drained = [row for row in rows if row["path"] == "drained"]
-    off_ratio = max(abs(row["q/P at the end"] / M - 1) for row in drained)
+    off_ratio = max(abs(row["stress ratio at the end"] / M - 1) for row in drained)
     off_volume = max(abs(row["v beyond critical at the end"]) for row in drained)
     dense, loose = row("drained", "dense"), row("drained", "loose")
     closed, open_ = row("undrained", "loose"), row("undrained", "dense")
     return [
-        Claim(f"Drained, dense and loose sand come to one critical state: q/P ends within {100 * off_ratio:.1f} % of M, v within {off_volume:.4f} of "
+        Claim(f"Drained, dense and loose sand come to one critical state: q/p' ends within {100 * off_ratio:.1f} % of M, v within {off_volume:.4f} of "
               f"the critical one, where they began {SOILS['loose'] - SOILS['dense']:.3f} apart.", holds=off_ratio < 0.02 and off_volume < 0.005),
-        Claim(f"Dense sand has a peak, q/P = {dense['peak q/P']:.2f} at {100 * dense['strain at peak']:.1f} % and 100 kPa, and grows by "
-              f"{100 * (dense['volume ratio at the end'] - 1):.1f} %; loose sand hardly ({loose['peak q/P']:.2f}, "
+        Claim(f"Dense sand has a peak, q/p' = {dense['peak stress ratio']:.2f} at {100 * dense['strain at peak']:.1f} % and 100 kPa, and grows by "
+              f"{100 * (dense['volume ratio at the end'] - 1):.1f} %; loose sand hardly ({loose['peak stress ratio']:.2f}, "
               f"{100 * (loose['volume ratio at the end'] - 1):.2f} %).",
-              holds=dense["peak q/P"] > 1.3 * M and loose["peak q/P"] < 1.1 * M and loose["volume ratio at the end"] < 1.01),
-        Claim(f"Undrained from 100 kPa, the loose sand loses {100 - closed['smallest P (kPa)']:.0f} % of its P at first but ends at "
-              f"{closed['P at the end (kPa)']:.0f} kPa: with these parameters it does not liquefy.",
-              holds=closed["smallest P (kPa)"] < 75 and closed["P at the end (kPa)"] > 100),
-        Claim(f"The dense one wants {1e-3 * open_['P at the end (kPa)']:.1f} MPa at 20 %, far beyond the suction at which water would cavitate: in a "
-              "saturated slope it is the inflow of water, not the undrained strength, that decides.", holds=open_["P at the end (kPa)"] > 1000),
+              holds=dense["peak stress ratio"] > 1.3 * M and loose["peak stress ratio"] < 1.1 * M and loose["volume ratio at the end"] < 1.01),
+        Claim(f"Undrained from 100 kPa, the loose sand loses {100 - closed['smallest effective stress (kPa)']:.0f} % of its p' at first but ends at "
+              f"{closed['effective stress at the end (kPa)']:.0f} kPa: with these parameters it does not liquefy.",
+              holds=closed["smallest effective stress (kPa)"] < 75 and closed["effective stress at the end (kPa)"] > 100),
+        Claim(f"The dense one wants {1e-3 * open_['effective stress at the end (kPa)']:.1f} MPa at 20 %, far beyond the suction at which water would cavitate: in a "
+              "saturated slope it is the inflow of water, not the undrained strength, that decides.", holds=open_["effective stress at the end (kPa)"] > 1000),
     ]
 
 
@@ -66,8 +66,8 @@ def draw(figure, runs):
         columns = plot_element.read(run.folder / "table.txt")
         drained = run.labels["path"] == "drained"
         style = {"color": {"dense": "C3", "loose": "C0"}[run.labels["soil"]], "linestyle": "-" if drained else "--",
-                 "linewidth": 1.6 if run.labels["P_0"] == 100 else 0.8,
-                 "label": f"{run.labels['soil']}, {run.labels['path']}, {run.labels['P_0']:g} kPa"}
+                 "linewidth": 1.6 if run.labels["confining pressure (kPa)"] == 100 else 0.8,
+                 "label": f"{run.labels['soil']}, {run.labels['path']}, {run.labels['confining pressure (kPa)']:g} kPa"}
         pressure = columns["mean_pressure"]
         strength.plot(100 * columns["strain"], columns["stress_ratio"], **style)
         if drained:
@@ -78,11 +78,11 @@ def draw(figure, runs):
     pressures = np.geomspace(4, 3e3, 50)
     path.plot(pressures, M * pressures, "k:", linewidth=0.8, label="critical state")
     state.plot(pressures, critical_volume(1e3 * pressures), "k:", linewidth=0.8)
-    strength.set(xlabel="axial strain (%)", ylabel="q/P (-)")
+    strength.set(xlabel="axial strain (%)", ylabel="q/p' (-)")
     volume.set(xlabel="axial strain (%)", ylabel="volumetric strain, drained (%)")
     volume.invert_yaxis()
-    path.set(xlabel="P (kPa)", ylabel="q (kPa)", xscale="log", yscale="log", ylim=(3, 3e3))
-    state.set(xlim=path.get_xlim(), xlabel="P (kPa)", ylabel="specific volume (-)", xscale="log")
+    path.set(xlabel="p' (kPa)", ylabel="q (kPa)", xscale="log", yscale="log", ylim=(3, 3e3))
+    state.set(xlim=path.get_xlim(), xlabel="p' (kPa)", ylabel="specific volume (-)", xscale="log")
     path.legend(fontsize="x-small")
     for axes in figure.axes:
         axes.grid(alpha=0.3)
@@ -93,5 +93,5 @@ STUDY = Study(title="Nor-Sand in the triaxial test", base="prm/element/drained_t
               variants=product(axis("path", lambda path: {"Path": f"{path} triaxial", "Final strain": {"drained": 0.5, "undrained": 0.2}[path]},
                                     ["drained", "undrained"]),
                                axis("soil", lambda soil: {"Nor-Sand/Initial specific volume": SOILS[soil]}, SOILS),
-                               axis("P_0", lambda pressure: {"Initial confining pressure": 1e3 * pressure}, [10, 100])),
+                               axis("confining pressure (kPa)", lambda pressure: {"Initial confining pressure": 1e3 * pressure}, [10, 100])),
               measure=measure, verdict=verdict, chart=CHART)

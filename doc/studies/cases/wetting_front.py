@@ -35,7 +35,7 @@ def conductivity(k):
 
 def measure(run):
     """A run that stops is compared nowhere: its ratio is nan."""
-    result = {"state": classify(run, scatter=0., column="^p oscillation"), "cause": cause(run)}
+    result = {"state": classify(run, scatter=0.), "cause": cause(run)}
     if not run.ended:
         return result
     water = run.points(None, "water")
@@ -44,7 +44,7 @@ def measure(run):
     rough = roughness(water, float(run.entries["Mesh/Cell size"]), "pressure") / (1000 * 9.81 * POND)
     state = classify(run, scatter=rough, error=abs(ratio - 1), tolerance=0.1)
     return {**result, "state": state, "fall/exact": ratio, "front/exact": (TOP - np.quantile(y, 0.01)) / DEPTH, "gain, %": 100 * energy_gain(run),
-            "roughness of p": rough, "volume error": max(run.statistics("^volume error"))}
+            "roughness of p": rough, "volume error": max(run.statistics("Volume error (-)"))}
 
 
 def verdict(rows):

@@ -2,25 +2,25 @@
 #ifndef scree_advice_cost_h
 #define scree_advice_cost_h
 
-#include <scree/advice/scene.h>
+#include <scree/advice/scene_numbers.h>
 #include <scree/output/output_parameters.h>
+#include <scree/scheme/step_part.h>
 #include <scree/scheme/time_step.h>
 
 #include <limits>
 #include <map>
-#include <string>
 
 namespace scree
 {
   /// What the first steps of a case took on this machine.
   struct StepCost
   {
-    double n_steps = 0;                  ///< looked at
-    double seconds = 0;                  ///< a step, of all ranks together
-    std::map<std::string, double> parts; ///< of `seconds`, by the names that a run tells at its end
-    double sorting        = 0;           ///< all points, as where some leave their cells, core-seconds
-    double memory         = 0;           ///< of all ranks, bytes
-    double program_memory = 1.2e8;       ///< of `memory`, what does not grow with points and cells, bytes
+    double n_steps = 0;               ///< looked at
+    double seconds = 0;               ///< a step, of all ranks together
+    std::map<StepPart, double> parts; ///< of `seconds`
+    double sorting        = 0;        ///< all points, as where some leave their cells, core-seconds
+    double memory         = 0;        ///< of all ranks, bytes
+    double program_memory = 1.2e8;    ///< of `memory`, what does not grow with points and cells, bytes
   };
 
   /// What a whole run will take.
@@ -48,14 +48,14 @@ namespace scree
 
   /// The cost of a run of `scene` whose first steps cost `first_steps`. In motion, steps of soil that flows are shorter
   /// and dearer than the first ones, at rest cheaper: measured factors.
-  RunCost cost_of_run(const Scene &scene, const StepCost &first_steps, const Schedule &schedule);
+  RunCost cost_of_run(const SceneNumbers &scene, const StepCost &first_steps, const Schedule &schedule);
 
   /// The same scene and steps with other cells: points and cells in proportion, and the cost with them.
-  Scene with_cell_size(Scene scene, const double cell_size);
-  StepCost with_cell_size(StepCost steps, const Scene &scene, const double cell_size);
+  SceneNumbers with_cell_size(SceneNumbers scene, const double cell_size);
+  StepCost with_cell_size(StepCost steps, const SceneNumbers &scene, const double cell_size);
 
   /// The cost of a step of the scene's soil without its water.
-  StepCost without_water(StepCost steps, const Scene &scene);
+  StepCost without_water(StepCost steps, const SceneNumbers &scene);
 } // namespace scree
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef scree_advice_groups_h
 #define scree_advice_groups_h
 
-#include <scree/advice/scene.h>
+#include <scree/advice/scene_numbers.h>
 
 namespace scree
 {
@@ -25,10 +25,10 @@ namespace scree
     double cells_over_height = 0; ///< H/h, -
   };
 
-  Groups groups_of(const Scene &scene);
+  Groups groups_of(const SceneNumbers &scene);
 
   /// Conductivity, m/s, at which drainage time over motion time is `drainage`.
-  double conductivity_for(const Scene &scene, const double drainage);
+  double conductivity_for(const SceneNumbers &scene, const double drainage);
 } // namespace scree
 
 #endif

@@ -35,12 +35,12 @@ namespace scree
     constexpr double consolidates_above = 4. / undrained_above;
   } // namespace thresholds
 
-  Regime regime_of(const Scene &scene);
+  Regime regime_of(const SceneNumbers &scene);
 
   std::string name_of(const Regime regime);
 
   /// The numbers behind regime_of(), as a sentence.
-  std::string reason_for(const Regime regime, const Scene &scene);
+  std::string reason_for(const Regime regime, const SceneNumbers &scene);
 
   /// Whose points should carry the water, and why.
   struct PointSetChoice
@@ -48,7 +48,7 @@ namespace scree
     PointSets sets;
     std::string reason;
   };
-  PointSetChoice point_sets_for(const Regime regime, const Scene &scene);
+  PointSetChoice point_sets_for(const Regime regime, const SceneNumbers &scene);
 } // namespace scree
 
 #endif

@@ -12,7 +12,7 @@ namespace scree
   /// All that the text of an advice is made of.
   struct Advice
   {
-    Scene scene;
+    SceneNumbers scene;
     StepCost first_steps;
     Schedule schedule;
     GridParameters grid;

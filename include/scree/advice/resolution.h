@@ -2,7 +2,7 @@
 #ifndef scree_advice_resolution_h
 #define scree_advice_resolution_h
 
-#include <scree/advice/scene.h>
+#include <scree/advice/scene_numbers.h>
 #include <scree/grid/background_grid.h>
 #include <scree/scheme/time_step.h>
 
@@ -28,14 +28,14 @@ namespace scree
   };
 
   /// The law of a scene's kind: run-out of plastic soil, small motion of elastic soil, free water.
-  ErrorLaw error_law_of(const Scene &scene);
+  ErrorLaw error_law_of(const SceneNumbers &scene);
 
   /// Largest cell size, m, that divides the box and gives at least `cells` (and ten, which the motion needs) over
   /// `height`, m.
   double cell_size_for(const GridParameters &grid, const double height, const double cells);
 
   /// The entries of subsection Time step that serve a scene, by measurement: the rest stays as it is.
-  TimeStepParameters time_step_for(const Scene &scene, TimeStepParameters present);
+  TimeStepParameters time_step_for(const SceneNumbers &scene, TimeStepParameters present);
 } // namespace scree
 
 #endif

@@ -2,14 +2,14 @@
 #ifndef scree_advice_survey_h
 #define scree_advice_survey_h
 
-#include <scree/advice/scene.h>
+#include <scree/advice/scene_numbers.h>
 #include <scree/simulation.h>
 
 namespace scree
 {
   /// Looks at the points of a run before its first step. Collective.
   template <int dim>
-  Scene survey(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator);
+  SceneNumbers survey(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

@@ -3,7 +3,8 @@
 #define scree_grid_boundary_conditions_h
 
 #include <scree/grid/face_entries.h>
-#include <scree/grid/nodal_field.h>
+#include <scree/grid/background_grid.h>
+#include <scree/grid/node_constraint.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -42,27 +43,16 @@ namespace scree
     std::vector<Wall> walls(const unsigned int dim) const;
   };
 
-  /// Walls of the box acting on nodal velocities.
+  /// Walls of the box acting on the soil at the nodes.
   template <int dim>
   class BoundaryConditions
   {
   public:
     BoundaryConditions(const BackgroundGrid<dim> &grid, const BoundaryParameters &parameters);
 
-    /// Corrects the end-of-step velocity of a node that lies on the given faces of the box.
-    void apply(dealii::Tensor<1, dim> &velocity, const std::uint8_t faces) const;
-
-    /// The components of velocity that a node on these faces may not have: bit c for component c. Friction is not among
-    /// them.
-    unsigned int fixed_components(const std::uint8_t faces) const;
-
-    /// Those of the faces that have friction: bit f for face f.
-    std::uint8_t friction_faces(const std::uint8_t faces) const;
-
-    bool has_friction(const std::uint8_t faces) const
-    {
-      return friction_faces(faces) != 0;
-    }
+    /// What the walls do to the soil at a node that lies on the given faces of the box, see
+    /// BackgroundGrid::node_faces().
+    std::vector<NodeConstraint<dim>> constraints(const std::uint8_t faces) const;
 
     /// One wall a face of the box, in deal.II's numbering.
     const std::vector<Wall> &walls() const

@@ -4,6 +4,7 @@
 
 #include <scree/grid/background_grid.h>
 #include <scree/grid/face_entries.h>
+#include <scree/grid/node_constraint.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -48,8 +49,8 @@ namespace scree
   public:
     WaterBoundaryConditions(const BackgroundGrid<dim> &grid, const WaterBoundaryParameters &parameters);
 
-    /// The components of velocity that a node on these faces may not have: bit c for component c.
-    unsigned int fixed_components(const std::uint8_t faces) const;
+    /// The directions along which the water of a node on these faces may not move.
+    HeldDirections<dim> held_directions(const std::uint8_t faces) const;
 
     /// Whether any of the faces is drained.
     bool prescribes_pressure(const std::uint8_t faces) const;

@@ -5,7 +5,7 @@
 #include <scree/output/cell_contents.h>
 #include <scree/output/interpolation.h>
 #include <scree/output/output_parameters.h>
-#include <scree/transfer/mixture.h>
+#include <scree/transfer/water_view.h>
 
 #include <list>
 #include <string>
@@ -14,16 +14,6 @@
 
 namespace scree
 {
-  /// What the pictures of a coupled run show beside the soil.
-  template <int dim>
-  struct WaterView
-  {
-    const std::list<WaterPhase<dim>> &water;
-    const NodalField<dim> &field; ///< the water's, solved: its mass and velocity are read
-    /// Asked for the cells of this rank that hold points; 0 where there is no pressure.
-    PressureOfCell<dim> pressure_of_cell;
-  };
-
   /// The folder `solution` of a run: `.pvtu` files of points, of water points and of grid cells that hold points, and a
   /// `.pvd` of each.
   template <int dim>

@@ -26,6 +26,15 @@ namespace scree
                    const unsigned int n_ranks,
                    const std::string &point = "point");
 
+    /// Writes how evenly several ranks have worked. Collective.
+    /// @param waiting time that this rank has waited for others, s
+    /// @param imbalance time of the slowest ranks over the mean, without waiting
+    /// @param n_repartitions how often cells were shared out anew
+    void summarise_ranks(const double waiting,
+                         const double imbalance,
+                         const unsigned int n_repartitions,
+                         const MPI_Comm communicator);
+
   private:
     RunFolder &folder;
     const double start_time, end_time;

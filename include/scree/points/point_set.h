@@ -2,6 +2,8 @@
 #ifndef scree_points_point_set_h
 #define scree_points_point_set_h
 
+#include <scree/points/cell_costs.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/particles/particle_handler.h>
@@ -69,6 +71,13 @@ namespace scree
     /// Collective. Points outside the mesh leave the set and are appended to lost().
     void sort();
 
+    /// The first half of sort(), of this rank alone: sets the points' places in their cells. Returns whether all points
+    /// of this rank are still in their cells; unless this holds on all ranks, hand_over() must follow.
+    bool update_places();
+
+    /// The other half of sort(). Collective.
+    void hand_over();
+
     /// Refreshes cells(): after points were inserted or unpacked.
     void update_cells();
 
@@ -86,6 +95,16 @@ namespace scree
     std::vector<LostPoint<dim>> &lost()
     {
       return lost_points;
+    }
+
+    /// What the points cost in the passes that move them, cell by cell.
+    CellCosts &costs()
+    {
+      return cell_costs;
+    }
+    const CellCosts &costs() const
+    {
+      return cell_costs;
     }
 
     /// Doubles from one point's properties to the next one's.
@@ -110,6 +129,7 @@ namespace scree
     std::vector<CellPoints<dim>> cell_list;
     std::vector<ConstCellPoints<dim>> const_cell_list; // the same cells
     std::vector<LostPoint<dim>> lost_points;
+    CellCosts cell_costs;
   };
 
 

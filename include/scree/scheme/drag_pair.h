@@ -2,68 +2,68 @@
 #ifndef scree_scheme_drag_pair_h
 #define scree_scheme_drag_pair_h
 
-#include <deal.II/base/tensor.h>
+#include <scree/grid/node_constraint.h>
 
 namespace scree
 {
-  /// Soil and water at a node, tied by drag: [[m_s + C, -C], [-C, m_w + C]] v = r, component by component. Components
-  /// that a wall fixes are 0; a phase that is absent takes no part.
+  /// A vector of the soil and one of the water at a node.
+  template <int dim>
+  struct SoilAndWater
+  {
+    dealii::Tensor<1, dim> soil, water;
+  };
+
+  /// Soil and water at a node, tied by drag: [[m_s + C, -C], [-C, m_w + C]] v = r, where walls leave them free to move;
+  /// a phase that is absent takes no part. What walls hold of the two phases is taken to be along or across each other.
   template <int dim>
   struct DragPair
   {
-    double soil_mass, water_mass;         ///< kg
-    double drag;                          ///< C = D dt, kg; 0 where a phase is absent
-    unsigned int fixed_soil, fixed_water; ///< bit c for component c
+    double soil_mass = 0, water_mass = 0; ///< kg
+    double drag = 0;                      ///< C = D dt, kg; 0 where a phase is absent
+    HeldDirections<dim> held_soil, held_water;
+
+    bool is_held() const
+    {
+      return held_soil.any() || held_water.any();
+    }
 
     /// Velocities, m/s, from impulses, N s. Free of differences, so that any drag is good.
-    void solve(const dealii::Tensor<1, dim> &soil_impulse,
-               const dealii::Tensor<1, dim> &water_impulse,
-               dealii::Tensor<1, dim> &soil_velocity,
-               dealii::Tensor<1, dim> &water_velocity) const
+    SoilAndWater<dim> solve(const SoilAndWater<dim> &impulses) const
     {
-      for (unsigned int c = 0; c < dim; ++c)
+      SoilAndWater<dim> velocity;
+      const dealii::Tensor<1, dim> soil  = held_soil.free_part(impulses.soil),
+                                   water = held_water.free_part(impulses.water);
+      if (soil_mass > 0 && water_mass > 0)
         {
-          const bool soil_moves  = soil_mass > 0 && ((fixed_soil >> c) & 1) == 0;
-          const bool water_moves = water_mass > 0 && ((fixed_water >> c) & 1) == 0;
-          double &v_s = soil_velocity[c], &v_w = water_velocity[c];
-          v_s = v_w = 0.;
-          if (soil_moves && water_moves)
-            {
-              const double determinant = soil_mass * water_mass + drag * (soil_mass + water_mass);
-              const double shared      = drag * (soil_impulse[c] + water_impulse[c]);
-              v_s                      = (water_mass * soil_impulse[c] + shared) / determinant;
-              v_w                      = (soil_mass * water_impulse[c] + shared) / determinant;
-            }
-          else if (soil_moves)
-            v_s = soil_impulse[c] / (soil_mass + drag);
-          else if (water_moves)
-            v_w = water_impulse[c] / (water_mass + drag);
+          // Where both can move they share the drag's impulse; where one is held, the other drags along it.
+          const dealii::Tensor<1, dim> soil_with = held_water.free_part(soil), water_with = held_soil.free_part(water);
+          const double determinant            = soil_mass * water_mass + drag * (soil_mass + water_mass);
+          const dealii::Tensor<1, dim> shared = drag * (soil_with + water_with);
+          velocity.soil                       = (water_mass * soil_with + shared) / determinant;
+          velocity.water                      = (soil_mass * water_with + shared) / determinant;
+          if (held_water.any())
+            velocity.soil += (soil - soil_with) / (soil_mass + drag);
+          if (held_soil.any())
+            velocity.water += (water - water_with) / (water_mass + drag);
+          velocity.soil  = held_soil.free_part(velocity.soil);
+          velocity.water = held_water.free_part(velocity.water);
         }
+      else if (soil_mass > 0)
+        velocity.soil = soil / (soil_mass + drag);
+      else if (water_mass > 0)
+        velocity.water = water / (water_mass + drag);
+      return velocity;
     }
 
-    /// The impulses of the walls, N s: what the fixed components need to stay 0.
-    dealii::Tensor<1, dim> soil_reaction(const dealii::Tensor<1, dim> &soil_impulse,
-                                         const dealii::Tensor<1, dim> &water_velocity) const
+    /// The impulses of the walls, N s: what the held directions need for the velocity there to stay 0.
+    SoilAndWater<dim> reactions(const SoilAndWater<dim> &impulses, const SoilAndWater<dim> &velocity) const
     {
-      return reaction(fixed_soil, soil_mass, soil_impulse, water_velocity);
-    }
-    dealii::Tensor<1, dim> water_reaction(const dealii::Tensor<1, dim> &water_impulse,
-                                          const dealii::Tensor<1, dim> &soil_velocity) const
-    {
-      return reaction(fixed_water, water_mass, water_impulse, soil_velocity);
-    }
-
-  private:
-    dealii::Tensor<1, dim> reaction(const unsigned int fixed,
-                                    const double mass,
-                                    const dealii::Tensor<1, dim> &impulse,
-                                    const dealii::Tensor<1, dim> &other_velocity) const
-    {
-      dealii::Tensor<1, dim> wall;
-      for (unsigned int c = 0; c < dim; ++c)
-        if (mass > 0 && ((fixed >> c) & 1))
-          wall[c] = -impulse[c] - drag * other_velocity[c];
-      return wall;
+      SoilAndWater<dim> walls;
+      if (soil_mass > 0)
+        walls.soil = held_soil.held_part(-impulses.soil - drag * velocity.water);
+      if (water_mass > 0)
+        walls.water = held_water.held_part(-impulses.water - drag * velocity.soil);
+      return walls;
     }
   };
 } // namespace scree

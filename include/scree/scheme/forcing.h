@@ -22,8 +22,8 @@ namespace scree
     void check(const unsigned int dim) const;
   };
 
-  /// What acts on all nodes besides stress, pressure and walls: gravity, body force, and the damping and the gate of
-  /// the settling.
+  /// What acts on all nodes besides stress, pressure and walls: gravity, body force, and the damping of the
+  /// settling.
   template <int dim>
   class Forcing
   {
@@ -48,11 +48,11 @@ namespace scree
       return sum;
     }
 
-    /// Damped settling: velocity decays at `rate`, 1/s, and nodes with `held[node]` do not move.
-    void start_settling(const double rate, std::vector<char> held);
-
-    /// Ends the settling: nothing is held or damped from here on.
-    void release();
+    /// Velocity decays at `rate`, 1/s; 0: it does not.
+    void set_damping(const double rate)
+    {
+      damping_rate = rate;
+    }
 
     bool is_damped() const
     {
@@ -62,17 +62,11 @@ namespace scree
     /// What damping leaves of a velocity after a step.
     double decay(const double time_step) const;
 
-    bool is_held(const unsigned int node) const
-    {
-      return !held.empty() && held[node];
-    }
-
   private:
     const BackgroundGrid<dim> &grid;
     dealii::Tensor<1, dim> uniform;
     std::unique_ptr<dealii::Function<dim>> body_force;
     double damping_rate = 0;
-    std::vector<char> held;
   };
 } // namespace scree
 

@@ -24,8 +24,8 @@ namespace scree
 
   /// Where the water ends: kinds of the corners, and the pressure at those beside the surface.
   ///
-  /// The fill F of a corner (volume of water and wet grains under its linear function) gives its signed distance d from a
-  /// surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. Unknown are the corners at
+  /// The fill F of a corner (volume of water and wet grains under its linear function) gives its signed distance d from
+  /// a surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. Unknown are the corners at
   /// least a quarter of a cell inside. Those beside them hold p = d sum p_j / sum d_j of their unknown neighbours: p is
   /// linear and vanishes at the surface, wherever that is in the cell.
   template <int dim>
@@ -62,19 +62,19 @@ namespace scree
     /// Volume of water under the linear function of an owned corner, m^3.
     double water_volume(const unsigned int corner) const
     {
-      return filling[corner][0];
+      return filling[corner][Filling::water];
     }
 
     /// Whether no grains are under the linear function of an owned corner.
     bool is_free_water(const unsigned int corner) const
     {
-      return filling[corner][1] <= filling[corner][0] * (1. + 1e-12);
+      return filling[corner][Filling::filled] <= filling[corner][Filling::water] * (1. + 1e-12);
     }
 
     /// Fill of an owned corner's linear function, 1 if it is full of water and wet grains.
     double fill(const unsigned int corner) const
     {
-      return filling[corner][1] / volume_under(corner);
+      return filling[corner][Filling::filled] / volume_under(corner);
     }
 
     /// Integral of a corner's linear function over the box, m^3.
@@ -87,6 +87,23 @@ namespace scree
     }
 
   private:
+    /// Sums over the points under a corner's linear function; the number of wet cells around it.
+    enum Filling : unsigned int
+    {
+      water,             // m^3
+      filled,            // by water and wet grains, m^3
+      weighted_pressure, // Pa m^3
+      wet_cells
+    };
+
+    /// Of the neighbours inside the water of a corner beside the surface.
+    enum Neighbours : unsigned int
+    {
+      number,
+      sum_of_distances, // cells
+      sum_of_pressures  // Pa
+    };
+
     static constexpr double steepest = 3.; // bounds the extrapolation from shallow corners
 
     /// Distance of a corner from the surface that is beside its neighbour, cells. Fills near 1 tell it badly, and not
@@ -130,8 +147,8 @@ namespace scree
     const NodeNumbering<dim> &corners;
     const WaterBoundaryConditions<dim> &walls;
     const FreeSurface rule;
-    NodeValues<dim, 4> filling;    // volume of water, of water and wet grains, water times pressure; wet cells
-    NodeValues<dim, 3> neighbours; // unknown corners around one beside the surface: number, sum of d, sum of p
+    NodeValues<dim, 4> filling;    // Filling
+    NodeValues<dim, 3> neighbours; // Neighbours
     std::vector<CornerKind> kinds;
     std::vector<double> distances; // cells; positive in the water
   };

@@ -4,9 +4,6 @@
 
 #include <scree/scheme/free_surface.h>
 
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-
 #include <functional>
 #include <memory>
 #include <vector>
@@ -33,6 +30,7 @@ namespace scree
     PressureSolver(const BackgroundGrid<dim> &grid,
                    const NodeNumbering<dim> &corners,
                    const PressureParameters &parameters);
+    ~PressureSolver();
 
     /// Forgets what belongs to another partition of the mesh.
     void reinit();
@@ -74,6 +72,16 @@ namespace scree
 
     /// Hands out new numbers if a wet cell has a corner without one. Collective.
     void number(const Mixture<dim> &mixture);
+
+    /// Whether all corners of wet cells of all ranks have numbers. Collective.
+    bool numbers_serve(const Mixture<dim> &mixture) const;
+
+    /// Marks the corners of wet cells and of those around them, `margin` cells deep, on owned corners and ghosts;
+    /// returns this rank's cells whose corners are marked. Collective.
+    std::vector<unsigned int> mark_corners(const Mixture<dim> &mixture, CornerVector &marks) const;
+
+    /// Turns the marks of owned corners into global numbers, -1 elsewhere; returns the range of this rank. Collective.
+    dealii::IndexSet number_marked(CornerVector &marks) const;
     void make_preconditioner();
     CellMatrix matrix(const Cell &cell) const;
 
@@ -94,8 +102,8 @@ namespace scree
                                   // preconditioner that is kept while corners turn from one to the other
     CornerVector source, solution, scratch;
 
-    dealii::TrilinosWrappers::SparseMatrix stored_matrix; // the preconditioner refers to it
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
+    struct Multigrid; // what Trilinos keeps of the preconditioner
+    std::unique_ptr<Multigrid> multigrid;
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
     unsigned int iterations_when_new = 0, surplus_iterations = 0;
     bool is_worn = true;

@@ -16,7 +16,7 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// The clock of a run: steps that are stable and meet the appointed times exactly.
+  /// The clock of a run: steps that are stable and meet the output times exactly.
   class Clock
   {
   public:
@@ -26,11 +26,11 @@ namespace scree
     /// speed, and at most the maximum.
     double stable_step(const double cell_size, const double wave_speed, const double speed) const;
 
-    /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `appointment`.
-    double next_step(const double stable_step, const double appointment) const;
+    /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `due`.
+    double next_step(const double stable_step, const double due) const;
 
-    /// Moves on by the step, to the appointment itself if the step ends there.
-    void advance(const double time_step, const double appointment);
+    /// Moves on by the step, to the due time itself if the step ends there.
+    void advance(const double time_step, const double due);
 
     double time() const
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_advice_scene_h
-#define scree_advice_scene_h
+#ifndef scree_advice_scene_numbers_h
+#define scree_advice_scene_numbers_h
 
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ namespace scree
 
   /// What a case starts from, in numbers of all ranks: sizes, stiffness, counts. SI units; in 2D per metre of
   /// thickness.
-  struct Scene
+  struct SceneNumbers
   {
     unsigned int dim = 2;
     double gravity   = 9.81; ///< m/s^2

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/scheme/explicit_scheme.h>
+#include <scree/scheme/explicit_step.h>
 
 namespace scree
 {
   using namespace dealii;
 
   template <int dim>
-  ExplicitScheme<dim>::ExplicitScheme(const BackgroundGrid<dim> &grid,
-                                      const BoundaryConditions<dim> &walls,
-                                      const Forcing<dim> &forcing)
-      : grid(grid)
-      , walls(walls)
+  ExplicitStep<dim>::ExplicitStep(const Constraints<dim> &constraints, const Forcing<dim> &forcing)
+      : constraints(constraints)
       , forcing(forcing)
   {
   }
 
 
   template <int dim>
-  StepBalance<dim> ExplicitScheme<dim>::solve(NodalField<dim> &field, const double time_step) const
+  StepBalance<dim> ExplicitStep<dim>::solve(NodalField<dim> &field, const double time_step) const
   {
     StepBalance<dim> balance;
     const double decay = forcing.decay(time_step);
@@ -44,15 +41,10 @@ namespace scree
             after *= decay;
           }
 
-        const auto faces = grid.node_faces(node);
-        const bool stays = forcing.is_held(node);
-        if (faces != 0 || stays)
+        if (const NodeConstraints<dim> *walls = constraints.at(node))
           {
             const Tensor<1, dim> free = after;
-            if (stays)
-              after = 0.;
-            else
-              walls.apply(after, faces);
+            walls->apply(after);
             const Tensor<1, dim> impulse = mass * (after - free);
             balance.wall_impulse += impulse;
             // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
@@ -68,6 +60,6 @@ namespace scree
     return balance;
   }
 
-  template class ExplicitScheme<2>;
-  template class ExplicitScheme<3>;
+  template class ExplicitStep<2>;
+  template class ExplicitStep<3>;
 } // namespace scree

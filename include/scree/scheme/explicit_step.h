@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_scheme_explicit_scheme_h
-#define scree_scheme_explicit_scheme_h
+#ifndef scree_scheme_explicit_step_h
+#define scree_scheme_explicit_step_h
 
-#include <scree/grid/boundary_conditions.h>
+#include <scree/grid/constraints.h>
 #include <scree/grid/nodal_field.h>
 #include <scree/scheme/forcing.h>
 #include <scree/scheme/step_balance.h>
@@ -11,17 +11,16 @@ namespace scree
 {
   /// The explicit step of one phase at the nodes: momentum and force in, velocity and its change out.
   template <int dim>
-  class ExplicitScheme
+  class ExplicitStep
   {
   public:
-    ExplicitScheme(const BackgroundGrid<dim> &grid, const BoundaryConditions<dim> &walls, const Forcing<dim> &forcing);
+    ExplicitStep(const Constraints<dim> &constraints, const Forcing<dim> &forcing);
 
-    /// v = (momentum + dt force)/mass + dt acceleration at the active nodes, then the walls.
+    /// v = (momentum + dt force)/mass + dt acceleration at the active nodes, then their constraints.
     StepBalance<dim> solve(NodalField<dim> &field, const double time_step) const;
 
   private:
-    const BackgroundGrid<dim> &grid;
-    const BoundaryConditions<dim> &walls;
+    const Constraints<dim> &constraints;
     const Forcing<dim> &forcing;
   };
 } // namespace scree

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_grid_constraints_h
+#define scree_grid_constraints_h
+
+#include <scree/grid/boundary_conditions.h>
+#include <scree/grid/node_constraint.h>
+#include <scree/grid/water_walls.h>
+#include <scree/points/region.h>
+
+#include <memory>
+
+namespace scree
+{
+  /// The constraints of the nodes of this rank: of the walls of the box and, while it stands, of a gate.
+  template <int dim>
+  class Constraints
+  {
+  public:
+    /// @param water_walls null in a dry scene
+    Constraints(const BackgroundGrid<dim> &grid,
+                const BoundaryConditions<dim> &walls,
+                const WaterBoundaryConditions<dim> *water_walls);
+
+    /// Fits the constraints to the grid's current nodes.
+    void reinit();
+
+    /// Soil and water do not move at the nodes in this region until the gate is opened.
+    void close_gate(std::unique_ptr<Region<dim>> region);
+    void open_gate();
+
+    /// Those of an owned node; null where there are none.
+    const NodeConstraints<dim> *at(const unsigned int node) const
+    {
+      const unsigned int set = set_of_node[node];
+      return set == free ? nullptr : &sets[set];
+    }
+
+    /// Whether any wall is one that soil can lift off.
+    bool has_unilateral() const
+    {
+      return is_unilateral;
+    }
+
+  private:
+    static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
+
+    NodeConstraints<dim> of_faces(const std::uint8_t faces) const;
+
+    const BackgroundGrid<dim> &grid;
+    const BoundaryConditions<dim> &walls;
+    const WaterBoundaryConditions<dim> *water_walls;
+    const bool is_unilateral;
+    std::unique_ptr<Region<dim>> gate;
+
+    std::vector<unsigned int> set_of_node; // by owned node
+    std::vector<NodeConstraints<dim>> sets;
+  };
+} // namespace scree
+
+#endif

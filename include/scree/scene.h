@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scene_h
+#define scree_scene_h
+
+#include <scree/grid/constraints.h>
+#include <scree/output/statistics.h>
+#include <scree/parameters.h>
+#include <scree/scheme/forcing.h>
+#include <scree/scheme/scheme.h>
+
+#include <deal.II/base/timer.h>
+
+#include <list>
+
+namespace scree
+{
+  /// What a case describes: the mesh, its walls, bodies of soil, water and loads.
+  template <int dim>
+  class Scene
+  {
+  public:
+    /// Makes all of it, without points but for the markers of loads. Collective.
+    Scene(const Parameters &parameters, const MPI_Comm communicator);
+
+    /// Fills bodies and water with points, and gives them the state that the case starts from. Collective; throws
+    /// EntryError where the case does not fit itself.
+    void fill();
+
+    /// Fits what depends on the partition of the mesh to it. Collective.
+    void reinit();
+
+    /// The scheme that moves the points of this scene, to which it refers: chosen here and nowhere else.
+    std::unique_ptr<Scheme<dim>> make_scheme(dealii::TimerOutput &timer);
+
+    /// The speeds of the points of all ranks, before the first step. Collective.
+    Speeds speeds() const;
+
+    /// Stops all points: no velocity, no affine field of velocity.
+    void stop();
+
+    /// Adds what left the box through open walls to `totals`, and forgets it. Throws if a point left through a closed
+    /// one.
+    /// @param time s, for the message
+    void account_for_lost_points(RunTotals<dim> &totals, const double time);
+
+    /// What the run calls a point where it tells its speed.
+    std::string name_of_a_point() const
+    {
+      return water.empty() ? "point" : "soil or water point";
+    }
+
+    BackgroundGrid<dim> grid;
+    BoundaryConditions<dim> walls;
+    std::unique_ptr<WaterBoundaryConditions<dim>> water_walls; ///< null in a dry scene
+    Constraints<dim> constraints;
+    Forcing<dim> forcing;
+    std::list<SoilBody<dim>> bodies;
+    std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
+    std::list<SurfaceLoad<dim>> loads;
+
+  private:
+    void make_bodies();
+    void fill_with_points();
+    void set_initial_state();
+
+    /// Adds one that left the box through the face of this name.
+    void lose(const std::string &name,
+              const LostPoint<dim> &point,
+              const std::pair<std::string, bool> &face_and_whether_open,
+              const unsigned int velocity_slot,
+              const unsigned int mass_slot,
+              const double time,
+              double &lost_mass,
+              RunTotals<dim> &totals) const;
+
+    const Parameters &parameters;
+    const MPI_Comm communicator;
+  };
+} // namespace scree
+
+#endif

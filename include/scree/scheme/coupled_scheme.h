@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_coupled_scheme_h
+#define scree_scheme_coupled_scheme_h
+
+#include <scree/scheme/mixture_step.h>
+#include <scree/scheme/scheme.h>
+#include <scree/scheme/soil_motion.h>
+#include <scree/scheme/volume_correction.h>
+#include <scree/transfer/water_transfer.h>
+
+namespace scree
+{
+  /// Soil and water: explicit soil, implicit drag, and pressure by an incremental fractional step (Kularathna et al.
+  /// 2021; Yuan et al. 2023; two sets of points: Xie, Navas & Lopez-Querol 2024).
+  ///
+  /// 1. Predictor with the old pressure: A v* = m v + dt (f - G p^n), where A holds masses and drag (MixtureStep).
+  /// 2. Pressure: L dp = -div[(1-n) v_s* + n v_w*], with the drag in L (PorePressure).
+  /// 3. Corrector: v = v* - dt A^-1 G dp (MixtureStep).
+  /// 4. Points of free water leave where they crowd (VolumeCorrection), if the case asks for it.
+  template <int dim>
+  class CoupledScheme : public Scheme<dim>
+  {
+  public:
+    CoupledScheme(const BackgroundGrid<dim> &grid,
+                  const Constraints<dim> &constraints,
+                  const WaterBoundaryConditions<dim> &water_walls,
+                  const Forcing<dim> &forcing,
+                  const TransferParameters &transfer,
+                  const StabilisationParameters &stabilisation,
+                  const WaterParameters &water_parameters,
+                  const PressureParameters &pressure_parameters,
+                  std::list<SoilBody<dim>> &bodies,
+                  std::list<WaterPhase<dim>> &water,
+                  std::list<SurfaceLoad<dim>> &loads,
+                  dealii::TimerOutput &timer);
+
+    void reinit() override;
+    void read_points() override;
+    void to_grid(const double time) override;
+    void solve(const double time_step, StepReport<dim> &report) override;
+    void to_points(const double time_step, StepReport<dim> &report) override;
+    double stable_step(const Clock &clock, const Speeds &speeds) const override;
+    std::vector<PointSet<dim> *> point_sets() override;
+    const NodalField<dim> &soil_field() const override;
+    std::unique_ptr<WaterView<dim>> water_view() const override;
+
+  private:
+    /// Sums of the water's points and of the soil's pores.
+    void gather();
+
+    /// Grains in water, at the nodes; makes all fields active where any is.
+    void complete_pores();
+
+    /// The force of the old pressure on soil and water.
+    void add_pressure_forces();
+
+    /// Takes the stress from soil that is looser than entry Fluidisation porosity.
+    void fluidise();
+
+    const BackgroundGrid<dim> &grid;
+    const double water_density, fluidisation_porosity, viscosity;
+    double shear_modulus = 0; // largest of the bodies, Pa
+    std::list<WaterPhase<dim>> &water;
+    dealii::TimerOutput &timer;
+
+    SoilMotion<dim> soil;
+    WaterTransfer<dim> transfer;
+    Mixture<dim> mixture;
+    PoreField<dim> pores;
+    NodalField<dim> water_field;
+    PorePressure<dim> pressure;
+    MixtureStep<dim> step;
+    std::unique_ptr<VolumeCorrection<dim>> volume_correction; // null if the case does not ask for it
+  };
+} // namespace scree
+
+#endif

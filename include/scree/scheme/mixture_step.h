@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_mixture_step_h
+#define scree_scheme_mixture_step_h
+
+#include <scree/scheme/forcing.h>
+#include <scree/scheme/pore_pressure.h>
+#include <scree/scheme/wall_friction.h>
+
+namespace scree
+{
+  /// Soil, water and pores at the nodes of the velocity, of one step.
+  template <int dim>
+  struct MixtureNodes
+  {
+    NodalField<dim> &soil, &water;
+    PoreField<dim> &pores;
+  };
+
+  /// Soil and water at the nodes, tied by drag and stopped by walls: the predictor and the corrector of a fractional
+  /// step.
+  template <int dim>
+  class MixtureStep
+  {
+  public:
+    MixtureStep(const BackgroundGrid<dim> &grid,
+                const Constraints<dim> &constraints,
+                const Forcing<dim> &forcing,
+                const double water_density,
+                const Splitting splitting);
+
+    /// Fits what lives on the nodes to the grid's current partition. Collective.
+    void reinit();
+
+    /// A v* = m v + dt f, where A holds masses and drag, and f the force of the old pressure. `nodes` hold the sums of
+    /// all ranks before, and velocities and their change afterwards, without ghosts; the pores then hold drag times
+    /// step, and the fraction of grains.
+    void predict(const MixtureNodes<dim> &nodes, const double time_step, StepBalance<dim> &balance);
+
+    /// v = v* - dt A^-1 G dp with the change of `pressure`. `nodes` hold velocities afterwards, without ghosts.
+    /// Collective.
+    void correct(const MixtureNodes<dim> &nodes,
+                 const Mixture<dim> &mixture,
+                 const PorePressure<dim> &pressure,
+                 const double time_step,
+                 StepBalance<dim> &balance);
+
+  private:
+    DragPair<dim> pair_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
+
+    /// Turns the sums at a node's pores into drag times step and the fraction of grains.
+    void finish_pores(const MixtureNodes<dim> &nodes, const unsigned int node, const double time_step) const;
+
+    /// Momentum, forces and accelerations over the step, N s.
+    SoilAndWater<dim> impulses_at(const MixtureNodes<dim> &nodes,
+                                  const unsigned int node,
+                                  const double time_step,
+                                  StepBalance<dim> &balance) const;
+
+    /// Velocities from impulses; finds the contacts with walls and adds their friction to the impulses.
+    SoilAndWater<dim> stop_at_walls(const MixtureNodes<dim> &nodes,
+                                    const unsigned int node,
+                                    SoilAndWater<dim> &impulses,
+                                    const SoilAndWater<dim> &before,
+                                    StepBalance<dim> &balance);
+
+    /// What walls give in the corrector: their reactions to `impulses`, and what friction on sliding soil changes by,
+    /// which is added to `change`.
+    void correct_at_walls(const unsigned int node,
+                          const DragPair<dim> &pair,
+                          const SoilAndWater<dim> &impulses,
+                          const SoilAndWater<dim> &before,
+                          const dealii::Tensor<1, dim> &soil_predicted,
+                          SoilAndWater<dim> &change,
+                          StepBalance<dim> &balance) const;
+
+    /// Forces of the change of the pressure on soil and water, times the step.
+    void sum_pressure_impulses(const Mixture<dim> &mixture, const PorePressure<dim> &pressure, const double time_step);
+
+    const Constraints<dim> &constraints;
+    const Forcing<dim> &forcing;
+    const BackgroundGrid<dim> &grid;
+    const double water_density;
+    const Splitting splitting;
+    WallFriction<dim> friction;
+    NodeValues<dim, 2 * dim> pressure_impulses; // of the change of pressure on soil and water, N s
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_pore_pressure_h
+#define scree_scheme_pore_pressure_h
+
+#include <scree/scheme/free_surface.h>
+#include <scree/scheme/mixture_divergence.h>
+#include <scree/scheme/pressure_solver.h>
+#include <scree/scheme/step_balance.h>
+#include <scree/scheme/step_part.h>
+
+namespace scree
+{
+  /// The pore pressure p at the corners of the cells: where the water ends, p at the start of a step, and the system
+  /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (Kularathna et al. 2021; Yuan et al. 2023), with the drag in
+  /// L.
+  template <int dim>
+  class PorePressure
+  {
+  public:
+    using AtCorners = std::array<double, (1 << dim)>;
+
+    /// @param bulk_modulus of the water, Pa; 0: incompressible
+    PorePressure(const BackgroundGrid<dim> &grid,
+                 const WaterBoundaryConditions<dim> &walls,
+                 const PressureParameters &parameters,
+                 const double bulk_modulus,
+                 dealii::TimerOutput &timer);
+
+    /// Fits the corners to the grid's current partition. Collective.
+    void reinit();
+
+    /// Finds the water's surface and the pressure at the start of a step. Collective.
+    void locate(const Mixture<dim> &mixture);
+
+    /// Solves for the change of the pressure over a step from the predicted velocities, whose ghosts hold values.
+    /// Collective.
+    /// @param mixture gets the mobilities of its cells
+    /// @param shear_modulus of the soil, Pa: scales the pressure projection
+    void solve(Mixture<dim> &mixture,
+               const NodalField<dim> &soil,
+               const NodalField<dim> &water,
+               const PoreField<dim> &pores,
+               const double time_step,
+               const double shear_modulus,
+               StepBalance<dim> &balance);
+
+    /// Adds the change to the pressure, which is that of the end of the step from here on. Collective.
+    void accept_change();
+
+    /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
+    /// @param potential what it holds is the first guess; its ghosts hold values afterwards
+    void solve_potential(const Mixture<dim> &mixture,
+                         const CornerVector &source,
+                         CornerVector &potential,
+                         StepBalance<dim> &balance);
+
+    /// Pressure at the corners of a cell with points, Pa, in deal.II's order; its change; any other vector.
+    AtCorners pressure_of(const unsigned int cell) const
+    {
+      return at_corners(pressure, cell);
+    }
+    AtCorners change_of(const unsigned int cell) const
+    {
+      return at_corners(change, cell);
+    }
+    AtCorners at_corners(const CornerVector &values, const unsigned int cell) const;
+
+    const FreeSurfaceLocator<dim> &free_surface() const
+    {
+      return surface;
+    }
+
+    /// Makes room for a number a corner.
+    void reinit(CornerVector &vector) const
+    {
+      vector.reinit(corners.partitioner());
+    }
+
+  private:
+    static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
+    void reinit_vectors();
+    void set_mobilities(Mixture<dim> &mixture, const double time_step) const;
+    void assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus);
+
+    /// Adds a solve to the counts of the run.
+    void count(const SolveReport &report, StepBalance<dim> &balance) const;
+
+    const BackgroundGrid<dim> &grid;
+    const Splitting splitting;
+    const PreviousPressure previous_pressure;
+    const double projection, bulk_modulus;
+    dealii::TimerOutput &timer;
+
+    NodeNumbering<dim> corners;
+    FreeSurfaceLocator<dim> surface;
+    MixtureDivergence<dim> divergence;
+    PressureSolver<dim> solver;
+    CornerVector pressure, kept_pressure, change, source;
+
+    bool has_grid_pressure = false; // of the last step, in the current partition
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_soil_motion_h
+#define scree_scheme_soil_motion_h
+
+#include <scree/scheme/step_part.h>
+#include <scree/scheme/step_report.h>
+#include <scree/transfer/load_transfer.h>
+#include <scree/transfer/transfer.h>
+
+#include <list>
+
+namespace scree
+{
+  /// The bodies of soil with the loads on them, between their points and the nodes: what all schemes share.
+  template <int dim>
+  class SoilMotion
+  {
+  public:
+    SoilMotion(const BackgroundGrid<dim> &grid,
+               const TransferParameters &transfer,
+               const StabilisationParameters &stabilisation,
+               std::list<SoilBody<dim>> &bodies,
+               std::list<SurfaceLoad<dim>> &loads);
+
+    /// Fits the nodes to the grid's current partition. Collective.
+    void reinit();
+
+    /// Sums mass, momentum and force of this rank's points and loads at the nodes, at the time, s, of the step's start.
+    void to_grid(const double time);
+
+    /// The impulse of the loads in a step, N s, of this rank.
+    dealii::Tensor<1, dim> load_impulse(const double time_step) const
+    {
+      return time_step * load;
+    }
+
+    /// Moves bodies and loads after the solve of a step, and updates stress and state.
+    void to_points(const double time_step, StepReport<dim> &report);
+
+    void append_point_sets(std::vector<PointSet<dim> *> &sets);
+
+    std::list<SoilBody<dim>> &all_bodies()
+    {
+      return bodies;
+    }
+    const std::list<SoilBody<dim>> &all_bodies() const
+    {
+      return bodies;
+    }
+
+    /// The nodes of the soil: sums before the solve, velocity and its change after it.
+    NodalField<dim> field;
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    Transfer<dim> transfer;
+    std::list<SoilBody<dim>> &bodies;
+    std::list<SurfaceLoad<dim>> &loads;
+    double step_start = 0;       // s
+    dealii::Tensor<1, dim> load; // sum of the loads of this rank, N
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_step_report_h
+#define scree_scheme_step_report_h
+
+#include <scree/material/material.h>
+#include <scree/scheme/step_balance.h>
+
+namespace scree
+{
+  /// Speeds that limit the next step.
+  struct Speeds
+  {
+    double wave   = 0; ///< largest of pressure waves in the soil, m/s
+    double points = 0; ///< largest of a point of soil or water, m/s; not a number if any point's is not
+
+    void include_wave(const double speed)
+    {
+      wave = speed > wave ? speed : wave;
+    }
+    void include_point(const double speed)
+    {
+      points = speed <= points ? points : speed; // keeps a NaN
+    }
+  };
+
+  /// What a step did, on this rank.
+  template <int dim>
+  struct StepReport
+  {
+    StepBalance<dim> balance;
+    UpdateReport material;
+    Speeds speeds;
+    double n_updates = 0; ///< points of soil and water that moved
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/constraints.h>
+
+#include <algorithm>
+#include <map>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  Constraints<dim>::Constraints(const BackgroundGrid<dim> &grid,
+                                const BoundaryConditions<dim> &walls,
+                                const WaterBoundaryConditions<dim> *water_walls)
+      : grid(grid)
+      , walls(walls)
+      , water_walls(water_walls)
+      , is_unilateral(std::any_of(walls.walls().begin(), walls.walls().end(), [](const Wall &wall) {
+        return wall.type == WallType::friction;
+      }))
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  NodeConstraints<dim> Constraints<dim>::of_faces(const std::uint8_t faces) const
+  {
+    NodeConstraints<dim> result;
+    for (const NodeConstraint<dim> &constraint : walls.constraints(faces))
+      result.add(constraint);
+    if (water_walls)
+      result.water_held = water_walls->held_directions(faces);
+    return result;
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::reinit()
+  {
+    set_of_node.assign(grid.n_owned_nodes(), free);
+    sets.clear();
+    // Nodes on the same faces share a set.
+    std::map<std::uint8_t, unsigned int> set_of_faces;
+    for (unsigned int node = 0; node < set_of_node.size(); ++node)
+      if (const std::uint8_t faces = grid.node_faces(node); faces != 0)
+        {
+          const auto [entry, is_new] = set_of_faces.emplace(faces, free);
+          if (is_new)
+            if (const NodeConstraints<dim> constraints = of_faces(faces); constraints.any())
+              {
+                entry->second = sets.size();
+                sets.push_back(constraints);
+              }
+          set_of_node[node] = entry->second;
+        }
+    if (!gate)
+      return;
+    NodeConstraints<dim> held;
+    for (unsigned int a = 0; a < dim; ++a)
+      held.add({ Point<dim>::unit_vector(a) });
+    held.water_held.hold_all();
+    for (unsigned int node = 0; node < set_of_node.size(); ++node)
+      if (gate->contains(grid.node_position(node)))
+        set_of_node[node] = sets.size();
+    sets.push_back(held);
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::close_gate(std::unique_ptr<Region<dim>> region)
+  {
+    gate = std::move(region);
+    reinit();
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::open_gate()
+  {
+    close_gate(nullptr);
+  }
+
+  template class Constraints<2>;
+  template class Constraints<3>;
+} // namespace scree

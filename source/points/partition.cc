@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/partition.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int steps_between_looks        = 50;
+    constexpr unsigned int steps_between_measurements = 10;
+    constexpr double cost_of_unmeasured_point         = 1e-7; // s
+  }                                                           // namespace
+
+
+  template <int dim>
+  Partition<dim>::Partition(parallel::distributed::Triangulation<dim> &mesh, const std::vector<PointSet<dim> *> &sets)
+      : mesh(mesh)
+      , sets(sets)
+      , communicator(mesh.get_communicator())
+      , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
+      , typical_costs(sets.size(), cost_of_unmeasured_point)
+      , weight_signal(mesh.signals.weight.connect([this](const auto &cell, const auto) { return weight_of(cell); }))
+      , last(CPUClock::now())
+  {
+  }
+
+
+  template <int dim>
+  void Partition<dim>::begin_step()
+  {
+    if (n_ranks == 1)
+      return;
+    if (n_steps++ % steps_between_measurements == 0)
+      for (PointSet<dim> *points : sets)
+        points->costs().time_next_pass();
+    last = CPUClock::now();
+  }
+
+
+  template <int dim>
+  void Partition<dim>::finish(const Work finished)
+  {
+    if (n_ranks == 1)
+      return;
+    const auto now = CPUClock::now();
+    work[unsigned(finished)] += std::chrono::duration<double>(now - last).count();
+    last = now;
+  }
+
+
+  template <int dim>
+  void Partition<dim>::wait()
+  {
+    if (n_ranks == 1)
+      return;
+    const int error = MPI_Barrier(communicator);
+    AssertThrowMPI(error);
+    last = CPUClock::now();
+  }
+
+
+  template <int dim>
+  typename Partition<dim>::WorkOfRanks Partition<dim>::collect()
+  {
+    WorkOfRanks result;
+    const auto of_ranks = Utilities::MPI::min_max_avg(std::vector<double>(work.begin(), work.end()), communicator);
+    for (unsigned int w = 0; w < n_works; ++w)
+      {
+        result.largest[w] = of_ranks[w].max;
+        result.mean[w]    = of_ranks[w].avg;
+        sum_of_largest += of_ranks[w].max;
+        sum_of_mean += of_ranks[w].avg;
+      }
+    work.fill(0.);
+    n_steps = 0;
+    return result;
+  }
+
+
+  template <int dim>
+  bool Partition<dim>::is_worth_changing()
+  {
+    if (n_ranks == 1)
+      return false;
+    if (!has_begun)
+      {
+        has_begun       = true;
+        double n_points = 0;
+        for (const PointSet<dim> *points : sets)
+          n_points += points->handler().n_locally_owned_particles();
+        const auto of_ranks                   = Utilities::MPI::min_max_avg(n_points, communicator);
+        constexpr double worthwhile_imbalance = 1.02;
+        for (PointSet<dim> *points : sets)
+          points->costs().reinit(mesh.n_active_cells());
+        return of_ranks.max > worthwhile_imbalance * of_ranks.avg;
+      }
+    if (n_steps < steps_between_looks)
+      return false;
+
+    const WorkOfRanks ranks = collect();
+    const auto mean         = [&](const Work of) { return ranks.mean[unsigned(of)]; };
+    const unsigned int longer =
+        unsigned(mean(Work::to_points) > mean(Work::to_nodes) ? Work::to_points : Work::to_nodes);
+    weights = longer == unsigned(Work::to_points) ? Weights::costs : Weights::points;
+    surplus += ranks.largest[longer] - ranks.mean[longer];
+    // So changes in vain, where cells are too few to be shared out evenly, take no longer than what they answer.
+    return surplus > duration;
+  }
+
+
+  template <int dim>
+  void Partition<dim>::find_typical_costs()
+  {
+    for (unsigned int s = 0; s < sets.size(); ++s)
+      {
+        double sum = 0, n = 0;
+        for (const CellPoints<dim> &cell : sets[s]->cells())
+          if (const double cost = sets[s]->costs().of_point(cell.cell, 0.); cost > 0.)
+            {
+              sum += cell.n_points * cost;
+              n += cell.n_points;
+            }
+        const double n_of_ranks = Utilities::MPI::sum(n, communicator);
+        sum                     = Utilities::MPI::sum(sum, communicator);
+        typical_costs[s]        = n_of_ranks > 0. ? sum / n_of_ranks : cost_of_unmeasured_point;
+      }
+  }
+
+
+  template <int dim>
+  unsigned int Partition<dim>::weight_of(const typename Triangulation<dim>::cell_iterator &cell) const
+  {
+    double seconds = 1e-8; // An empty cell costs a little.
+    if (cell->is_active() && cell->is_locally_owned())
+      for (unsigned int s = 0; s < sets.size(); ++s)
+        {
+          const unsigned int index = typename Triangulation<dim>::active_cell_iterator(cell)->active_cell_index();
+          seconds +=
+              sets[s]->handler().n_particles_in_cell(cell) *
+              (weights == Weights::costs ? sets[s]->costs().of_point(index, typical_costs[s]) : typical_costs[s]);
+        }
+    constexpr double most = 1e6; // ns; sums over the cells of a rank stay integers
+    return static_cast<unsigned int>(std::lround(std::min(1e9 * seconds, most)));
+  }
+
+
+  template <int dim>
+  void Partition<dim>::repartition(const std::function<void()> &fit)
+  {
+    const auto start = CPUClock::now();
+    find_typical_costs();
+    for (PointSet<dim> *points : sets)
+      points->handler().prepare_for_coarsening_and_refinement();
+    mesh.repartition();
+    for (PointSet<dim> *points : sets)
+      {
+        points->handler().unpack_after_coarsening_and_refinement();
+        points->sort();
+        points->costs().reinit(mesh.n_active_cells());
+      }
+    fit();
+    n_changes += sum_of_mean > 0.;
+    surplus  = 0.;
+    duration = Utilities::MPI::max(std::chrono::duration<double>(CPUClock::now() - start).count(), communicator);
+  }
+
+
+  template <int dim>
+  double Partition<dim>::imbalance()
+  {
+    collect();
+    return sum_of_mean > 0. ? sum_of_largest / sum_of_mean : 1.;
+  }
+
+  template class Partition<2>;
+  template class Partition<3>;
+} // namespace scree

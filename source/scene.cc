@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/initial/geostatic.h>
+#include <scree/initial/water_start.h>
+#include <scree/points/seeding.h>
+#include <scree/points/water_seeding.h>
+#include <scree/scene.h>
+#include <scree/scheme/coupled_scheme.h>
+#include <scree/scheme/dry_scheme.h>
+#include <scree/tensor/invariants.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm communicator)
+      : grid(parameters.grid, communicator)
+      , walls(grid, parameters.boundaries)
+      , water_walls(parameters.has_water
+                        ? std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries)
+                        : nullptr)
+      , constraints(grid, walls, water_walls.get())
+      , forcing(grid, parameters.gravity, parameters.body_force)
+      , parameters(parameters)
+      , communicator(communicator)
+  {
+    make_bodies();
+    if (parameters.surface_load.is_set())
+      loads.emplace_back(grid, parameters.surface_load);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::make_bodies()
+  {
+    // The one place that knows whose points carry the water.
+    const bool affine      = parameters.transfer.carries_affine_field();
+    const bool water_rides = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
+    for (const BodyParameters &body : parameters.bodies)
+      {
+        auto material = make_material<dim>(body.material);
+        const PropertyLayout<dim> layout(material->internal_quantities().size(),
+                                         affine,
+                                         water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0);
+        bodies.emplace_back(body.name,
+                            body.bulk_density(),
+                            body.seeding.grain_density,
+                            std::move(material),
+                            layout,
+                            grid.triangulation(),
+                            grid.mapping());
+        if (water_rides)
+          water.emplace_back(parameters.water.density, affine, bodies.back());
+      }
+    if (parameters.has_water && !water_rides)
+      water.emplace_back(parameters.water.density, affine, grid.triangulation(), grid.mapping());
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Scheme<dim>> Scene<dim>::make_scheme(TimerOutput &timer)
+  {
+    if (!parameters.has_water)
+      return std::make_unique<DryScheme<dim>>(
+          grid, constraints, forcing, parameters.transfer, parameters.stabilisation, bodies, loads, timer);
+    return std::make_unique<CoupledScheme<dim>>(grid,
+                                                constraints,
+                                                *water_walls,
+                                                forcing,
+                                                parameters.transfer,
+                                                parameters.stabilisation,
+                                                parameters.water,
+                                                parameters.pressure,
+                                                bodies,
+                                                water,
+                                                loads,
+                                                timer);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::reinit()
+  {
+    grid.distribute_nodes();
+    constraints.reinit();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::fill()
+  {
+    fill_with_points();
+    set_initial_state();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::fill_with_points()
+  {
+    auto entries = parameters.bodies.begin();
+    for (auto &body : bodies)
+      seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size());
+    const auto soil = parameters.soil_regions();
+    for (auto &part : water)
+      seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
+    for (const auto &load : loads)
+      load.require_soil(bodies, communicator);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::set_initial_state()
+  {
+    const auto soil = parameters.soil_regions();
+    std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
+    auto entries = parameters.bodies.begin();
+    for (auto &body : bodies)
+      {
+        const InitialStateParameters &state = (entries++)->initial_state;
+        if (state.stress_kind() != InitialStress::k0)
+          {
+            set_isotropic_stress(body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0.);
+            continue;
+          }
+        if (!overburden)
+          overburden = std::make_unique<Overburden<dim>>(
+              grid,
+              effective_weight_layers<dim>(soil, parameters.has_water ? &parameters.water : nullptr),
+              forcing.gravity(),
+              grid.cell_size() / 4);
+        set_k0_stress(body, *overburden, state.k0);
+      }
+    if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
+        forcing.gravity().norm() > 0)
+      {
+        Overburden<dim> water_above(
+            grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);
+        for (auto &part : water)
+          set_hydrostatic_pressure(part, water_above);
+      }
+  }
+
+
+  template <int dim>
+  Speeds Scene<dim>::speeds() const
+  {
+    Speeds largest;
+    const auto include_point = [&](const double *velocity) {
+      largest.include_point(Tensor<1, dim>(make_array_view(velocity, velocity + dim)).norm());
+    };
+    for (const auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) {
+        const double pressure = mean_effective_stress(point.properties + body.layout.stress);
+        largest.include_wave(body.wave_speed(body.material->initial_bulk_modulus(pressure)));
+        include_point(point.properties + body.layout.velocity);
+      });
+    for (const auto &part : water)
+      for_each_point(part.points(), [&](const auto &point) { include_point(point.properties + part.layout.velocity); });
+    return largest;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::stop()
+  {
+    const auto stop = [&](PointSet<dim> &points, const unsigned int velocity, const unsigned int affine) {
+      for_each_point(points, [&](const auto &point) {
+        std::fill_n(point.properties + velocity, dim, 0.);
+        if (parameters.transfer.carries_affine_field())
+          std::fill_n(point.properties + affine, dim * dim, 0.);
+      });
+    };
+    for (auto &body : bodies)
+      stop(body.points, body.layout.velocity, body.layout.affine);
+    for (auto &part : water)
+      stop(part.points(), part.layout.velocity, part.layout.affine);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::lose(const std::string &name,
+                        const LostPoint<dim> &point,
+                        const std::pair<std::string, bool> &face_and_whether_open,
+                        const unsigned int velocity_slot,
+                        const unsigned int mass_slot,
+                        const double time,
+                        double &lost_mass,
+                        RunTotals<dim> &totals) const
+  {
+    const auto &[face, is_open] = face_and_whether_open;
+    AssertThrow(is_open,
+                ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
+                           number_text(std::vector<double>(point.location.begin_raw(), point.location.end_raw())) +
+                           ") m, t = " + Utilities::to_string(time) +
+                           " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
+                           "Boundaries."));
+    const double *velocity_of_point = point.properties.data() + velocity_slot;
+    const double mass               = point.properties[mass_slot];
+    const Tensor<1, dim> velocity(make_array_view(velocity_of_point, velocity_of_point + dim));
+    lost_mass += mass;
+    totals.lost_momentum += mass * velocity;
+    totals.lost_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (point.location - Point<dim>()));
+  }
+
+
+  template <int dim>
+  void Scene<dim>::account_for_lost_points(RunTotals<dim> &totals, const double time)
+  {
+    for (auto &part : water)
+      for (const LostPoint<dim> &point : part.points().lost())
+        lose("the water",
+             point,
+             part.own_points() != nullptr ? water_walls->face_crossed(point.location)
+                                          : walls.face_crossed(point.location),
+             part.layout.velocity,
+             part.layout.mass,
+             time,
+             totals.lost_water_mass,
+             totals);
+    for (auto &body : bodies)
+      {
+        for (const LostPoint<dim> &point : body.points.lost())
+          lose(body.name,
+               point,
+               walls.face_crossed(point.location),
+               body.layout.velocity,
+               body.layout.mass,
+               time,
+               totals.lost_mass,
+               totals);
+        totals.n_lost += body.points.lost().size();
+        body.points.lost().clear();
+      }
+    for (auto &part : water)
+      part.points().lost().clear();
+    for (auto &load : loads)
+      load.points().lost().clear();
+  }
+
+  template class Scene<2>;
+  template class Scene<3>;
+} // namespace scree

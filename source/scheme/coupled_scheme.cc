@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/coupled_scheme.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  CoupledScheme<dim>::CoupledScheme(const BackgroundGrid<dim> &grid,
+                                    const Constraints<dim> &constraints,
+                                    const WaterBoundaryConditions<dim> &water_walls,
+                                    const Forcing<dim> &forcing,
+                                    const TransferParameters &transfer_parameters,
+                                    const StabilisationParameters &stabilisation,
+                                    const WaterParameters &water_parameters,
+                                    const PressureParameters &pressure_parameters,
+                                    std::list<SoilBody<dim>> &bodies,
+                                    std::list<WaterPhase<dim>> &water,
+                                    std::list<SurfaceLoad<dim>> &loads,
+                                    TimerOutput &timer)
+      : grid(grid)
+      , water_density(water_parameters.density)
+      , fluidisation_porosity(water_parameters.fluidisation_porosity)
+      , viscosity(water_parameters.viscosity)
+      , water(water)
+      , timer(timer)
+      , soil(grid, transfer_parameters, stabilisation, bodies, loads)
+      , transfer(grid,
+                 transfer_parameters,
+                 water_parameters,
+                 pressure_parameters.previous_pressure_kind() == PreviousPressure::average ? 0. : 1.)
+      , mixture(grid)
+      , pores(grid)
+      , water_field(grid)
+      , pressure(grid, water_walls, pressure_parameters, water_parameters.bulk_modulus, timer)
+      , step(grid, constraints, forcing, water_density, pressure_parameters.splitting_kind())
+  {
+    for (const auto &body : bodies)
+      shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
+    if (water_parameters.volume_correction > 0)
+      volume_correction =
+          std::make_unique<VolumeCorrection<dim>>(grid, constraints, pressure, water_parameters.volume_correction);
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::reinit()
+  {
+    soil.reinit();
+    mixture.reinit();
+    pores.reinit();
+    water_field.reinit();
+    pressure.reinit();
+    step.reinit();
+    if (volume_correction)
+      volume_correction->reinit();
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::gather()
+  {
+    mixture.clear();
+    pores.clear();
+    water_field.clear();
+    for (const auto &body : soil.all_bodies())
+      transfer.soil_to_grid(body, mixture, pores);
+    for (const auto &part : water)
+      transfer.to_grid(part, mixture, water_field);
+    mixture.finish();
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::complete_pores()
+  {
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      {
+        const MixtureCell<dim> &cell = mixture.cells()[record];
+        // An absent phase takes the other's velocity.
+        soil.field.activate_cell(cell.cell);
+        pores.activate_cell(cell.cell);
+        water_field.activate_cell(cell.cell);
+        if (cell.effective_saturation == 0 || cell.grain_volume == 0)
+          continue;
+        const unsigned int *nodes = grid.nodes(cell.cell);
+        const unsigned int n      = grid.n_nodes_1d();
+        const NodeRow *moments    = mixture.grain_moments(record);
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          pores[nodes[i]][PoreField<dim>::grain_volume] +=
+              cell.effective_saturation * moments[(i / n) * Mixture<dim>::n_moments][i % n];
+      }
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::add_pressure_forces()
+  {
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      if (const unsigned int cell = mixture.cells()[record].cell; mixture.cells()[record].water_volume > 0)
+        mixture.add_pressure_gradient(record,
+                                      multilinear_of<dim>(pressure.pressure_of(cell)),
+                                      -1.,
+                                      soil.field,
+                                      NodalField<dim>::force,
+                                      water_field,
+                                      NodalField<dim>::force);
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::read_points()
+  {
+    gather();
+    complete_pores();
+    pressure.locate(mixture);
+    soil.field.clear();
+    water_field.clear(); // sums, not velocities
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::to_grid(const double time)
+  {
+    const TimedPart part(timer, StepPart::points_to_grid);
+    soil.to_grid(time);
+    gather();
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::solve(const double time_step, StepReport<dim> &report)
+  {
+    const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
+    {
+      const TimedPart part(timer, StepPart::nodes);
+      complete_pores();
+      pressure.locate(mixture);
+      add_pressure_forces();
+      soil.field.add_contributions();
+      water_field.add_contributions();
+      pores.add_contributions();
+      step.predict(nodes, time_step, report.balance);
+      soil.field.update_ghosts();
+      water_field.update_ghosts();
+      pores.update_ghosts();
+    }
+    pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, report.balance);
+    const TimedPart part(timer, StepPart::nodes);
+    step.correct(nodes, mixture, pressure, time_step, report.balance);
+    pressure.accept_change();
+    soil.field.update_ghosts();
+    water_field.update_ghosts();
+    // The predictor has counted the load among the forces.
+    report.balance.load_impulse += soil.load_impulse(time_step);
+    report.balance.pressure_impulse -= soil.load_impulse(time_step);
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::fluidise()
+  {
+    if (fluidisation_porosity >= 1.)
+      return;
+    const double no_stress[n_symmetric_components<dim>] = {};
+    for (auto &body : soil.all_bodies())
+      {
+        const auto &layout = body.layout;
+        std::vector<double> scratch(layout.n_properties); // A state without stress must not reset internal variables.
+        for_each_point(body.points, [&](const auto &point) {
+          double *properties = point.properties;
+          if (body.porosity(properties) > fluidisation_porosity)
+            body.material->initialise(
+                no_stress, properties + layout.left_cauchy_green, properties + layout.stress, scratch.data());
+        });
+      }
+  }
+
+
+  template <int dim>
+  void CoupledScheme<dim>::to_points(const double time_step, StepReport<dim> &report)
+  {
+    {
+      const TimedPart part(timer, StepPart::stress);
+      soil.to_points(time_step, report);
+      fluidise();
+    }
+    const TimedPart part(timer, StepPart::water_points);
+    for (auto &one : water)
+      {
+        report.speeds.include_point(transfer.to_points(
+            one, water_field, [this](const unsigned int cell) { return pressure.pressure_of(cell); }, time_step));
+        if (volume_correction)
+          volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
+        if (const PointSet<dim> *own = one.own_points())
+          report.n_updates += own->handler().n_locally_owned_particles();
+      }
+  }
+
+
+  template <int dim>
+  double CoupledScheme<dim>::stable_step(const Clock &clock, const Speeds &speeds) const
+  {
+    const double step = clock.stable_step(grid.cell_size(), speeds.wave, speeds.points);
+    if (viscosity == 0.)
+      return step;
+    // The water's viscous stress is explicit.
+    return std::min(step, 0.25 / dim * grid.cell_size() * grid.cell_size() * water_density / viscosity);
+  }
+
+
+  template <int dim>
+  std::vector<PointSet<dim> *> CoupledScheme<dim>::point_sets()
+  {
+    std::vector<PointSet<dim> *> sets;
+    soil.append_point_sets(sets);
+    for (auto &one : water)
+      if (PointSet<dim> *own = one.own_points())
+        sets.push_back(own);
+    return sets;
+  }
+
+
+  template <int dim>
+  const NodalField<dim> &CoupledScheme<dim>::soil_field() const
+  {
+    return soil.field;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<WaterView<dim>> CoupledScheme<dim>::water_view() const
+  {
+    return std::make_unique<WaterView<dim>>(
+        WaterView<dim>{ water, water_field, [this](const unsigned int cell) { return pressure.pressure_of(cell); } });
+  }
+
+  template class CoupledScheme<2>;
+  template class CoupledScheme<3>;
+} // namespace scree

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/mixture_step.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    using Field = NodalField<dim>;
+
+    template <int dim>
+    Tensor<1, dim> vector_of(const double *components)
+    {
+      return Tensor<1, dim>(make_array_view(components, components + dim));
+    }
+
+    template <int dim>
+    void add_to(double *components, const Tensor<1, dim> &vector)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        components[c] += vector[c];
+    }
+
+    /// A phase without mass takes the other's vector.
+    template <int dim>
+    void follow(const DragPair<dim> &pair, SoilAndWater<dim> &vectors)
+    {
+      if (pair.soil_mass <= 0.)
+        vectors.soil = vectors.water;
+      if (pair.water_mass <= 0.)
+        vectors.water = vectors.soil;
+    }
+
+    /// Another rank may see a node on which no point acts.
+    template <int dim>
+    bool is_empty(const MixtureNodes<dim> &nodes, const unsigned int node)
+    {
+      return nodes.soil[node][Field<dim>::mass] <= 0. && nodes.water[node][Field<dim>::mass] <= 0.;
+    }
+
+    template <int dim>
+    Tensor<1, dim> velocity_of_sums(const double *values)
+    {
+      const double mass = values[Field<dim>::mass];
+      return mass > 0. ? vector_of<dim>(values + Field<dim>::momentum) / mass : Tensor<1, dim>();
+    }
+
+    template <int dim>
+    Tensor<1, dim> velocity_at_start(const double *values)
+    {
+      return vector_of<dim>(values + Field<dim>::velocity) - vector_of<dim>(values + Field<dim>::velocity_change);
+    }
+
+    template <int dim>
+    void write_motion(double *values, const Tensor<1, dim> &before, const Tensor<1, dim> &after)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          values[Field<dim>::velocity + c]        = after[c];
+          values[Field<dim>::velocity_change + c] = after[c] - before[c];
+        }
+    }
+  } // namespace
+
+
+  template <int dim>
+  MixtureStep<dim>::MixtureStep(const BackgroundGrid<dim> &grid,
+                                const Constraints<dim> &constraints,
+                                const Forcing<dim> &forcing,
+                                const double water_density,
+                                const Splitting splitting)
+      : constraints(constraints)
+      , forcing(forcing)
+      , grid(grid)
+      , water_density(water_density)
+      , splitting(splitting)
+      , friction(constraints)
+      , pressure_impulses(grid.numbering())
+  {
+    friction.reinit(grid.n_owned_nodes());
+  }
+
+
+  template <int dim>
+  void MixtureStep<dim>::reinit()
+  {
+    friction.reinit(grid.n_owned_nodes());
+    pressure_impulses.reinit();
+  }
+
+
+  template <int dim>
+  DragPair<dim> MixtureStep<dim>::pair_at(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  {
+    DragPair<dim> pair;
+    pair.soil_mass  = nodes.soil[node][Field<dim>::mass];
+    pair.water_mass = nodes.water[node][Field<dim>::mass];
+    pair.drag       = nodes.pores[node][PoreField<dim>::drag];
+    if (const NodeConstraints<dim> *walls = constraints.at(node))
+      {
+        pair.held_soil  = friction.held(node);
+        pair.held_water = walls->water_held;
+      }
+    return pair;
+  }
+
+
+  template <int dim>
+  void
+  MixtureStep<dim>::finish_pores(const MixtureNodes<dim> &nodes, const unsigned int node, const double time_step) const
+  {
+    double *pore             = nodes.pores[node];
+    const double soil_mass   = nodes.soil[node][Field<dim>::mass];
+    const double water_mass  = nodes.water[node][Field<dim>::mass];
+    const double volume      = water_mass / water_density;
+    const double pore_volume = pore[PoreField<dim>::pore_volume];
+    pore[PoreField<dim>::drag] *=
+        soil_mass <= 0. || water_mass <= 0. ? 0. : time_step * drag_share(volume, pore_volume);
+    const double grains                  = pore[PoreField<dim>::grain_volume];
+    pore[PoreField<dim>::grain_fraction] = grains > 0. ? grains / (grains + volume) : 0.;
+  }
+
+
+  template <int dim>
+  SoilAndWater<dim> MixtureStep<dim>::impulses_at(const MixtureNodes<dim> &nodes,
+                                                  const unsigned int node,
+                                                  const double time_step,
+                                                  StepBalance<dim> &balance) const
+  {
+    const Tensor<1, dim> push = forcing.acceleration(node);
+    const auto impulse_of     = [&](const double *values) {
+      const double mass          = values[Field<dim>::mass];
+      const Tensor<1, dim> force = vector_of<dim>(values + Field<dim>::force);
+      balance.pressure_impulse += time_step * force; // Stress adds up to nothing.
+      balance.body_impulse += mass * time_step * push;
+      return vector_of<dim>(values + Field<dim>::momentum) + time_step * (force + mass * push);
+    };
+    SoilAndWater<dim> impulses{ impulse_of(nodes.soil[node]), impulse_of(nodes.water[node]) };
+    if (forcing.is_damped())
+      {
+        const double decay = forcing.decay(time_step);
+        balance.wall_impulse -= (1. - decay) * (impulses.soil + impulses.water);
+        impulses.soil *= decay;
+        impulses.water *= decay;
+      }
+    return impulses;
+  }
+
+
+  template <int dim>
+  SoilAndWater<dim> MixtureStep<dim>::stop_at_walls(const MixtureNodes<dim> &nodes,
+                                                    const unsigned int node,
+                                                    SoilAndWater<dim> &impulses,
+                                                    const SoilAndWater<dim> &before,
+                                                    StepBalance<dim> &balance)
+  {
+    DragPair<dim> pair      = pair_at(nodes, node);
+    SoilAndWater<dim> after = pair.solve(impulses);
+    if (pair.soil_mass > 0. && friction.find_contact(node, after.soil))
+      {
+        impulses.soil += friction.resist(node, pair_at(nodes, node), impulses);
+        balance.wall_impulse += friction.resistance(node);
+        pair  = pair_at(nodes, node);
+        after = pair.solve(impulses);
+      }
+    if (pair.is_held())
+      {
+        const SoilAndWater<dim> walls = pair.reactions(impulses, after);
+        balance.wall_impulse += walls.soil + walls.water;
+        // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
+        balance.wall_dissipation -=
+            0.5 * (walls.soil * (before.soil + after.soil) + walls.water * (before.water + after.water));
+      }
+    follow(pair, after);
+    return after;
+  }
+
+
+  template <int dim>
+  void MixtureStep<dim>::predict(const MixtureNodes<dim> &nodes, const double time_step, StepBalance<dim> &balance)
+  {
+    friction.clear();
+    for (const unsigned int node : nodes.pores.active_nodes())
+      {
+        if (is_empty(nodes, node))
+          continue;
+        finish_pores(nodes, node, time_step);
+        SoilAndWater<dim> before{ velocity_of_sums<dim>(nodes.soil[node]), velocity_of_sums<dim>(nodes.water[node]) };
+        SoilAndWater<dim> impulses    = impulses_at(nodes, node, time_step, balance);
+        const SoilAndWater<dim> after = stop_at_walls(nodes, node, impulses, before, balance);
+        // A phase that is absent has no motion of its own to change.
+        if (nodes.soil[node][Field<dim>::mass] <= 0.)
+          before.soil = after.soil;
+        if (nodes.water[node][Field<dim>::mass] <= 0.)
+          before.water = after.water;
+        write_motion(nodes.soil[node], before.soil, after.soil);
+        write_motion(nodes.water[node], before.water, after.water);
+      }
+  }
+
+
+  template <int dim>
+  void MixtureStep<dim>::sum_pressure_impulses(const Mixture<dim> &mixture,
+                                               const PorePressure<dim> &pressure,
+                                               const double time_step)
+  {
+    pressure_impulses.clear();
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      {
+        const MixtureCell<dim> &cell = mixture.cells()[record];
+        pressure_impulses.activate_cell(cell.cell);
+        if (cell.water_volume > 0)
+          mixture.add_pressure_gradient(record,
+                                        multilinear_of<dim>(pressure.change_of(cell.cell)),
+                                        -time_step,
+                                        pressure_impulses,
+                                        0,
+                                        pressure_impulses,
+                                        dim);
+      }
+    pressure_impulses.add_contributions();
+  }
+
+
+  template <int dim>
+  void MixtureStep<dim>::correct_at_walls(const unsigned int node,
+                                          const DragPair<dim> &pair,
+                                          const SoilAndWater<dim> &impulses,
+                                          const SoilAndWater<dim> &before,
+                                          const Tensor<1, dim> &soil_predicted,
+                                          SoilAndWater<dim> &change,
+                                          StepBalance<dim> &balance) const
+  {
+    const SoilAndWater<dim> walls = pair.reactions(impulses, change);
+    balance.wall_impulse += walls.soil + walls.water;
+    // Before the correction the nodes were at rest there, so that only the start's velocity counts.
+    balance.wall_dissipation -= 0.5 * (walls.soil * before.soil + walls.water * before.water);
+    const Tensor<1, dim> soil_after = soil_predicted + change.soil;
+    const Tensor<1, dim> more       = friction.adjust(node, walls.soil, pair.soil_mass, soil_after);
+    const SoilAndWater<dim> further = pair.solve({ more, Tensor<1, dim>() });
+    change.soil += further.soil;
+    change.water += further.water;
+    balance.wall_impulse += more;
+    balance.wall_dissipation -= 0.5 * (friction.resistance(node) + more) * (before.soil + soil_after + further.soil);
+  }
+
+
+  template <int dim>
+  void MixtureStep<dim>::correct(const MixtureNodes<dim> &nodes,
+                                 const Mixture<dim> &mixture,
+                                 const PorePressure<dim> &pressure,
+                                 const double time_step,
+                                 StepBalance<dim> &balance)
+  {
+    sum_pressure_impulses(mixture, pressure, time_step);
+    for (const unsigned int node : nodes.pores.active_nodes())
+      {
+        if (is_empty(nodes, node))
+          continue;
+        double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
+        const SoilAndWater<dim> impulses{ vector_of<dim>(pressure_impulses[node]),
+                                          vector_of<dim>(pressure_impulses[node] + dim) };
+        balance.pressure_impulse += impulses.soil + impulses.water;
+        DragPair<dim> pair = pair_at(nodes, node);
+        const double drag  = pair.drag;
+        if (splitting == Splitting::classical)
+          pair.drag = 0.;
+        SoilAndWater<dim> change = pair.solve(impulses);
+        const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
+        const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);
+        const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;
+        if (pair.is_held())
+          correct_at_walls(node, pair, impulses, before, soil_predicted, change, balance);
+        follow(pair, change);
+        for (const unsigned int first : { Field<dim>::velocity, Field<dim>::velocity_change })
+          {
+            add_to(of_soil + first, change.soil);
+            add_to(of_water + first, change.water);
+          }
+        const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;
+        // The work of an impulse, as at walls; the classical splitting's drag knows the predicted velocities only.
+        balance.drag_dissipation += 0.5 * drag * (splitting == Splitting::classical ? slip_predicted : slip) *
+                                    (before.water - before.soil + slip);
+      }
+  }
+
+  template class MixtureStep<2>;
+  template class MixtureStep<3>;
+} // namespace scree

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/pore_pressure.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  PorePressure<dim>::PorePressure(const BackgroundGrid<dim> &grid,
+                                  const WaterBoundaryConditions<dim> &walls,
+                                  const PressureParameters &parameters,
+                                  const double bulk_modulus,
+                                  TimerOutput &timer)
+      : grid(grid)
+      , splitting(parameters.splitting_kind())
+      , previous_pressure(parameters.previous_pressure_kind())
+      , projection(parameters.projection)
+      , bulk_modulus(bulk_modulus)
+      , timer(timer)
+      , corners(numbered(grid))
+      , surface(grid, corners, walls, parameters.free_surface_kind())
+      , divergence(grid, corners, parameters.divergence_kind())
+      , solver(grid, corners, parameters)
+  {
+    reinit_vectors();
+  }
+
+
+  template <int dim>
+  NodeNumbering<dim> PorePressure<dim>::numbered(const BackgroundGrid<dim> &grid)
+  {
+    NodeNumbering<dim> corners(Basis::linear);
+    corners.distribute(grid.triangulation(), grid.cell_size());
+    return corners;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::reinit()
+  {
+    corners.distribute(grid.triangulation(), grid.cell_size());
+    surface.reinit();
+    solver.reinit();
+    reinit_vectors();
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::reinit_vectors()
+  {
+    for (CornerVector *vector : { &pressure, &kept_pressure, &change, &source })
+      reinit(*vector);
+    has_grid_pressure = false;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::locate(const Mixture<dim> &mixture)
+  {
+    const bool keeps = previous_pressure == PreviousPressure::grid && has_grid_pressure;
+    if (keeps)
+      kept_pressure = pressure;
+    surface.locate(mixture, pressure);
+    if (keeps || previous_pressure == PreviousPressure::dropped)
+      for (const unsigned int corner : surface.wet_corners())
+        if (surface.kind(corner) == CornerKind::unknown)
+          pressure.local_element(corner) = keeps ? kept_pressure.local_element(corner) : 0.;
+    has_grid_pressure = true;
+    pressure.update_ghost_values();
+    surface.extrapolate(mixture, pressure);
+  }
+
+
+  template <int dim>
+  typename PorePressure<dim>::AtCorners PorePressure<dim>::at_corners(const CornerVector &values,
+                                                                      const unsigned int cell) const
+  {
+    AtCorners result;
+    for (unsigned int v = 0; v < result.size(); ++v)
+      result[v] = values.local_element(corners.nodes(cell)[v]);
+    return result;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::set_mobilities(Mixture<dim> &mixture, const double time_step) const
+  {
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    for (MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0)
+        {
+          const double V_s = cell.effective_saturation * cell.grain_volume, V_w = cell.water_volume;
+          const double a = cell.soil_mass, b = cell.water_mass;
+          double mobility = V_w * V_w / b;
+          if (a > 0.)
+            {
+              const double C = splitting == Splitting::classical
+                                   ? 0.
+                                   : drag_share(cell.water_volume, cell.pore_volume) * cell.drag * time_step;
+              mobility       = (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));
+            }
+          cell.mobility = mobility / (cell_volume * std::min(cell.fill, 1.));
+        }
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus)
+  {
+    const double storage = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
+    const double tau     = projection > 0 && shear_modulus > 0 ? projection / (2. * shear_modulus * time_step) : 0.;
+    solver.assemble(
+        mixture,
+        surface,
+        time_step,
+        [&](const unsigned int corner) { return storage * surface.water_volume(corner); },
+        tau);
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::solve(Mixture<dim> &mixture,
+                                const NodalField<dim> &soil,
+                                const NodalField<dim> &water,
+                                const PoreField<dim> &pores,
+                                const double time_step,
+                                const double shear_modulus,
+                                StepBalance<dim> &balance)
+  {
+    {
+      const TimedPart part(timer, StepPart::pressure_system);
+      divergence.integrate(mixture, soil, water, pores, source);
+      set_mobilities(mixture, time_step);
+      assemble(mixture, time_step, shear_modulus);
+    }
+    const TimedPart part(timer, StepPart::pressure_solve);
+    const SolveReport report = solver.solve(source, pressure, change);
+    solver.judge_preconditioner(report);
+    count(report, balance);
+    change.update_ghost_values();
+    surface.extrapolate(mixture, change);
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::accept_change()
+  {
+    for (const unsigned int corner : surface.wet_corners())
+      if (surface.kind(corner) != CornerKind::dry)
+        pressure.local_element(corner) += change.local_element(corner);
+    pressure.update_ghost_values();
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::solve_potential(const Mixture<dim> &mixture,
+                                          const CornerVector &source,
+                                          CornerVector &potential,
+                                          StepBalance<dim> &balance)
+  {
+    count(solver.solve(source, pressure, potential), balance);
+    potential.update_ghost_values();
+    surface.extrapolate(mixture, potential);
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::count(const SolveReport &report, StepBalance<dim> &balance) const
+  {
+    if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) != 0)
+      return; // All ranks took part; one tells.
+    balance.n_iterations += report.n_iterations;
+    balance.n_preconditioners += report.made_preconditioner;
+  }
+
+  template class PorePressure<2>;
+  template class PorePressure<3>;
+} // namespace scree

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/soil_motion.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  SoilMotion<dim>::SoilMotion(const BackgroundGrid<dim> &grid,
+                              const TransferParameters &transfer,
+                              const StabilisationParameters &stabilisation,
+                              std::list<SoilBody<dim>> &bodies,
+                              std::list<SurfaceLoad<dim>> &loads)
+      : field(grid)
+      , grid(grid)
+      , transfer(grid, transfer, stabilisation)
+      , bodies(bodies)
+      , loads(loads)
+  {
+  }
+
+
+  template <int dim>
+  void SoilMotion<dim>::reinit()
+  {
+    field.reinit();
+  }
+
+
+  template <int dim>
+  void SoilMotion<dim>::to_grid(const double time)
+  {
+    step_start = time;
+    load       = 0.;
+    field.clear();
+    for (const auto &body : bodies)
+      transfer.to_grid(body, field);
+    for (const auto &one : loads)
+      load += add_load(one, time, grid, field);
+  }
+
+
+  template <int dim>
+  void SoilMotion<dim>::to_points(const double time_step, StepReport<dim> &report)
+  {
+    for (auto &body : bodies)
+      {
+        const MotionReport motion = transfer.to_points(body, field, time_step);
+        report.speeds.include_wave(body.wave_speed(motion.material.largest_bulk_modulus));
+        report.speeds.include_point(motion.largest_speed);
+        report.material.add(motion.material);
+        report.n_updates += motion.material.n_updates;
+      }
+    for (auto &one : loads)
+      report.balance.load_work += move_load(one, step_start, grid, field, time_step);
+  }
+
+
+  template <int dim>
+  void SoilMotion<dim>::append_point_sets(std::vector<PointSet<dim> *> &sets)
+  {
+    for (auto &body : bodies)
+      sets.push_back(&body.points);
+    for (auto &one : loads)
+      sets.push_back(&one.points());
+  }
+
+  template class SoilMotion<2>;
+  template class SoilMotion<3>;
+} // namespace scree

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/shape_functions.h>
+#include <scree/scheme/volume_correction.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  VolumeCorrection<dim>::VolumeCorrection(const BackgroundGrid<dim> &grid,
+                                          const Constraints<dim> &constraints,
+                                          PorePressure<dim> &pressure,
+                                          const double part)
+      : grid(grid)
+      , constraints(constraints)
+      , pressure(pressure)
+      , part(part)
+      , shifts(grid.numbering())
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void VolumeCorrection<dim>::reinit()
+  {
+    pressure.reinit(source);
+    pressure.reinit(potential);
+    shifts.reinit();
+  }
+
+
+  template <int dim>
+  void
+  VolumeCorrection<dim>::find_potential(const Mixture<dim> &mixture, const double time_step, StepBalance<dim> &balance)
+  {
+    const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
+    source                                 = 0.;
+    for (const unsigned int corner : surface.wet_corners())
+      if (surface.kind(corner) == CornerKind::unknown && surface.is_free_water(corner))
+        source.local_element(corner) = part * (surface.fill(corner) - 1.) * surface.volume_under(corner) / time_step;
+    pressure.solve_potential(mixture, source, potential, balance);
+  }
+
+
+  template <int dim>
+  void VolumeCorrection<dim>::find_shifts(const Mixture<dim> &mixture,
+                                          const NodalField<dim> &water_field,
+                                          const PoreField<dim> &pores,
+                                          const double time_step)
+  {
+    shifts.clear();
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      if (const MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
+        {
+          shifts.activate_cell(cell.cell);
+          mixture.add_pressure_gradient(record,
+                                        multilinear_of<dim>(pressure.at_corners(potential, cell.cell)),
+                                        -time_step * time_step,
+                                        shifts,
+                                        0,
+                                        shifts,
+                                        dim);
+        }
+    shifts.add_contributions();
+    const double most = 0.1 * grid.cell_size();
+    for (const unsigned int node : shifts.active_nodes())
+      {
+        const double mass = water_field[node][NodalField<dim>::mass];
+        const bool moves  = mass > 0. && !(pores[node][PoreField<dim>::grain_fraction] > 0.);
+        double *values    = shifts[node] + dim;
+        Tensor<1, dim> shift;
+        for (unsigned int c = 0; c < dim && moves; ++c)
+          shift[c] = std::clamp(values[c] / mass, -most, most);
+        if (const NodeConstraints<dim> *walls = constraints.at(node))
+          shift = walls->water_held.free_part(shift);
+        for (unsigned int c = 0; c < dim; ++c)
+          values[c] = shift[c];
+      }
+    shifts.update_ghosts();
+  }
+
+
+  template <int dim>
+  void VolumeCorrection<dim>::apply(WaterPhase<dim> &water,
+                                    const Mixture<dim> &mixture,
+                                    const NodalField<dim> &water_field,
+                                    const PoreField<dim> &pores,
+                                    const double time_step,
+                                    StepBalance<dim> &balance)
+  {
+    if (part == 0. || water.own_points() == nullptr)
+      return;
+    find_potential(mixture, time_step, balance);
+    find_shifts(mixture, water_field, pores, time_step);
+    for_each_point(water.points(), [&](const auto &point) {
+      Tensor<1, dim> shift;
+      visit_nodes(grid, point.cell, point.reference_location, [&](const unsigned int node, const double shape) {
+        for (unsigned int c = 0; c < dim; ++c)
+          shift[c] += shape * shifts[node][dim + c];
+      });
+      point.location += shift;
+    });
+  }
+
+  template class VolumeCorrection<2>;
+  template class VolumeCorrection<3>;
+} // namespace scree

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Points of the left half of a box cost nine times those of the right: the ranks' shares of cost are even after a
+// repartition by cost, those of points before. A measurement that was interrupted spoils nothing.
+
+#include <scree/points/partition.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/mapping_cartesian.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+using namespace dealii;
+using namespace scree;
+
+namespace
+{
+  constexpr double cheap = 1e-6, dear = 9e-6; // s
+
+  template <int dim>
+  double true_cost(const typename Triangulation<dim>::cell_iterator &cell)
+  {
+    return cell->center()[0] < 0.5 ? dear : cheap;
+  }
+
+  /// Rank 0's processor is busy for 30 ms, the others' for 10 ms.
+  void work_unevenly(const MPI_Comm communicator)
+  {
+    const double wanted = Utilities::MPI::this_mpi_process(communicator) == 0 ? 0.03 : 0.01;
+    const auto start    = CPUClock::now();
+    while (std::chrono::duration<double>(CPUClock::now() - start).count() < wanted)
+      {
+      }
+  }
+} // namespace
+
+
+template <int dim>
+void test(std::ostream &out)
+{
+  parallel::distributed::Triangulation<dim> mesh(
+      MPI_COMM_WORLD, Triangulation<dim>::none, parallel::distributed::Triangulation<dim>::no_automatic_repartitioning);
+  GridGenerator::hyper_cube(mesh);
+  mesh.refine_global(dim == 2 ? 5 : 4);
+  const MappingCartesian<dim> mapping;
+  PointSet<dim> points(mesh, mapping, 1);
+  unsigned int id = 0;
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (unsigned int p = 0; p < 2; ++p, ++id)
+        points.handler().insert_particle(cell->center(), Point<dim>() + Tensor<1, dim>(), id, cell);
+  points.handler().update_cached_numbers();
+  points.sort();
+
+  Partition<dim> partition(mesh, { &points });
+  const auto share = [&](const auto &cost_of) {
+    double cost = 0;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        cost += points.handler().n_particles_in_cell(cell) * cost_of(cell);
+    const auto of_ranks = Utilities::MPI::min_max_avg(cost, MPI_COMM_WORLD);
+    return of_ranks.max < 1.02 * of_ranks.avg ? "even" : "uneven";
+  };
+  const auto tell = [&](const std::string &when) {
+    out << when << ": points " << share([](const auto &) { return 1.; }) << ", cost " << share(true_cost<dim>)
+        << ", points in all " << points.handler().n_global_particles() << std::endl;
+  };
+
+  out << dim << "D" << std::endl;
+  out << "at the start, worth changing: " << partition.is_worth_changing() << std::endl;
+  tell("as made");
+  for (unsigned int step = 0; step < 50; ++step)
+    {
+      partition.begin_step();
+      if (step == 20)
+        work_unevenly(MPI_COMM_WORLD);
+      partition.finish(Work::to_points);
+      partition.wait();
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned() && step % 10 == 0)
+          points.costs().add(cell->active_cell_index(), step == 30 ? 1. : true_cost<dim>(cell));
+    }
+  const bool is_worth_changing = partition.is_worth_changing();
+  out << "rank 0 works three times as long, worth changing: " << is_worth_changing << std::endl;
+  const double imbalance = partition.imbalance();
+  out << "imbalance " << (imbalance > 1.2 ? "above" : "below") << " 1.2" << std::endl;
+  unsigned int n_fits = 0;
+  partition.repartition([&] { ++n_fits; });
+  tell("shared out anew");
+  out << "fitted " << n_fits << " time, changed " << partition.n_repartitions() << " time" << std::endl;
+}
+
+
+int main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::ostringstream silent;
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test<2>(out);
+  test<3>(out);
+}
