@@ -6,6 +6,7 @@
 #include <scree/scene.h>
 #include <scree/scheme/coupled_scheme.h>
 #include <scree/scheme/dry_scheme.h>
+#include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -43,7 +44,7 @@ namespace scree
     for (const BodyParameters &body : parameters.bodies)
       {
         auto material = make_material<dim>(body.material);
-        const PropertyLayout<dim> layout(material->internal_variable_names().size(),
+        const PropertyLayout<dim> layout(material->internal_quantities().size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0);
         bodies.emplace_back(body.name,

@@ -21,6 +21,7 @@ namespace scree
     /// @param width of the cell, m
     explicit CellSums(const double width)
         : width(width)
+        , inverse_width(1. / width)
     {
     }
 
@@ -62,7 +63,7 @@ namespace scree
     template <typename Matrix>
     void add_force(const PointShape<dim, n> &shape, const double volume, const Matrix &stress)
     {
-      const double scale = -volume / width;
+      const double scale = -volume * inverse_width;
       for (unsigned int c = 0; c < dim; ++c)
         {
           const NodeRow along_x = shape.derivative_x * (scale * stress[c][0]);
@@ -99,7 +100,7 @@ namespace scree
   private:
     using Field = NodalField<dim>;
 
-    const double width;
+    const double width, inverse_width;
     NodeRow sums[n_rows][Field::n_components] = {};
   };
 
@@ -125,6 +126,7 @@ namespace scree
     /// @param width of the cell, m
     CellVelocity(const unsigned int *nodes, const NodalField<dim> &field, const double width)
         : width(width)
+        , inverse_width(1. / width)
     {
       for (unsigned int r = 0; r < n_rows; ++r)
         {
@@ -155,8 +157,7 @@ namespace scree
                 const double keep,
                 const double time_step) const
     {
-      const double inverse_width = 1. / width;
-      double square              = 0;
+      double square = 0;
       for (unsigned int c = 0; c < dim; ++c)
         {
           const NodeRow along       = contract(shape.rows.value, velocity[c]);
@@ -194,7 +195,7 @@ namespace scree
   private:
     static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
 
-    const double width;
+    const double width, inverse_width;
     NodeRow velocity[dim][n_rows];
     NodeRow change[dim][n_rows];
   };
