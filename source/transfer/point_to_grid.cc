@@ -20,9 +20,12 @@ namespace scree
           const PointShape<dim, n> shape(point.reference_location, open);
           const double *properties = point.properties;
           const double mass        = properties[layout.mass];
-          sums.add_mass(shape, mass);
-          sums.template add_momentum<method>(shape, mass, properties + layout.velocity, properties + layout.affine);
-          sums.add_force(shape, properties[layout.volume], matrix_of_components<dim>(properties + layout.stress));
+          sums.add(
+              shape,
+              sums.mass_part(shape, mass),
+              sums.template momentum_part<method>(
+                  shape, mass, properties + layout.velocity, properties + layout.affine),
+              sums.force_part(shape, properties[layout.volume], matrix_of_components<dim>(properties + layout.stress)));
         });
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);

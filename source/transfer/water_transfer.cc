@@ -225,9 +225,9 @@ namespace scree
           const PointShape<dim, n> shape(point.reference_location, open);
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
-          sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
+          sums.add(shape, sums.template momentum_part<method>(shape, mass, properties + layout.velocity, affine));
           if (method == TransferMethod::tpic && viscosity > 0)
-            sums.add_force(shape, volume, viscous_stress<dim>(viscosity, affine));
+            sums.add(shape, sums.force_part(shape, volume, viscous_stress<dim>(viscosity, affine)));
           add_moments(shape, volume, moments);
 
           std::array<double, dim> rise;

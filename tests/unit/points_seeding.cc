@@ -47,30 +47,30 @@ void test(const std::string &name,
       SeedingParameters seeding;
       seeding.region          = shape.region;
       seeding.points_per_cell = points_per_cell;
-      SoilBody<dim> body("Soil",
+      SoilBody<dim> soil("Soil",
                          density,
                          density,
                          make_material<dim>(material),
                          PropertyLayout<dim>(0, false),
                          grid.triangulation(),
                          grid.mapping());
-      seed(body, seeding, grid.triangulation(), grid.cell_size());
+      seed(soil, seeding, grid.triangulation(), grid.cell_size());
 
       double mass    = 0;
       unsigned int n = 0;
-      for_each_point(body.points, [&](const auto &point) {
+      for_each_point(soil.points, [&](const auto &point) {
         ++n;
         const double *properties = point.properties;
-        mass += properties[body.layout.mass];
-        AssertThrow(properties[body.layout.volume] > 0 &&
-                        std::abs(properties[body.layout.mass] / properties[body.layout.volume] / density - 1.) < 1e-14,
+        mass += properties[soil.layout.mass];
+        AssertThrow(properties[soil.layout.volume] > 0 &&
+                        std::abs(properties[soil.layout.mass] / properties[soil.layout.volume] / density - 1.) < 1e-14,
                     ExcMessage("A point's mass is not its volume times the density."));
         for (unsigned int a = 0; a < dim; ++a)
           AssertThrow(point.reference_location[a] >= 0. && point.reference_location[a] <= 1. &&
                           point.location[a] > 0. && point.location[a] < upper_corner[a],
                       ExcMessage("A point lies outside its cell."));
       });
-      AssertThrow(n == body.points.handler().n_locally_owned_particles(), ExcMessage("cells() misses points."));
+      AssertThrow(n == soil.points.handler().n_locally_owned_particles(), ExcMessage("cells() misses points."));
       mass = Utilities::MPI::sum(mass, MPI_COMM_WORLD);
       n    = Utilities::MPI::sum(n, MPI_COMM_WORLD);
 

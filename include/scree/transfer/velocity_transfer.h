@@ -15,6 +15,8 @@ namespace scree
   template <int dim, int n>
   class CellSums
   {
+    using Field = NodalField<dim>;
+
   public:
     static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
 
@@ -25,20 +27,29 @@ namespace scree
     {
     }
 
-    /// Adds m phi_i of a point.
-    void add_mass(const PointShape<dim, n> &shape, const double mass)
+    /// Adds parts of one point, as the functions below make them, in one walk over the rows of nodes: a walk each costs
+    /// a tenth more in three dimensions.
+    template <typename... Parts>
+    void add(const PointShape<dim, n> &shape, const Parts &...parts)
     {
-      const NodeRow mass_x = shape.value_x * mass;
       for (unsigned int r = 0; r < n_rows; ++r)
-        sums[r][Field::mass] += mass_x * shape.rows.value[r];
+        (parts(shape.rows, r, sums[r]), ...);
     }
 
-    /// Adds m phi_i (v + C (x_i - x)) of a point, with C = 0 for FLIP and PIC.
+    /// m phi_i.
+    static auto mass_part(const PointShape<dim, n> &shape, const double mass)
+    {
+      return [mass_x = shape.value_x * mass](const auto &rows, const unsigned int r, NodeRow *row) {
+        row[Field::mass] += mass_x * rows.value[r];
+      };
+    }
+
+    /// m phi_i (v + C (x_i - x)), with C = 0 for FLIP and PIC. What C does along the rows is added at once.
     ///
     /// @param velocity the point's slots
     /// @param affine its slots of the affine field, which FLIP and PIC do not read
     template <TransferMethod method>
-    void add_momentum(const PointShape<dim, n> &shape, const double mass, const double *velocity, const double *affine)
+    auto momentum_part(const PointShape<dim, n> &shape, const double mass, const double *velocity, const double *affine)
     {
       NodeRow momentum[dim];
       for (unsigned int c = 0; c < dim; ++c)
@@ -52,31 +63,34 @@ namespace scree
                                     [this](const unsigned int r, const unsigned int c, const NodeRow &part) {
                                       sums[r][Field::momentum + c] += part;
                                     });
-      for (unsigned int r = 0; r < n_rows; ++r)
+      return [momentum](const auto &rows, const unsigned int r, NodeRow *row) {
         for (unsigned int c = 0; c < dim; ++c)
-          sums[r][Field::momentum + c] += momentum[c] * shape.rows.value[r];
+          row[Field::momentum + c] += momentum[c] * rows.value[r];
+      };
     }
 
-    /// Adds -V sigma grad phi_i of a point.
+    /// -V sigma grad phi_i.
     ///
     /// @param stress symmetric, dim x dim, Pa
     template <typename Matrix>
-    void add_force(const PointShape<dim, n> &shape, const double volume, const Matrix &stress)
+    auto force_part(const PointShape<dim, n> &shape, const double volume, const Matrix &stress) const
     {
       const double scale = -volume * inverse_width;
+      NodeRow along_x[dim], along_other[dim][dim - 1];
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const NodeRow along_x = shape.derivative_x * (scale * stress[c][0]);
-          NodeRow along[dim - 1];
+          along_x[c] = shape.derivative_x * (scale * stress[c][0]);
           for (unsigned int a = 1; a < dim; ++a)
-            along[a - 1] = shape.value_x * (scale * stress[c][a]);
-          for (unsigned int r = 0; r < n_rows; ++r)
-            {
-              sums[r][Field::force + c] += along_x * shape.rows.value[r];
-              for (unsigned int a = 0; a < dim - 1; ++a)
-                sums[r][Field::force + c] += along[a] * shape.rows.derivative[a][r];
-            }
+            along_other[c][a - 1] = shape.value_x * (scale * stress[c][a]);
         }
+      return [along_x, along_other](const auto &rows, const unsigned int r, NodeRow *row) {
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            row[Field::force + c] += along_x[c] * rows.value[r];
+            for (unsigned int a = 0; a < dim - 1; ++a)
+              row[Field::force + c] += along_other[c][a] * rows.derivative[a][r];
+          }
+      };
     }
 
     /// The mass at a row of nodes.
@@ -98,8 +112,6 @@ namespace scree
     }
 
   private:
-    using Field = NodalField<dim>;
-
     const double width, inverse_width;
     NodeRow sums[n_rows][Field::n_components] = {};
   };
