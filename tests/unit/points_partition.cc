@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Points of the left half of a box cost nine times those of the right: the ranks' shares of cost are even after a
+// Points of the lower half of a box cost nine times those of the upper: the ranks' shares of cost are even after a
 // repartition by cost, those of points before. A measurement that was interrupted spoils nothing.
 
 #include <scree/points/partition.h>
@@ -9,9 +9,9 @@
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/grid/grid_generator.h>
 
+#include <chrono>
 #include <iostream>
 #include <sstream>
-#include <thread>
 
 using namespace dealii;
 using namespace scree;
@@ -23,13 +23,13 @@ namespace
   template <int dim>
   double true_cost(const typename Triangulation<dim>::cell_iterator &cell)
   {
-    return cell->center()[0] < 0.5 ? dear : cheap;
+    return cell->center()[dim - 1] < 0.5 ? dear : cheap;
   }
 
   /// Rank 0's processor is busy for 30 ms, the others' for 10 ms.
-  void work_unevenly(const MPI_Comm communicator)
+  void work_unevenly()
   {
-    const double wanted = Utilities::MPI::this_mpi_process(communicator) == 0 ? 0.03 : 0.01;
+    const double wanted = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? 0.03 : 0.01;
     const auto start    = CPUClock::now();
     while (std::chrono::duration<double>(CPUClock::now() - start).count() < wanted)
       {
@@ -51,7 +51,7 @@ void test(std::ostream &out)
   for (const auto &cell : mesh.active_cell_iterators())
     if (cell->is_locally_owned())
       for (unsigned int p = 0; p < 2; ++p, ++id)
-        points.handler().insert_particle(cell->center(), Point<dim>() + Tensor<1, dim>(), id, cell);
+        points.handler().insert_particle(cell->center(), Point<dim>(), id, cell);
   points.handler().update_cached_numbers();
   points.sort();
 
@@ -76,7 +76,7 @@ void test(std::ostream &out)
     {
       partition.begin_step();
       if (step == 20)
-        work_unevenly(MPI_COMM_WORLD);
+        work_unevenly();
       partition.finish(Work::to_points);
       partition.wait();
       for (const auto &cell : mesh.active_cell_iterators())
