@@ -134,7 +134,10 @@ namespace scree
     wait();
     agree_on(step.speeds);
     check_speed(time_step);
-    Utilities::MPI::max(has_left, communicator, has_left);
+    {
+      const TimedPart part(timer, StepPart::waiting);
+      Utilities::MPI::max(has_left, communicator, has_left);
+    }
     hand_over(has_left);
     partition.finish(Work::to_nodes);
 

@@ -105,10 +105,15 @@ namespace scree
 
     const WorkOfRanks ranks = collect();
     const auto mean         = [&](const Work of) { return ranks.mean[unsigned(of)]; };
-    const unsigned int longer =
-        unsigned(mean(Work::to_points) > mean(Work::to_nodes) ? Work::to_points : Work::to_nodes);
-    weights = longer == unsigned(Work::to_points) ? Weights::costs : Weights::points;
-    surplus += ranks.largest[longer] - ranks.mean[longer];
+    // Works of about the same length must not take turns.
+    constexpr double clearly = 1.25;
+    if (mean(Work::to_points) > clearly * mean(Work::to_nodes))
+      weights = Weights::costs;
+    else if (mean(Work::to_nodes) > clearly * mean(Work::to_points))
+      weights = Weights::points;
+
+    const unsigned int evened_out = unsigned(weights == Weights::costs ? Work::to_points : Work::to_nodes);
+    surplus += ranks.largest[evened_out] - ranks.mean[evened_out];
     // So changes in vain, where cells are too few to be shared out evenly, take no longer than what they answer.
     return surplus > duration;
   }

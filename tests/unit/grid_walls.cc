@@ -113,7 +113,7 @@ void test_water(std::ostream &out)
               ExcMessage("The soil's walls hold the wrong components."));
   const auto friction = soil.constraints(back | top);
   AssertThrow(friction.size() == 1 && friction[0].type == NodeConstraint<3>::Type::unilateral &&
-                  friction[0].normal == Tensor<1, 3>({ 0., -1., 0. }) && !of_faces(top).any(),
+                  (friction[0].normal == Tensor<1, 3>({ 0., -1., 0. })) && !of_faces(top).any(),
               ExcMessage("The wrong walls have friction."));
   out << "water: OK" << std::endl;
 }

@@ -91,7 +91,7 @@ namespace scree
     const MPI_Comm communicator;
     const unsigned int n_ranks;
 
-    Weights weights = Weights::points;
+    Weights weights = Weights::costs;  // equal ones, until some are measured
     std::vector<double> typical_costs; // of a point of each set, s
     boost::signals2::scoped_connection weight_signal;
 
