@@ -59,11 +59,11 @@ namespace scree
     ///
     /// @param rise of the pressure along each axis over the cell's width, Pa
     template <int dim>
-    void add_to_corners(const Point<dim> &x,
-                        const double volume,
-                        const double pressure,
-                        const std::array<double, dim> &rise,
-                        MixtureCell<dim> &sums)
+    DEAL_II_ALWAYS_INLINE inline void add_to_corners(const Point<dim> &x,
+                                                     const double volume,
+                                                     const double pressure,
+                                                     const std::array<double, dim> &rise,
+                                                     MixtureCell<dim> &sums)
     {
       double pressure_at_lower = pressure;
       for (unsigned int a = 0; a < dim; ++a)
