@@ -5,22 +5,26 @@
 #include <scree/transfer/node_rows.h>
 #include <scree/transfer/transfer_parameters.h>
 
+#include <deal.II/base/config.h>
+
 namespace scree
 {
-  /// Adds the momentum of a point's affine velocity field to a cell's nodes: phi_i m C (x_i - x).
+  /// Adds the momentum of a point's affine velocity field to a cell's nodes: phi_i m C (x_i - x). Inlined by force: out
+  /// of line, points to nodes take up to a third more (2D, TPIC).
   ///
   /// @param width of the cell, m
   /// @param affine the point's slots: the velocity gradient (TPIC), or sum phi v (x_i - x)^T (APIC)
   /// @param momentum of the row of nodes, still to be multiplied with the factors of the other axes; is added to
   /// @param add_to_row called with (row, component, momentum) for what depends on the row
   template <TransferMethod method, int dim, int n, typename Function>
-  void add_affine_momentum(const PointShape<dim, n> &shape,
-                           const double width,
-                           const double mass,
-                           const double *affine,
-                           NodeRow (&momentum)[dim],
-                           const Function &add_to_row)
+  DEAL_II_ALWAYS_INLINE inline void add_affine_momentum(const PointShape<dim, n> &shape,
+                                                        const double width,
+                                                        const double mass,
+                                                        const double *affine,
+                                                        NodeRow (&momentum)[dim],
+                                                        const Function &add_to_row)
   {
+    const NodeRow value_x = shape.value_x;
     std::array<std::array<double, n>, dim> offset; // of the nodes from the point, m
     std::array<double, dim> inertia{};
     for (unsigned int a = 0; a < dim; ++a)
@@ -44,13 +48,13 @@ namespace scree
             if (method == TransferMethod::apic)
               slope[a] = inertia[a] > 1e-12 * width * width ? slope[a] / inertia[a] : 0.;
           }
-        momentum[c] += shape.value_x * offset_x * slope[0];
+        momentum[c] += value_x * offset_x * slope[0];
         for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
           {
             double along = slope[1] * offset[1][r % n];
             if constexpr (dim == 3)
               along += slope[2] * offset[2][r / n];
-            add_to_row(r, c, shape.value_x * (along * shape.rows.value[r]));
+            add_to_row(r, c, value_x * (along * shape.rows.value[r]));
           }
       }
   }
