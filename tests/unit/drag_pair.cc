@@ -45,7 +45,8 @@ int main()
       for (unsigned int c = 0; c < 2; ++c)
         {
           // Relative to what is subtracted: with much drag both velocities are nearly one.
-          const double scale = 1. + drag * (std::abs(v_s[c]) + std::abs(v_w[c]));
+          const double scale =
+              1. + drag * (angle == 0. ? std::abs(v_s[c]) + std::abs(v_w[c]) : v_s.norm() + v_w.norm());
           const double soil  = pair.soil_mass * v_s[c] + drag * (v_s[c] - v_w[c]) - r_s[c] - wall_s[c];
           const double water = pair.water_mass * v_w[c] + drag * (v_w[c] - v_s[c]) - r_w[c] - wall_w[c];
           residual           = std::max({ residual, std::abs(soil) / scale, std::abs(water) / scale });

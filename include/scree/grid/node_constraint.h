@@ -44,6 +44,12 @@ namespace scree
         basis[n_held++] = rest / size;
     }
 
+    void hold(const HeldDirections &other)
+    {
+      for (unsigned int i = 0; i < other.n_held; ++i)
+        hold(other.basis[i]);
+    }
+
     void hold_all()
     {
       for (unsigned int a = 0; a < dim; ++a)
@@ -62,8 +68,12 @@ namespace scree
     /// What is left of a vector without its components along the held directions.
     dealii::Tensor<1, dim> free_part(dealii::Tensor<1, dim> vector) const
     {
-      for (unsigned int i = 0; i < n_held; ++i)
-        vector -= (vector * basis[i]) * basis[i];
+      if (n_held == dim)
+        return dealii::Tensor<1, dim>();
+      // Twice: what rounding leaves along the held directions would be magnified by large drag.
+      for (unsigned int pass = 0; pass < 2; ++pass)
+        for (unsigned int i = 0; i < n_held; ++i)
+          vector -= (vector * basis[i]) * basis[i];
       return vector;
     }
 

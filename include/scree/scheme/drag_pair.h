@@ -36,7 +36,9 @@ namespace scree
       if (soil_mass > 0 && water_mass > 0)
         {
           // Where both can move they share the drag's impulse; where one is held, the other drags along it.
-          const dealii::Tensor<1, dim> soil_with = held_water.free_part(soil), water_with = held_soil.free_part(water);
+          HeldDirections<dim> held = held_soil;
+          held.hold(held_water);
+          const dealii::Tensor<1, dim> soil_with = held.free_part(soil), water_with = held.free_part(water);
           const double determinant            = soil_mass * water_mass + drag * (soil_mass + water_mass);
           const dealii::Tensor<1, dim> shared = drag * (soil_with + water_with);
           velocity.soil                       = (water_mass * soil_with + shared) / determinant;
