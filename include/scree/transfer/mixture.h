@@ -17,8 +17,8 @@ namespace scree
   constexpr double point_scatter = 0.3;
 
   /// Effective saturation: part of the pores that water fills; 1 also where the scatter of points explains what is
-  /// missing (CellContents::saturation() is the part itself). Without this the scatter takes buoyancy from the grains: a
-  /// saturated soil settles under its own weight by 2 % too much.
+  /// missing (CellContents::saturation() is the part itself). Without this the scatter takes buoyancy from the grains:
+  /// a saturated soil settles under its own weight by 2 % too much.
   inline double effective_saturation_of(const double water_volume, const double pore_volume)
   {
     const double full = (1. - point_scatter) * pore_volume;
