@@ -52,7 +52,7 @@ namespace scree
     scene.fill();
     folder.remove_old_results(); // not before the input has proved good
     repartition();
-    agree_on(scene.speeds());
+    measure_speeds();
     if (parameters.settling.maximum_time > 0)
       settle();
     scheme->read_points();
@@ -108,8 +108,9 @@ namespace scree
                        scene.name_of_a_point());
     progress.summarise_ranks(
         seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
-    folder.log("Results are in " + parameters.output_directory +
-               (parameters.output.graphics == "none" ? "." : " (open solution/points.pvd in ParaView)."));
+    folder.log(
+        "Results are in " + parameters.output_directory +
+        (parameters.output.graphics_kind() == Pictures::none ? "." : " (open solution/points.pvd in ParaView)."));
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
       statistics.print_last_row(std::cout);
   }
@@ -128,18 +129,7 @@ namespace scree
     scheme->solve(time_step, step);
     partition.finish(Work::to_nodes);
     scheme->to_points(time_step, step);
-    std::vector<int> has_left = update_places();
-    partition.finish(Work::to_points);
-
-    wait();
-    agree_on(step.speeds);
-    check_speed(time_step);
-    {
-      const TimedPart part(timer, StepPart::waiting);
-      Utilities::MPI::max(has_left, communicator, has_left);
-    }
-    hand_over(has_left);
-    partition.finish(Work::to_nodes);
+    place_points(time_step, step.speeds);
 
     totals.balance += step.balance;
     totals.add(step.material);
@@ -158,37 +148,45 @@ namespace scree
 
 
   template <int dim>
-  std::vector<int> Simulation<dim>::update_places()
+  void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
   {
-    const TimedPart part(timer, StepPart::sort);
-    std::vector<int> has_left;
-    for (PointSet<dim> *points : point_sets())
-      has_left.push_back(!points->update_places());
-    return has_left;
-  }
-
-
-  template <int dim>
-  void Simulation<dim>::hand_over(const std::vector<int> &has_left)
-  {
-    const TimedPart part(timer, StepPart::sort);
     const auto sets = point_sets();
+    std::vector<double> largest{ of_rank.wave, of_rank.points }; // and for each set whether a point has left its cell
+    {
+      const TimedPart part(timer, StepPart::sort);
+      for (PointSet<dim> *points : sets)
+        largest.push_back(!points->update_places());
+    }
+    partition.finish(Work::to_points);
+    agree_on(largest);
+    partition.resume();
+    check_speed(time_step);
+    const TimedPart part(timer, StepPart::sort);
     for (unsigned int s = 0; s < sets.size(); ++s)
-      if (has_left[s])
+      if (largest[2 + s] > 0)
         sets[s]->hand_over();
+    partition.finish(Work::to_nodes);
   }
 
 
   template <int dim>
-  void Simulation<dim>::agree_on(Speeds of_rank)
+  void Simulation<dim>::agree_on(std::vector<double> &largest)
   {
     const TimedPart part(timer, StepPart::waiting);
-    std::vector<double> largest{ of_rank.wave, of_rank.points };
     for (double &value : largest)
       if (std::isnan(value))
         value = std::numeric_limits<double>::infinity();
     Utilities::MPI::max(largest, communicator, largest);
     speeds = { largest[0], largest[1] };
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::measure_speeds()
+  {
+    const Speeds of_rank = scene.speeds();
+    std::vector<double> largest{ of_rank.wave, of_rank.points };
+    agree_on(largest);
   }
 
 
@@ -255,7 +253,7 @@ namespace scree
     totals.n_lost                = settled.n_lost;
     totals.lost_mass             = settled.lost_mass;
     totals.lost_water_mass       = settled.lost_water_mass;
-    agree_on(scene.speeds());
+    measure_speeds();
   }
 
 

@@ -79,14 +79,14 @@ namespace scree
     /// Waits for the slowest rank.
     void wait();
 
-    /// Sets places in cells; returns for each set of points whether one of this rank has left its cell.
-    std::vector<int> update_places();
+    /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
+    void place_points(const double time_step, const Speeds &of_rank);
 
-    /// Hands the points of such sets to the cells and ranks they are in now. Collective.
-    void hand_over(const std::vector<int> &has_left);
+    /// The speeds of the points as they are.
+    void measure_speeds();
 
-    /// Takes the largest of all ranks, for the next step.
-    void agree_on(Speeds speeds);
+    /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Collective.
+    void agree_on(std::vector<double> &largest);
 
     /// Throws if the motion is unstable.
     void check_step(const double largest_step, const double first_step) const;

@@ -56,7 +56,7 @@ namespace scree
         return interval > 0 ? std::floor(scene.end_time / interval) + 1. : 0.;
       };
       const double pictures =
-          (output.graphics == "none" ? 0. : count(output.interval)) + count(output.checkpoint_interval);
+          (output.graphics_kind() == Pictures::none ? 0. : count(output.interval)) + count(output.checkpoint_interval);
       const double rows = count(output.interval_of_statistics());
       return pictures * (picture_seconds + picture_seconds_per_point * scene.n_points()) +
              rows * (row_seconds + row_seconds_per_point * scene.n_points() + 0.5 * rows * row_seconds_per_row);

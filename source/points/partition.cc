@@ -12,6 +12,8 @@ namespace scree
 
   namespace
   {
+    using Clock = std::chrono::steady_clock;
+
     constexpr unsigned int steps_between_looks        = 50;
     constexpr unsigned int steps_between_measurements = 10;
     constexpr double cost_of_unmeasured_point         = 1e-7; // s
@@ -26,7 +28,7 @@ namespace scree
       , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
       , typical_costs(sets.size(), cost_of_unmeasured_point)
       , weight_signal(mesh.signals.weight.connect([this](const auto &cell, const auto) { return weight_of(cell); }))
-      , last(CPUClock::now())
+      , last(Clock::now())
   {
   }
 
@@ -39,7 +41,7 @@ namespace scree
     if (n_steps++ % steps_between_measurements == 0)
       for (PointSet<dim> *points : sets)
         points->costs().time_next_pass();
-    last = CPUClock::now();
+    last = Clock::now();
   }
 
 
@@ -48,7 +50,7 @@ namespace scree
   {
     if (n_ranks == 1)
       return;
-    const auto now = CPUClock::now();
+    const auto now = Clock::now();
     work[unsigned(finished)] += std::chrono::duration<double>(now - last).count();
     last = now;
   }
@@ -61,7 +63,24 @@ namespace scree
       return;
     const int error = MPI_Barrier(communicator);
     AssertThrowMPI(error);
-    last = CPUClock::now();
+    resume();
+  }
+
+
+  template <int dim>
+  void Partition<dim>::resume()
+  {
+    last = Clock::now();
+  }
+
+
+  template <int dim>
+  double Partition<dim>::number_of_points() const
+  {
+    double n_points = 0;
+    for (const PointSet<dim> *points : sets)
+      n_points += points->handler().n_locally_owned_particles();
+    return n_points;
   }
 
 
@@ -77,6 +96,8 @@ namespace scree
         sum_of_largest += of_ranks[w].max;
         sum_of_mean += of_ranks[w].avg;
       }
+    to_points += work[unsigned(Work::to_points)];
+    n_steps_in_partition += n_steps;
     work.fill(0.);
     n_steps = 0;
     return result;
@@ -90,11 +111,8 @@ namespace scree
       return false;
     if (!has_begun)
       {
-        has_begun       = true;
-        double n_points = 0;
-        for (const PointSet<dim> *points : sets)
-          n_points += points->handler().n_locally_owned_particles();
-        const auto of_ranks                   = Utilities::MPI::min_max_avg(n_points, communicator);
+        has_begun                             = true;
+        const auto of_ranks                   = Utilities::MPI::min_max_avg(number_of_points(), communicator);
         constexpr double worthwhile_imbalance = 1.02;
         for (PointSet<dim> *points : sets)
           points->costs().reinit(mesh.n_active_cells());
@@ -122,6 +140,7 @@ namespace scree
   template <int dim>
   void Partition<dim>::find_typical_costs()
   {
+    double of_cells = 0; // s a step
     for (unsigned int s = 0; s < sets.size(); ++s)
       {
         double sum = 0, n = 0;
@@ -132,9 +151,12 @@ namespace scree
               n += cell.n_points;
             }
         const double n_of_ranks = Utilities::MPI::sum(n, communicator);
-        sum                     = Utilities::MPI::sum(sum, communicator);
-        typical_costs[s]        = n_of_ranks > 0. ? sum / n_of_ranks : cost_of_unmeasured_point;
+        of_cells += sum;
+        sum              = Utilities::MPI::sum(sum, communicator);
+        typical_costs[s] = n_of_ranks > 0. ? sum / n_of_ranks : cost_of_unmeasured_point;
       }
+    // What measuring cell by cell misses belongs to all of them.
+    calibration = of_cells > 0. && n_steps_in_partition > 0 ? to_points / n_steps_in_partition / of_cells : 1.;
   }
 
 
@@ -146,9 +168,9 @@ namespace scree
       for (unsigned int s = 0; s < sets.size(); ++s)
         {
           const unsigned int index = typename Triangulation<dim>::active_cell_iterator(cell)->active_cell_index();
-          seconds +=
-              sets[s]->handler().n_particles_in_cell(cell) *
-              (weights == Weights::costs ? sets[s]->costs().of_point(index, typical_costs[s]) : typical_costs[s]);
+          seconds += sets[s]->handler().n_particles_in_cell(cell) *
+                     (weights == Weights::costs ? calibration * sets[s]->costs().of_point(index, typical_costs[s])
+                                                : typical_costs[s]);
         }
     constexpr double most = 1e6; // ns; sums over the cells of a rank stay integers
     return static_cast<unsigned int>(std::lround(std::min(1e9 * seconds, most)));
@@ -158,7 +180,7 @@ namespace scree
   template <int dim>
   void Partition<dim>::repartition(const std::function<void()> &fit)
   {
-    const auto start = CPUClock::now();
+    const auto start = Clock::now();
     find_typical_costs();
     for (PointSet<dim> *points : sets)
       points->handler().prepare_for_coarsening_and_refinement();
@@ -171,8 +193,9 @@ namespace scree
       }
     fit();
     n_changes += sum_of_mean > 0.;
-    surplus  = 0.;
-    duration = Utilities::MPI::max(std::chrono::duration<double>(CPUClock::now() - start).count(), communicator);
+    surplus = to_points  = 0.;
+    n_steps_in_partition = 0;
+    duration = Utilities::MPI::max(std::chrono::duration<double>(Clock::now() - start).count(), communicator);
   }
 
 

@@ -8,6 +8,7 @@
 #include <deal.II/distributed/tria.h>
 
 #include <array>
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -16,8 +17,8 @@ namespace scree
   /// Work of a step between two places where the ranks wait for each other.
   enum class Work
   {
-    to_nodes,  ///< sorting, points to grid, solving
-    to_points, ///< grid to points and their law, places in cells
+    to_nodes, ///< sorting, points to grid, solving
+    to_points ///< grid to points and their law, places in cells
   };
 
   /// Which rank owns which cells: measures what cells cost and how evenly ranks work, and shares the cells out anew
@@ -37,11 +38,14 @@ namespace scree
     /// A step begins; what happened since the last one is nobody's work.
     void begin_step();
 
-    /// The time of this rank's processor since the last call, or begin_step(), or wait(), was this work.
+    /// The time of this rank since the last call, or begin_step(), or resume(), was this work.
     void finish(const Work work);
 
     /// Waits for all ranks. Collective.
     void wait();
+
+    /// What happened since the last call was waiting.
+    void resume();
 
     /// Whether a new partition pays: since the last one, the slowest rank took longer beyond the mean than a
     /// repartition does. Before the first step: whether ranks hold unequal numbers of points. Looks once in some steps.
@@ -80,7 +84,9 @@ namespace scree
     /// Closes the steps that are under way; collective.
     WorkOfRanks collect();
 
-    /// Means of the measured costs, set by set; collective.
+    double number_of_points() const;
+
+    /// Means of the measured costs, set by set, and this rank's calibration; collective.
     void find_typical_costs();
 
     /// p4est's unit is ours: ns a step.
@@ -95,13 +101,16 @@ namespace scree
     std::vector<double> typical_costs; // of a point of each set, s
     boost::signals2::scoped_connection weight_signal;
 
-    dealii::CPUClock::time_point last;
-    std::array<double, n_works> work{ {} }; // of this rank, since the last collect(), s
-    bool has_begun         = false;         // whether a look was taken before
-    unsigned int n_steps   = 0;             // since the last look
-    double surplus         = 0;             // of the slowest rank's work over the mean since the last repartition, s
-    double duration        = 0;             // of the last repartition, s
-    unsigned int n_changes = 0;
+    std::chrono::steady_clock::time_point last;
+    std::array<double, n_works> work{ {} };    // of this rank, since the last collect(), s
+    double to_points                  = 0;     // work of this rank since the last repartition, up to the last look, s
+    unsigned int n_steps_in_partition = 0;     // of that work
+    double calibration                = 1;     // work to the points over what this rank's cells say
+    bool has_begun                    = false; // whether a look was taken before
+    unsigned int n_steps              = 0;     // since the last look
+    double surplus                    = 0;     // of the slowest rank's work over the mean since the last repartition, s
+    double duration                   = 0;     // of the last repartition, s
+    unsigned int n_changes            = 0;
     double sum_of_largest = 0, sum_of_mean = 0; // of the steps collected, s
   };
 } // namespace scree
