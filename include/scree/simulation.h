@@ -73,7 +73,7 @@ namespace scree
     /// Fits scene and scheme to a new partition of the mesh.
     void reinit();
 
-    /// Shares out the cells among the ranks anew, if that is due and worthwhile.
+    /// Repartitions the mesh, if that is due and worthwhile.
     void repartition();
 
     /// Waits for the slowest rank.

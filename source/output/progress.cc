@@ -97,7 +97,7 @@ namespace scree
                       100 * of_ranks.avg / total,
                       100 * of_ranks.min / total,
                       100 * of_ranks.max / total));
-    folder.log(format("imbalance: %.3f (slowest rank over mean, without waiting); cells shared out anew %u times",
+    folder.log(format("imbalance: %.3f (slowest rank over mean, without waiting); repartitioned %u times",
                       imbalance,
                       n_repartitions));
   }

@@ -29,7 +29,7 @@ namespace scree
     /// Writes how evenly several ranks have worked. Collective.
     /// @param waiting time that this rank has waited for others, s
     /// @param imbalance time of the slowest ranks over the mean, without waiting
-    /// @param n_repartitions how often cells were shared out anew
+    /// @param n_repartitions how often the mesh was repartitioned
     void summarise_ranks(const double waiting,
                          const double imbalance,
                          const unsigned int n_repartitions,

@@ -21,7 +21,7 @@ namespace scree
     to_points ///< grid to points and their law, places in cells
   };
 
-  /// Which rank owns which cells: measures what cells cost and how evenly ranks work, and shares the cells out anew
+  /// Which rank owns which cells: measures what cells cost and how evenly ranks work, and repartitions the mesh
   /// where that pays.
   ///
   /// A cut through the mesh's curve of cells can even out one kind of work: sorting and points to grid cost the same
@@ -60,7 +60,7 @@ namespace scree
     /// Collective.
     double imbalance();
 
-    /// How often cells were shared out since the first step.
+    /// How often since the first step.
     unsigned int n_repartitions() const
     {
       return n_changes;
