@@ -51,7 +51,7 @@ namespace scree
     if (n_ranks == 1)
       return;
     const auto now = Clock::now();
-    work[unsigned(finished)] += std::chrono::duration<double>(now - last).count();
+    add(finished, std::chrono::duration<double>(now - last).count());
     last = now;
   }
 
@@ -88,7 +88,8 @@ namespace scree
   typename Partition<dim>::WorkOfRanks Partition<dim>::collect()
   {
     WorkOfRanks result;
-    const auto of_ranks = Utilities::MPI::min_max_avg(std::vector<double>(work.begin(), work.end()), communicator);
+    const auto of_ranks =
+        Utilities::MPI::min_max_avg(std::vector<double>(work_of_rank.begin(), work_of_rank.end()), communicator);
     for (unsigned int w = 0; w < n_works; ++w)
       {
         result.largest[w] = of_ranks[w].max;
@@ -96,9 +97,9 @@ namespace scree
         sum_of_largest += of_ranks[w].max;
         sum_of_mean += of_ranks[w].avg;
       }
-    to_points += work[unsigned(Work::to_points)];
+    to_points += work_of_rank[unsigned(Work::to_points)];
     n_steps_in_partition += n_steps;
-    work.fill(0.);
+    work_of_rank.fill(0.);
     n_steps = 0;
     return result;
   }

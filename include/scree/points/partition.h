@@ -41,6 +41,12 @@ namespace scree
     /// The time of this rank since the last call, or begin_step(), or resume(), was this work.
     void finish(const Work work);
 
+    /// Adds to the time of a work, s.
+    void add(const Work work, const double seconds)
+    {
+      work_of_rank[unsigned(work)] += seconds;
+    }
+
     /// Waits for all ranks. Collective.
     void wait();
 
@@ -102,7 +108,7 @@ namespace scree
     boost::signals2::scoped_connection weight_signal;
 
     std::chrono::steady_clock::time_point last;
-    std::array<double, n_works> work{ {} };    // of this rank, since the last collect(), s
+    std::array<double, n_works> work_of_rank{ {} }; // of this rank, since the last collect(), s
     double to_points                  = 0;     // work of this rank since the last repartition, up to the last look, s
     unsigned int n_steps_in_partition = 0;     // of that work
     double calibration                = 1;     // work to the points over what this rank's cells say
