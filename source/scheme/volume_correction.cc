@@ -91,8 +91,8 @@ namespace scree
                                     const double time_step,
                                     StepBalance<dim> &balance)
   {
-    if (part == 0. || water.own_points() == nullptr)
-      return;
+    if (water.own_points() == nullptr)
+      return; // Water that rides on the soil's points moves with them.
     find_potential(mixture, time_step, balance);
     find_shifts(mixture, water_field, pores, time_step);
     for_each_point(water.points(), [&](const auto &point) {

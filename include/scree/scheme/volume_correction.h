@@ -13,7 +13,7 @@ namespace scree
   class VolumeCorrection
   {
   public:
-    /// @param part of the surplus that a step takes out of each corner; 0: no correction
+    /// @param part of the surplus that a step takes out of each corner, above 0
     VolumeCorrection(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      PorePressure<dim> &pressure,
