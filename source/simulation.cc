@@ -151,11 +151,11 @@ namespace scree
   void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
   {
     const auto sets = point_sets();
-    std::vector<double> largest{ of_rank.wave, of_rank.points }; // and for each set whether a point has left its cell
+    std::vector<double> largest{ of_rank.wave, of_rank.points }; // and the disorder of each set
     {
       const TimedPart part(timer, StepPart::sort);
       for (PointSet<dim> *points : sets)
-        largest.push_back(!points->update_places());
+        largest.push_back(static_cast<int>(points->update_places()));
     }
     partition.finish(Work::to_points);
     agree_on(largest);
@@ -163,8 +163,7 @@ namespace scree
     check_speed(time_step);
     const TimedPart part(timer, StepPart::sort);
     for (unsigned int s = 0; s < sets.size(); ++s)
-      if (largest[2 + s] > 0)
-        sets[s]->hand_over();
+      sets[s]->hand_over(static_cast<Disorder>(static_cast<int>(largest[2 + s])));
     partition.finish(Work::to_nodes);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/cost.h>
+#include <scree/points/point_set.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,11 +91,9 @@ namespace scree
     const double rate   = std::sqrt(scene.gravity / scene.height); // 1/s
     const double motion = flows && !scene.has_water ? std::min(scene.end_time, motion_lasts / rate) : scene.end_time;
     const double speed = std::max(scene.initial_speed, part_of_fall_speed * std::sqrt(2. * scene.gravity * scene.fall));
-    const double in_motion = step_at(stiffening(scene), speed);
-    // Points are sorted in each step in which one leaves its cell.
-    const bool sorts     = scene.n_points() * speed * in_motion > scene.cell_size;
-    const double sorting = seconds_of(first_steps, StepPart::sort);
-    const double more    = sorts && sorting > 0. ? std::max(0., first_steps.sorting - sorting) : 0.;
+    const double in_motion  = step_at(stiffening(scene), speed);
+    const double leave_cell = speed * in_motion / scene.cell_size; // part of the points, in a step
+    const double more       = first_steps.sorting * std::min(1., leave_cell / PointSet<2>::most_moved);
     add(0, motion, in_motion, flows ? 1. + substeps_of_strain * in_motion * rate / scene.substep_strain : 1., more);
     add(motion, scene.end_time, step_at(1., 0.), resting_update, 0.);
     cost.first_step     = step_at(1., scene.initial_speed);

@@ -56,10 +56,9 @@ namespace scree
     cost.seconds = Utilities::MPI::sum(processor_time() - processor_start, communicator) / cost.n_steps;
     for (const auto &[part, of_part] : parts_of())
       cost.parts[part] = cost.seconds * (of_part - before[part]) / wall;
-    // A body that has hardly moved yet is not sorted: deal.II's sort moves the points in memory, which makes ours due.
+    // A body that has hardly moved yet is not sorted.
     for (PointSet<dim> *points : simulation.point_sets())
       {
-        points->handler().sort_particles_into_subdomains_and_cells();
         const double sort_start = processor_time();
         points->sort();
         cost.sorting += Utilities::MPI::sum(processor_time() - sort_start, communicator);

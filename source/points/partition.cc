@@ -79,7 +79,7 @@ namespace scree
   {
     double n_points = 0;
     for (const PointSet<dim> *points : sets)
-      n_points += points->handler().n_locally_owned_particles();
+      n_points += points->n_points();
     return n_points;
   }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/points/point_set.h>
 
-#include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/grid/cell_id.h>
+
+#include <algorithm>
+#include <map>
 
 namespace scree
 {
@@ -10,81 +13,84 @@ namespace scree
 
   namespace
   {
-    /// The points of the cell of `first`, if they lie one behind the other in memory from there on.
+    /// Place of `x` in a cell, as by deal.II's MappingCartesian, to the last digit.
     template <int dim>
-    CellPoints<dim> points_of_cell(const Particles::ParticleHandler<dim> &handler,
-                                   Particles::ParticleIterator<dim> first)
+    Point<dim> place_in_cell(const Point<dim> &x, const Point<dim> &corner, const Tensor<1, dim> &width)
     {
-      const auto &cell      = first->get_surrounding_cell();
-      const auto properties = first->get_properties();
-
-      // The pool stores locations by value and hands out references to them: writing through them saves a
-      // set_location() call per point.
-#if DEAL_II_VERSION_GTE(9, 6, 0)
-      Point<dim> *location = &first->get_location();
-#else
-      // Before 9.6 only constant ones.
-      Point<dim> *location = const_cast<Point<dim> *>(&first->get_location());
-#endif
-      return { cell->active_cell_index(),
-               handler.n_particles_in_cell(cell),
-               unsigned(properties.size()),
-               properties.data(),
-               location,
-               &first->get_reference_location() };
+      Point<dim> place;
+      for (unsigned int a = 0; a < dim; ++a)
+        place[a] = (x[a] - corner[a]) / width[a];
+      return place;
     }
 
 
     template <int dim>
-    bool operator==(const CellPoints<dim> &one, const CellPoints<dim> &other)
+    bool is_inside(const Point<dim> &place)
     {
-      return one.cell == other.cell && one.n_points == other.n_points && one.properties == other.properties &&
-             one.location == other.location && one.reference_location == other.reference_location;
+      bool inside = true;
+      for (unsigned int a = 0; a < dim; ++a)
+        inside = inside && place[a] >= 0. && place[a] <= 1.;
+      return inside;
     }
 
 
-    /// Sets the points' places in their cells. Returns whether all points are still there, and in memory as `cells`
-    /// says, so that sorting would change nothing; if not, some places are not set.
     template <int dim>
-    bool set_places(Particles::ParticleHandler<dim> &handler, const std::vector<CellPoints<dim>> &cells)
+    Tensor<1, dim> width_of(const typename Triangulation<dim>::active_cell_iterator &cell)
     {
-      auto listed = cells.begin();
-      for (auto point = handler.begin(); point != handler.end(); ++listed)
-        {
-          if (listed == cells.end() || !(points_of_cell(handler, point) == *listed))
-            return false;
+      Tensor<1, dim> width;
+      for (unsigned int a = 0; a < dim; ++a)
+        width[a] = cell->vertex(1 << a)[a] - cell->vertex(0)[a];
+      return width;
+    }
 
-          // As in deal.II's MappingCartesian, to the last digit.
-          const auto &cell        = point->get_surrounding_cell();
-          const Point<dim> corner = cell->vertex(0);
-          Tensor<1, dim> width;
-          for (unsigned int a = 0; a < dim; ++a)
-            width[a] = cell->vertex(1 << a)[a] - corner[a];
 
-          for (unsigned int p = 0; p < listed->n_points; ++p, ++point)
-            {
-              Point<dim> place = listed->location[p];
-              bool is_in_place = &point->get_location() == listed->location + p;
-              for (unsigned int a = 0; a < dim; ++a)
-                {
-                  place[a]    = (place[a] - corner[a]) / width[a];
-                  is_in_place = is_in_place && place[a] >= 0. && place[a] <= 1.;
-                }
-              if (!is_in_place)
-                return false;
-              point->set_reference_location(place);
-            }
-        }
-      return listed == cells.end();
+    /// The cell one or no step from `cell` along each axis that holds `x`; no valid one if there is none on this rank.
+    template <int dim>
+    typename Triangulation<dim>::active_cell_iterator
+    neighbour_with(const typename Triangulation<dim>::active_cell_iterator &start, const Point<dim> &x)
+    {
+      typename Triangulation<dim>::cell_iterator cell = start;
+      const Point<dim> place                          = place_in_cell(x, cell->vertex(0), width_of<dim>(start));
+      for (unsigned int a = 0; a < dim; ++a)
+        if (place[a] < 0. || place[a] > 1.)
+          {
+            const unsigned int face = 2 * a + (place[a] > 1. ? 1 : 0);
+            if (cell->at_boundary(face))
+              return {};
+            cell = cell->neighbor(face);
+            if (!cell->is_active() || cell->is_artificial())
+              return {};
+          }
+      const typename Triangulation<dim>::active_cell_iterator found = cell;
+      if (!is_inside(place_in_cell(x, found->vertex(0), width_of<dim>(found))))
+        return {};
+      return found;
     }
   } // namespace
+
+
+  template <int dim>
+  struct PointSet<dim>::Record
+  {
+    CellId::binary_type cell; // where it goes
+    Point<dim> location;      // m
+    Point<dim> reference_location;
+    types::particle_index id;
+    std::vector<double> properties;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &cell &location &reference_location &id &properties;
+    }
+  };
 
 
   template <int dim>
   PointSet<dim>::PointSet(const Triangulation<dim> &triangulation,
                           const Mapping<dim> &mapping,
                           const unsigned int n_properties)
-      : communicator(triangulation.get_communicator())
+      : mesh(triangulation)
       , n_properties(n_properties)
       , particle_handler(triangulation, mapping, n_properties)
   {
@@ -96,40 +102,180 @@ namespace scree
 
 
   template <int dim>
-  void PointSet<dim>::sort()
-  {
-    if (Utilities::MPI::min<int>(update_places(), communicator) == 0)
-      hand_over();
-  }
+  PointSet<dim>::~PointSet() = default;
 
 
   template <int dim>
-  bool PointSet<dim>::update_places()
+  void PointSet<dim>::sort()
   {
-    return set_places(particle_handler, cell_list);
+    particle_handler.sort_particles_into_subdomains_and_cells();
+    n_moved = 0;
+    list_all_cells();
   }
 
 
   template <int dim>
   void PointSet<dim>::hand_over()
   {
-    particle_handler.sort_particles_into_subdomains_and_cells();
-    update_cells();
+    const int disorder = static_cast<int>(update_places());
+    hand_over(static_cast<Disorder>(Utilities::MPI::max(disorder, mesh.get_communicator())));
   }
 
 
   template <int dim>
-  void PointSet<dim>::update_cells()
+  Disorder PointSet<dim>::update_places()
   {
-    cell_list.clear();
-    const_cell_list.clear();
+    const bool found_all = set_places();
+    // From the last one on: where a point is taken out, the last one of its cell takes its number.
+    std::for_each(leavers.rbegin(), leavers.rend(), [this](const Leaver &leaver) { move(leaver); });
+    if (!leavers.empty())
+      list_cells();
+    if (!found_all || n_moved > most_moved * n_points())
+      return Disorder::far;
+    return emigrants.empty() ? Disorder::none : Disorder::beside_a_border;
+  }
+
+
+  template <int dim>
+  bool PointSet<dim>::set_places()
+  {
+    bool found_all = true;
+    auto &pool     = particle_handler.get_property_pool();
+    leavers.clear();
+    for (unsigned int c = 0; c < cell_list.size(); ++c)
+      {
+        const CellPoints<dim> &points = cell_list[c];
+        const CellIterator &cell      = filled[c].iterator;
+        const Point<dim> corner       = cell->vertex(0);
+        const Tensor<1, dim> width    = width_of<dim>(cell);
+        for (unsigned int p = 0; p < points.n_points; ++p)
+          {
+            const Point<dim> &x    = points.location_of(p);
+            const Point<dim> place = place_in_cell(x, corner, width);
+            if (is_inside(place))
+              pool.set_reference_location(points.slots[p], place);
+            else if (const CellIterator to = neighbour_with(cell, x); to.state() == IteratorState::valid)
+              leavers.push_back({ cell, to, p });
+            else
+              found_all = false;
+          }
+      }
+    return found_all;
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::move(const Leaver &leaver)
+  {
+    auto point = particle_handler.particles_in_cell(leaver.from).begin();
+    std::advance(point, leaver.point);
+    const auto properties = point->get_properties();
+    const Record record{ leaver.to->id().template to_binary<dim>(),
+                         point->get_location(),
+                         place_in_cell(point->get_location(), leaver.to->vertex(0), width_of<dim>(leaver.to)),
+                         point->get_id(),
+                         { properties.begin(), properties.end() } };
+    particle_handler.remove_particle(point);
+    if (leaver.to->is_locally_owned())
+      insert(leaver.to, record);
+    else
+      emigrants[leaver.to->subdomain_id()].push_back(record);
+    ++n_moved;
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::insert(const CellIterator &cell, const Record &record)
+  {
+    if (particle_handler.n_particles_in_cell(cell) == 0)
+      newly_filled.push_back({ cell->active_cell_index(), cell });
+    particle_handler.insert_particle(record.location, record.reference_location, record.id, cell, record.properties);
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::hand_over(const Disorder disorder)
+  {
+    if (disorder == Disorder::none)
+      return;
+    exchange();
+    if (disorder == Disorder::far)
+      sort();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::exchange()
+  {
+    const auto immigrants = Utilities::MPI::some_to_some(mesh.get_communicator(), emigrants);
+    emigrants.clear();
+    for (const auto &[rank, records] : immigrants)
+      for (const Record &record : records)
+        insert(mesh.create_cell_iterator(CellId(record.cell)), record);
+    particle_handler.update_cached_numbers();
+    if (!immigrants.empty())
+      list_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::list_all_cells()
+  {
+    filled.clear();
+    newly_filled.clear();
     for (auto point = particle_handler.begin(); point != particle_handler.end();)
       {
-        const auto cell = points_of_cell(particle_handler, point);
-        cell_list.push_back(cell);
+        const CellIterator cell = point->get_surrounding_cell();
+        newly_filled.push_back({ cell->active_cell_index(), cell });
+        point = particle_handler.particles_in_cell(cell).end();
+      }
+    list_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::list_cells()
+  {
+    const auto is_empty = [this](const Cell &cell) { return particle_handler.n_particles_in_cell(cell.iterator) == 0; };
+    std::sort(newly_filled.begin(), newly_filled.end());
+    const auto n_before = filled.size();
+    filled.insert(filled.end(), newly_filled.begin(), newly_filled.end());
+    newly_filled.clear();
+    std::inplace_merge(filled.begin(), filled.begin() + n_before, filled.end());
+    // A cell that emptied and filled again stands there twice.
+    filled.erase(
+        std::unique(filled.begin(), filled.end(), [](const Cell &a, const Cell &b) { return a.index == b.index; }),
+        filled.end());
+    filled.erase(std::remove_if(filled.begin(), filled.end(), is_empty), filled.end());
+
+    slots.clear();
+    for (const Cell &cell : filled)
+      for (const auto &point : particle_handler.particles_in_cell(cell.iterator))
+        slots.push_back(point.get_local_index());
+    cell_list.clear();
+    const_cell_list.clear();
+    if (filled.empty())
+      return;
+
+    // The pool stores records slot by slot and hands out references to them: writing through them saves a call per
+    // point.
+    auto &pool = particle_handler.get_property_pool();
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+    Point<dim> *locations = &pool.get_location(0);
+#else
+    // Before 9.6 only constant ones.
+    Point<dim> *locations = const_cast<Point<dim> *>(&pool.get_location(0));
+#endif
+    double *properties          = pool.get_properties(0).data();
+    const unsigned int *of_cell = slots.data();
+    for (const Cell &cell : filled)
+      {
+        const auto n = particle_handler.n_particles_in_cell(cell.iterator);
+        cell_list.push_back(
+            { cell.index, unsigned(n), of_cell, n_properties, properties, locations, &pool.get_reference_location(0) });
         const_cell_list.push_back(
-            { cell.cell, cell.n_points, cell.stride, cell.properties, cell.location, cell.reference_location });
-        point = particle_handler.particles_in_cell(point->get_surrounding_cell()).end();
+            { cell.index, unsigned(n), of_cell, n_properties, properties, locations, &pool.get_reference_location(0) });
+        of_cell += n;
       }
   }
 

@@ -195,7 +195,7 @@ namespace scree
         if (volume_correction)
           volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
         if (const PointSet<dim> *own = one.own_points())
-          report.n_updates += own->handler().n_locally_owned_particles();
+          report.n_updates += own->n_points();
       }
   }
 

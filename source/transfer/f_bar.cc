@@ -20,7 +20,7 @@ namespace scree
       double weighted = 0, volume = 0;
       for (unsigned int p = 0; p < points.n_points; ++p)
         {
-          const double *b = points.left_cauchy_green + p * points.stride;
+          const double *b = points.left_cauchy_green + points.offset(p);
           weighted += motion.volume[p] * std::log(determinant_of_components<dim>(b));
           volume += motion.volume[p];
         }
@@ -28,7 +28,7 @@ namespace scree
       const double mean = std::exp(weighted / volume);
       for (unsigned int p = 0; p < points.n_points; ++p)
         {
-          double *b          = points.left_cauchy_green + p * points.stride;
+          double *b          = points.left_cauchy_green + points.offset(p);
           const double scale = std::cbrt(mean / determinant_of_components<dim>(b));
           for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
             b[c] *= scale;

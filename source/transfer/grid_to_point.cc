@@ -40,11 +40,11 @@ namespace scree
         for (unsigned int p = 0; p < cell.n_points; ++p)
           {
             double *properties = cell.properties_of(p);
-            const PointShape<dim, n> shape(cell.reference_location[p], open);
+            const PointShape<dim, n> shape(cell.reference_location_of(p), open);
             Tensor<2, dim> gradient;
             const double square = nodes.template move<method>(
                 shape,
-                { properties + layout.velocity, properties + layout.affine, cell.location + p, &gradient },
+                { properties + layout.velocity, properties + layout.affine, &cell.location_of(p), &gradient },
                 keep,
                 time_step);
             if (!(square <= largest_square)) // keeps a NaN

@@ -200,7 +200,7 @@ namespace scree
         fault = entry_message("Surface load",
                               "Lower corner",
                               number_text(corner),
-                              "the patch must lie on soil, and around " + point_text(cell.location[0]) +
+                              "the patch must lie on soil, and around " + point_text(cell.location_of(0)) +
                                   " there is none. Move it to the surface of a body.");
     throw_on_all_ranks(fault, communicator);
   }

@@ -241,7 +241,7 @@ void test_checkpoint(std::ostream &out)
   double found = 0;
   for (const auto &cell : marker.cells())
     for (unsigned int p = 0; p < cell.n_points; ++p)
-      found += cell.properties[p] + cell.location[p].distance(place);
+      found += cell.properties_of(p)[0] + cell.location_of(p).distance(place);
   expect(Utilities::MPI::sum(found, MPI_COMM_WORLD), 9., 1e-12, "the marker's property");
   expect(soil.handler().n_global_particles(), dim == 2 ? 128 : 2048, 0., "number of soil points");
   expect(empty.handler().n_global_particles(), 0., 0., "number of points of the empty set");

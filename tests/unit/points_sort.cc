@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Sorting points: places in cells, cells, ranks and memory come out as deal.II's own sort leaves them, to the last
-// digit, whether points stay in their cells, change cells and ranks, or leave the mesh; and while all stay, nothing
-// moves in memory.
+// Handing points over: places in cells, cells and ranks come out as deal.II's own sort leaves them, to the last digit,
+// whether points stay in their cells, change cells and ranks, or leave the mesh; cells are in order; and while few
+// change cells, nothing moves in memory.
 
 #include "random_numbers.h"
 
@@ -14,7 +14,9 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <iostream>
+#include <map>
 #include <sstream>
+#include <tuple>
 
 using namespace dealii;
 using namespace scree;
@@ -28,11 +30,6 @@ void test(std::ostream &out)
   const MappingCartesian<dim> mapping;
   PointSet<dim> points(mesh, mapping, 1), peer(mesh, mapping, 1);
 
-  const auto sort_by_deal_ii = [&] {
-    peer.handler().sort_particles_into_subdomains_and_cells();
-    peer.update_cells();
-  };
-
   unsigned int id = 0;
   for (const auto &cell : mesh.active_cell_iterators())
     {
@@ -43,48 +40,56 @@ void test(std::ostream &out)
             for (unsigned int a = 0; a < dim; ++a)
               reference[a] = 0.2 + 0.3 * p;
             const Point<dim> x = mapping.transform_unit_to_real_cell(cell, reference);
-            std::vector<double> number{ 1. * id };
+            std::vector<double> number{ 0. }; // one for each point, whatever its rank
+            for (unsigned int a = 0; a < dim; ++a)
+              number[0] = 10 * number[0] + x[a];
             for (PointSet<dim> *set : { &points, &peer })
-              set->handler().insert_particle(x, reference, id, cell, number);
+              set->handler().insert_particle(x, reference, id + p, cell, number);
           }
       id += 3;
     }
   points.handler().update_cached_numbers();
   peer.handler().update_cached_numbers();
   points.sort();
-  sort_by_deal_ii();
+  peer.sort();
 
   RandomNumbers random;
+  // Both sets list their points in an order of their own: by number, they move alike.
   const auto shake = [&](const double most) {
-    for (unsigned int c = 0; c < points.cells().size(); ++c)
-      for (unsigned int p = 0; p < points.cells()[c].n_points; ++p)
-        for (unsigned int a = 0; a < dim; ++a)
-          {
-            const double step = random.uniform(-most, most);
-            points.cells()[c].location[p][a] += step;
-            peer.cells()[c].location[p][a] += step;
-          }
+    std::map<double, Tensor<1, dim>> steps;
+    for_each_point(points, [&](const auto &point) {
+      for (unsigned int a = 0; a < dim; ++a)
+        steps[*point.properties][a] = random.uniform(-most, most);
+      point.location += steps[*point.properties];
+    });
+    for_each_point(peer, [&](const auto &point) { point.location += steps.at(*point.properties); });
   };
 
+  /// Cell, location and place of each point, by its number.
+  using Contents         = std::map<double, std::tuple<unsigned int, Point<dim>, Point<dim>>>;
+  const auto contents_of = [](const PointSet<dim> &set) {
+    Contents contents;
+    for_each_point(set, [&](const auto &point) {
+      contents[*point.properties] = { point.cell, point.location, point.reference_location };
+    });
+    return contents;
+  };
   unsigned int n_differences = 0, n_steps_in_place = 0;
   const auto compare = [&] {
-    n_differences += points.cells().size() != peer.cells().size();
-    for (unsigned int c = 0; c < std::min(points.cells().size(), peer.cells().size()); ++c)
+    const Contents one = contents_of(points), other = contents_of(peer);
+    n_differences += one.size() != other.size() || points.n_points() != one.size() ||
+                     points.handler().n_locally_owned_particles() != one.size() ||
+                     points.lost().size() != peer.lost().size();
+    for (const auto &[number, content] : one)
+      n_differences += other.count(number) == 0 || other.at(number) != content;
+    unsigned int last = 0;
+    for (const auto &cell : points.cells())
       {
-        const CellPoints<dim> &one = points.cells()[c], &other = peer.cells()[c];
-        if (one.cell != other.cell || one.n_points != other.n_points)
-          {
-            ++n_differences;
-            continue;
-          }
-        for (unsigned int p = 0; p < one.n_points; ++p)
-          n_differences += !(one.location[p] == other.location[p]) +
-                           !(one.reference_location[p] == other.reference_location[p]) +
-                           (one.properties[p] != other.properties[p]);
+        n_differences += cell.cell < last;
+        last = cell.cell;
       }
-    n_differences += points.lost().size() != peer.lost().size();
   };
-  const auto place_in_memory = [&] { return points.cells().empty() ? nullptr : points.cells().front().location; };
+  const auto place_in_memory = [&] { return points.cells().empty() ? nullptr : points.cells().front().locations; };
 
   const auto walk = [&](const unsigned int n_steps, const double most) {
     n_steps_in_place = 0;
@@ -92,8 +97,8 @@ void test(std::ostream &out)
       {
         shake(most);
         const auto before = place_in_memory();
-        points.sort();
-        sort_by_deal_ii();
+        points.hand_over();
+        peer.sort();
         n_steps_in_place += place_in_memory() == before; // deal.II's sort writes to new memory
         compare();
       }
@@ -111,16 +116,16 @@ void test(std::ostream &out)
   out << "leave the mesh, too: ";
   walk(10, 0.04);
 
-  // Points that were taken out and put back lie in memory as they came: nothing may be left as it is.
+  // Points that were taken out and put back lie in memory as they came.
   points.handler().prepare_for_coarsening_and_refinement();
   peer.handler().prepare_for_coarsening_and_refinement();
   mesh.repartition();
   points.handler().unpack_after_coarsening_and_refinement();
   peer.handler().unpack_after_coarsening_and_refinement();
   points.sort();
-  sort_by_deal_ii();
+  peer.sort();
   compare();
-  out << "after sharing out cells anew: ";
+  out << "after a repartition: ";
   walk(10, 0.01);
 }
 

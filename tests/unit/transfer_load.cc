@@ -82,23 +82,21 @@ void test(const std::string &basis,
   field.update_ghosts();
 
   std::vector<Point<dim>> before;
-  for (const auto &cell : load.points().cells())
-    before.insert(before.end(), cell.location, cell.location + cell.n_points);
+  for_each_point(load.points(), [&](const auto &marker) { before.push_back(marker.location); });
   double work = move_load(load, time, grid, field, step);
   auto from   = before.begin();
-  for (const auto &cell : load.points().cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p, ++from)
-      {
-        Point<dim> expected = *from + step * velocity(*from);
-        for (unsigned int a = 0; a < dim; ++a)
-          expected[a] = std::clamp(expected[a], grid.lower_corner()[a], grid.upper_corner()[a]);
-        AssertThrow((cell.location[p] - expected).norm() < 1e-14, ExcMessage("A marker does not move with the soil."));
-      }
+  for_each_point(load.points(), [&](const auto &marker) {
+    Point<dim> expected = *from + step * velocity(*from);
+    ++from;
+    for (unsigned int a = 0; a < dim; ++a)
+      expected[a] = std::clamp(expected[a], grid.lower_corner()[a], grid.upper_corner()[a]);
+    AssertThrow((marker.location - expected).norm() < 1e-14, ExcMessage("A marker does not move with the soil."));
+  });
   work       = Utilities::MPI::sum(work, MPI_COMM_WORLD);
   nodal_work = Utilities::MPI::sum(nodal_work, MPI_COMM_WORLD);
   AssertThrow(std::abs(work / nodal_work - 1.) < 1e-12, ExcMessage("The work is not that of the nodes."));
   const auto n_before = load.points().handler().n_global_particles();
-  load.points().sort();
+  load.points().hand_over();
   AssertThrow(load.points().handler().n_global_particles() == n_before, ExcMessage("Markers are lost."));
   out << dim << "D " << basis << ": " << n_before << " markers, OK" << std::endl;
 }

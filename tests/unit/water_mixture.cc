@@ -81,7 +81,7 @@ void test(const std::string &basis, std::ostream &out)
       for (unsigned int a = 0; a < dim; ++a)
         point.location[a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
     });
-    points.sort();
+    points.hand_over();
   };
   shake(soil.points);
   shake(water.points());

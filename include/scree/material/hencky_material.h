@@ -205,9 +205,9 @@ namespace scree
         motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment[p],
                                                          dim == 2 ? motion.out_of_plane_stretch[p] : 1,
                                                          motion.volume_ratio[p],
-                                                         points.left_cauchy_green + p * points.stride,
-                                                         points.internal_variables + p * points.stride,
-                                                         points.stress + p * points.stride,
+                                                         points.left_cauchy_green + points.offset(p),
+                                                         points.internal_variables + points.offset(p),
+                                                         points.stress + points.offset(p),
                                                          report);
   }
 

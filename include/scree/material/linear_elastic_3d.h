@@ -26,7 +26,7 @@ namespace scree
       own.largest_bulk_modulus = bulk;
       for (unsigned int p = 0; p < points.n_points; ++p)
         {
-          double *b = points.left_cauchy_green + p * points.stride, *stress = points.stress + p * points.stride;
+          double *b = points.left_cauchy_green + points.offset(p), *stress = points.stress + points.offset(p);
           double trial[6], log_b[6];
           trial_left_cauchy_green(motion.deformation_increment[p], 1., b, trial);
 

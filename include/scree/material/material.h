@@ -20,8 +20,8 @@ namespace scree
     std::string unit; ///< "-" without
   };
 
-  /// Where a law finds the state of a cell's points: `n_points` records, `stride` doubles apart; each pointer is to the
-  /// first point's slot. Tensors are stored as in tensor/components.h.
+  /// Where a law finds the state of a cell's points: records `stride` doubles apart, of which `slots` says which ones;
+  /// each pointer is into record 0. Tensors are stored as in tensor/components.h.
   template <int dim>
   struct MaterialPoints
   {
@@ -30,6 +30,13 @@ namespace scree
     double *left_cauchy_green  = nullptr; ///< Elastic b_e, n_symmetric_components<dim>
     double *stress             = nullptr; ///< Cauchy stress, Pa, tension positive, n_symmetric_components<dim>
     double *internal_variables = nullptr; ///< As named by Material::internal_quantities()
+    const unsigned int *slots  = nullptr; ///< Records of the points; null: one behind the other
+
+    /// From record 0 to the one of the cell's point `p`, doubles.
+    std::size_t offset(const unsigned int p) const
+    {
+      return stride * (slots != nullptr ? slots[p] : p);
+    }
   };
 
   /// The motion of a cell's points over a step; arrays of MaterialPoints::n_points.

@@ -9,12 +9,13 @@
 #include <deal.II/particles/particle_handler.h>
 
 #include <cstddef>
+#include <map>
 #include <type_traits>
 #include <vector>
 
 namespace scree
 {
-  /// The points of one cell, contiguous in memory. Pointers are to the first point.
+  /// The points of one cell: which slots of the rank's records they fill.
   ///
   /// @tparam Number double, or const double for points that must not change
   template <int dim, typename Number = double>
@@ -24,15 +25,28 @@ namespace scree
 
     unsigned int cell; ///< active cell index
     unsigned int n_points;
-    unsigned int stride; ///< doubles from one point's properties to the next one's
-    Number *properties;
-    Location *location; ///< m
-    const dealii::Point<dim> *reference_location;
+    const unsigned int *slots;                     ///< of the points
+    unsigned int stride;                           ///< doubles from one slot's properties to the next one's
+    Number *properties;                            ///< of slot 0
+    Location *locations;                           ///< of slot 0, m
+    const dealii::Point<dim> *reference_locations; ///< of slot 0
 
     /// Properties of the cell's point `p`.
     Number *properties_of(const unsigned int p) const
     {
-      return properties + std::size_t(p) * stride;
+      return properties + std::size_t(slots[p]) * stride;
+    }
+
+    /// Where the cell's point `p` is, m.
+    Location &location_of(const unsigned int p) const
+    {
+      return locations[slots[p]];
+    }
+
+    /// Its place in the cell, from 0 to 1 along each axis.
+    const dealii::Point<dim> &reference_location_of(const unsigned int p) const
+    {
+      return reference_locations[slots[p]];
     }
   };
 
@@ -58,30 +72,48 @@ namespace scree
     std::vector<double> properties;
   };
 
+  /// What it takes to bring all points into the cells and to the ranks that they lie in now; the ranks do what the
+  /// largest of their answers says.
+  enum class Disorder
+  {
+    none,            ///< nothing
+    beside_a_border, ///< a point lies in a cell of a neighbouring rank
+    far              ///< a point lies outside the mesh or beyond its neighbours, or records lie too far apart in memory
+  };
+
   /// A set of material points on a distributed mesh: a ParticleHandler, seen cell by cell.
+  ///
+  /// Points that change cells keep their record's slot: the handler only lists it in another cell, or passes it on to
+  /// the neighbouring rank. So a step costs nothing for empty cells and little for points that stay. Now and then
+  /// deal.II's own sort brings the records of a cell together in memory again; when it does changes no result.
   template <int dim>
   class PointSet
   {
   public:
+    /// The part of a rank's points that may change cells before records are sorted in memory again.
+    static constexpr double most_moved = 0.2;
+
     PointSet(const dealii::Triangulation<dim> &triangulation,
              const dealii::Mapping<dim> &mapping,
              const unsigned int n_properties);
+    ~PointSet();
 
-    /// Hands every point to the cell and rank it lies in now; cheap while no point of any rank has left its cell.
-    /// Collective. Points outside the mesh leave the set and are appended to lost().
+    /// Hands every point to the cell and rank it lies in, and brings the records of a cell together in memory:
+    /// deal.II's sort, for any state of the handler. Collective. Points outside the mesh leave the set and are appended
+    /// to lost().
     void sort();
 
-    /// The first half of sort(), of this rank alone: sets the points' places in their cells. Returns whether all points
-    /// of this rank are still in their cells; unless this holds on all ranks, hand_over() must follow.
-    bool update_places();
-
-    /// The other half of sort(). Collective.
+    /// The same after cells() moved, at the cost of the points that leave their cells. Collective.
     void hand_over();
 
-    /// Refreshes cells(): after points were inserted or unpacked.
-    void update_cells();
+    /// The first half of hand_over(), of this rank alone: sets the points' places in their cells, and takes those out
+    /// that left for another rank. What is left to do is for the other half, with the largest answer of all ranks.
+    Disorder update_places();
 
-    /// This rank's cells that hold points. Valid until the next sort().
+    /// The other half. Collective.
+    void hand_over(const Disorder disorder);
+
+    /// This rank's cells that hold points, in the order of their indices. Valid until the points move on.
     const std::vector<CellPoints<dim>> &cells()
     {
       return cell_list;
@@ -89,6 +121,12 @@ namespace scree
     const std::vector<ConstCellPoints<dim>> &cells() const
     {
       return const_cell_list;
+    }
+
+    /// Number of this rank's points.
+    unsigned int n_points() const
+    {
+      return slots.size();
     }
 
     /// This rank's points that left the mesh since the list was last cleared.
@@ -123,11 +161,56 @@ namespace scree
     }
 
   private:
-    const MPI_Comm communicator;
+    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
+
+    /// A cell with points.
+    struct Cell
+    {
+      unsigned int index; // active cell index
+      CellIterator iterator;
+
+      bool operator<(const Cell &other) const
+      {
+        return index < other.index;
+      }
+    };
+
+    /// A point that is no longer in its cell.
+    struct Leaver
+    {
+      CellIterator from, to;
+      unsigned int point; // number in the cell
+    };
+
+    /// What a point carries from cell to cell or rank to rank.
+    struct Record;
+
+    /// Sets the places of the points that are still in their cells, and lists the others in `leavers`. Returns whether
+    /// the cells of all were found.
+    bool set_places();
+
+    /// Hands a point on: into its cell, or among the emigrants.
+    void move(const Leaver &leaver);
+
+    void insert(const CellIterator &cell, const Record &record);
+
+    /// Sends and receives emigrants. Collective.
+    void exchange();
+
+    /// Makes cells() from the handler: all of it, or where cells filled or emptied since.
+    void list_all_cells();
+    void list_cells();
+
+    const dealii::Triangulation<dim> &mesh;
     const unsigned int n_properties;
     dealii::Particles::ParticleHandler<dim> particle_handler;
+    std::vector<Cell> filled, newly_filled;
+    std::vector<unsigned int> slots; // of all points, cell by cell
     std::vector<CellPoints<dim>> cell_list;
     std::vector<ConstCellPoints<dim>> const_cell_list; // the same cells
+    std::vector<Leaver> leavers;
+    std::map<unsigned int, std::vector<Record>> emigrants; // by rank
+    std::size_t n_moved = 0;                               // points that changed cells since the last sort()
     std::vector<LostPoint<dim>> lost_points;
     CellCosts cell_costs;
   };
@@ -139,7 +222,8 @@ namespace scree
   DEAL_II_ALWAYS_INLINE inline void for_each_point(const CellPoints<dim, Number> &cell, const Act &act)
   {
     for (unsigned int p = 0; p < cell.n_points; ++p)
-      act(PointView<dim, Number>{ cell.cell, cell.properties_of(p), cell.location[p], cell.reference_location[p] });
+      act(PointView<dim, Number>{
+          cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) });
   }
 
 

@@ -64,7 +64,8 @@ namespace scree
                points.stride(),
                cell.properties + layout.left_cauchy_green,
                cell.properties + layout.stress,
-               cell.properties + layout.internal_variables };
+               cell.properties + layout.internal_variables,
+               cell.slots };
     }
   };
 } // namespace scree
