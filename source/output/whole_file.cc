@@ -95,10 +95,12 @@ namespace scree
 
   std::string read_whole_file(const std::string &file)
   {
-    std::error_code is_none;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+      throw FileError(file + (std::filesystem::exists(file, error) ? ": is no file" : ": is missing"));
     std::ifstream in(file, std::ios::binary);
-    if (!in || !std::filesystem::is_regular_file(file, is_none))
-      throw FileError(file + (std::filesystem::exists(file, is_none) ? ": cannot be read" : ": is missing"));
+    if (!in)
+      throw FileError(file + ": cannot be read");
     std::string content{ std::istreambuf_iterator<char>(in), {} };
     if (in.bad())
       throw FileError(file + ": cannot be read to its end");
