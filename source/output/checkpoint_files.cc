@@ -104,7 +104,7 @@ namespace scree
     std::string line, label;
     std::getline(in, line);
     if (line != first_line)
-      throw FileError(path + ": is a " + line + ", which this program cannot read: it writes a " + first_line);
+      throw FileError(path + ": begins with \"" + line + "\", but this program reads \"" + first_line + '"');
     Manifest manifest;
     in >> label >> std::ws;
     std::getline(in, manifest.program);
