@@ -81,6 +81,13 @@ namespace scree
   }
 
 
+  bool CaseEntries::has_subsection(const std::string &path) const
+  {
+    return std::any_of(
+        entries.begin(), entries.end(), [&](const CaseEntry &entry) { return entry.subsection == path; });
+  }
+
+
   bool same_value(const std::string &first, const std::string &second)
   {
     const auto a = Utilities::split_string_list(single_blanks(first));

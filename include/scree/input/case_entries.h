@@ -33,6 +33,9 @@ namespace scree
     /// The entry, or nullptr if there is none.
     const CaseEntry *find(const std::string &subsection, const std::string &name) const;
 
+    /// Whether there are entries of that subsection.
+    bool has_subsection(const std::string &path) const;
+
     const std::vector<CaseEntry> &all() const
     {
       return entries;
