@@ -252,6 +252,12 @@ namespace scree
   }
 
 
+  CaseEntries Parameters::entries() const
+  {
+    return CaseEntries(handler);
+  }
+
+
   const std::string &Parameters::original() const
   {
     return file.text();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/case_changes.h>
 #include <scree/input/input_error.h>
 #include <scree/output/checkpoint.h>
 #include <scree/simulation.h>
@@ -62,14 +63,24 @@ namespace scree
   template <int dim>
   void Simulation<dim>::resume()
   {
-    load_checkpoint(
-        parameters.output_directory, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
+    const Checkpoint checkpoint = find_checkpoint(
+        parameters.output_directory, [this](const std::string &line) { folder.log(line); }, communicator);
+    const std::vector<std::string> notes = notes_on_changes(checkpoint, parameters.entries());
+    load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
+    require_entry(!(parameters.end_time < clock.time()),
+                  "",
+                  "End time",
+                  parameters.end_time,
+                  "the checkpoint " + checkpoint.folder + " is at " + number_text(clock.time()) +
+                      " s already. Write a later time.");
     if (!folder.is_writer())
       totals = RunTotals<dim>(); // The writer holds the sums.
     reinit();
     output_times.begin(clock.time());
     folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) +
-               ".");
+               ", from " + checkpoint.folder + " of " + checkpoint.manifest.program + '.');
+    for (const std::string &note : notes)
+      folder.log(note);
   }
 
 
@@ -304,9 +315,26 @@ namespace scree
   {
     const RunTotals<dim> own = totals;
     totals                   = totals.sum_over_ranks(communicator);
-    save_checkpoint(
-        parameters.output_directory, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
+    std::string fault;
+    try
+      {
+        save_checkpoint(parameters.output_directory,
+                        clock.time(),
+                        clock.step(),
+                        parameters.entries(),
+                        scene.grid,
+                        point_sets(),
+                        [&](auto &archive) { serialize_state(archive); });
+      }
+    catch (const EntryError &error)
+      {
+        fault = error.what();
+      }
     totals = own;
+    if (!fault.empty() && parameters.output.stops_without_checkpoint())
+      throw EntryError(fault);
+    if (!fault.empty())
+      folder.log("No checkpoint at t = " + Utilities::to_string(clock.time()) + " s: " + fault);
   }
 
   template class Simulation<2>;

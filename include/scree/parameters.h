@@ -6,6 +6,7 @@
 #include <scree/grid/boundary_conditions.h>
 #include <scree/grid/water_walls.h>
 #include <scree/initial/initial_state.h>
+#include <scree/input/case_entries.h>
 #include <scree/input/input_file.h>
 #include <scree/material/table.h>
 #include <scree/output/output_parameters.h>
@@ -73,6 +74,9 @@ namespace scree
 
     /// Where the bodies are, and how porous and heavy.
     std::vector<SoilRegion> soil_regions() const;
+
+    /// Every entry with its value.
+    CaseEntries entries() const;
 
     /// The text of the file as it was read.
     const std::string &original() const;

@@ -111,15 +111,6 @@ namespace scree
 
 
   template <int dim>
-  void BackgroundGrid<dim>::load(const std::string &file)
-  {
-    mesh.clear();
-    make_coarse_mesh();
-    mesh.load(file);
-  }
-
-
-  template <int dim>
   unsigned int BackgroundGrid<dim>::make_coarse_mesh()
   {
     // As many refinements as every axis allows: p4est copies the coarse cells to all ranks.

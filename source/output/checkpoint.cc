@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
 #include <scree/output/checkpoint.h>
+#include <scree/output/whole_file.h>
+#include <scree/version.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -8,8 +10,9 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <filesystem>
-#include <fstream>
+#include <cstring>
+#include <map>
+#include <sstream>
 
 namespace scree
 {
@@ -17,97 +20,361 @@ namespace scree
 
   namespace
   {
-    /// Names in the folder alternate, so that one whole checkpoint is always there.
-    std::string other(const std::string &name)
+    const std::string name_of_entries = "entries", name_of_state = "state", name_of_points = "points.";
+
+    /// What an action of this rank complains of; empty: nothing.
+    std::string fault_of(const std::function<void()> &action)
     {
-      return name == "a" ? "b" : "a";
+      try
+        {
+          action();
+        }
+      catch (const ExceptionBase &error)
+        {
+          return plain_text(error);
+        }
+      catch (const std::exception &error)
+        {
+          return error.what();
+        }
+      return "";
     }
 
-    std::string latest(const std::string &folder)
+    /// The fault of the first rank that has one, on all ranks. Collective.
+    std::string fault_of_any_rank(const std::string &fault, const MPI_Comm communicator)
     {
-      std::string name;
-      std::ifstream in(folder + "latest");
-      in >> name;
-      return name;
+      std::string result;
+      for (const std::string &other : Utilities::MPI::all_gather(communicator, fault))
+        if (result.empty())
+          result = other;
+      return result;
+    }
+
+    template <typename Value>
+    void append(std::string &buffer, const Value *values, const std::size_t n)
+    {
+      buffer.append(reinterpret_cast<const char *>(values), n * sizeof(Value));
+    }
+
+    /// Takes numbers from a file's content, as append() put them there.
+    class Reader
+    {
+    public:
+      Reader(const std::string &file, const std::string &content)
+          : file(file)
+          , next(content.data())
+          , end(content.data() + content.size())
+      {
+      }
+
+      template <typename Value>
+      void take(Value *values, const std::size_t n)
+      {
+        if (n > std::size_t(end - next) / sizeof(Value))
+          throw FileError(file + ": ends too early");
+        std::memcpy(values, next, n * sizeof(Value));
+        next += n * sizeof(Value);
+      }
+
+      std::uint64_t take()
+      {
+        std::uint64_t value;
+        take(&value, 1);
+        return value;
+      }
+
+    private:
+      const std::string file;
+      const char *next, *const end;
+    };
+
+    /// This rank's points, cell by cell: for each set the numbers of properties and of points; for each cell its id and
+    /// the number of its points; for each point its id, location, reference location and properties.
+    template <int dim>
+    std::string pack_points(const std::vector<PointSet<dim> *> &sets)
+    {
+      std::string buffer;
+      for (const PointSet<dim> *points : sets)
+        {
+          const auto &handler           = points->handler();
+          const std::uint64_t numbers[] = { points->stride(), handler.n_locally_owned_particles() };
+          append(buffer, numbers, 2);
+          for (auto point = handler.begin(); point != handler.end();)
+            {
+              const auto cell              = point->get_surrounding_cell();
+              const auto id                = cell->id().template to_binary<dim>();
+              const std::uint64_t n_points = handler.n_particles_in_cell(cell);
+              append(buffer, id.data(), id.size());
+              append(buffer, &n_points, 1);
+              for (std::uint64_t p = 0; p < n_points; ++p, ++point)
+                {
+                  const std::uint64_t number = point->get_id();
+                  append(buffer, &number, 1);
+                  append(buffer, point->get_location().begin_raw(), dim);
+                  append(buffer, point->get_reference_location().begin_raw(), dim);
+                  append(buffer, point->get_properties().data(), points->stride());
+                }
+            }
+        }
+      return buffer;
+    }
+
+
+    template <int dim>
+    using OwnCells = std::map<CellId, typename Triangulation<dim>::active_cell_iterator>;
+
+    template <int dim>
+    OwnCells<dim> own_cells(const Triangulation<dim> &mesh)
+    {
+      OwnCells<dim> cells;
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned())
+          cells.emplace(cell->id(), cell);
+      return cells;
+    }
+
+    /// Inserts the points of `cells` into the set; returns how many points the file has of it.
+    template <int dim>
+    std::uint64_t unpack_points(Reader &file, const OwnCells<dim> &cells, PointSet<dim> &points)
+    {
+      AssertThrow(file.take() == points.stride(), ExcMessage("The points have other properties than the case's."));
+      const std::uint64_t n_points = file.take();
+      std::vector<double> properties(points.stride());
+      for (std::uint64_t n = 0; n < n_points;)
+        {
+          CellId::binary_type id;
+          file.take(id.data(), id.size());
+          const auto cell               = cells.find(CellId(id));
+          const std::uint64_t n_in_cell = file.take();
+          for (std::uint64_t p = 0; p < n_in_cell; ++p, ++n)
+            {
+              const std::uint64_t number = file.take();
+              Point<dim> location, reference_location;
+              file.take(location.begin_raw(), dim);
+              file.take(reference_location.begin_raw(), dim);
+              file.take(properties.data(), properties.size());
+              if (cell != cells.end())
+                points.handler().insert_particle(location, reference_location, number, cell->second, properties);
+            }
+        }
+      return n_points;
+    }
+
+
+    /// Reads all points of a checkpoint, of which this rank keeps those in its cells; returns how many each set has.
+    template <int dim>
+    std::vector<std::uint64_t>
+    read_points(const Checkpoint &checkpoint, const Triangulation<dim> &mesh, const std::vector<PointSet<dim> *> &sets)
+    {
+      AssertThrow(checkpoint.manifest.dimension == dim, ExcMessage("It is of another dimension than the case."));
+      const OwnCells<dim> cells = own_cells(mesh);
+      std::vector<std::uint64_t> n_points(sets.size(), 0);
+      for (const CheckedFile &file : checkpoint.manifest.files)
+        if (file.name.rfind(name_of_points, 0) == 0)
+          {
+            const std::string content = read_checked_file(checkpoint.folder, file);
+            Reader reader(checkpoint.folder + '/' + file.name, content);
+            for (unsigned int s = 0; s < sets.size(); ++s)
+              n_points[s] += unpack_points(reader, cells, *sets[s]);
+          }
+      return n_points;
+    }
+
+
+    void read_state(const Checkpoint &checkpoint, const std::function<void(boost::archive::binary_iarchive &)> &state)
+    {
+      std::istringstream in(read_checked_file(checkpoint.folder, checkpoint.manifest.file(name_of_state)));
+      boost::archive::binary_iarchive archive(in);
+      state(archive);
+      if (in.peek() != std::istringstream::traits_type::eof())
+        throw FileError(checkpoint.folder + '/' + name_of_state + ": holds more than this program reads");
+    }
+
+
+    std::string packed_state(const std::function<void(boost::archive::binary_oarchive &)> &state)
+    {
+      std::ostringstream out;
+      boost::archive::binary_oarchive archive(out);
+      state(archive);
+      return out.str();
+    }
+
+
+    std::string first_line(const std::string &text)
+    {
+      return text.substr(0, text.find('\n'));
+    }
+
+
+    /// Writes this rank's `contents`, by name. Collective: all ranks get the list of all files.
+    std::vector<CheckedFile> write_files(const std::string &folder,
+                                         const std::map<std::string, std::string> &contents,
+                                         const MPI_Comm communicator)
+    {
+      std::vector<CheckedFile> own, all;
+      const std::string fault = fault_of([&] {
+        for (const auto &[name, content] : contents)
+          own.push_back(write_checked_file(folder, name, content));
+      });
+      throw_on_all_ranks(fault, communicator);
+      for (const auto &files : Utilities::MPI::all_gather(communicator, own))
+        all.insert(all.end(), files.begin(), files.end());
+      return all;
+    }
+
+
+    /// Writes a checkpoint with this rank's `contents`. Collective; throws EntryError on all ranks.
+    void write_checkpoint(const CheckpointFolder &folder,
+                          Manifest manifest,
+                          const std::map<std::string, std::string> &contents,
+                          const MPI_Comm communicator)
+    {
+      const bool writer = Utilities::MPI::this_mpi_process(communicator) == 0;
+      const auto alone  = [&](const std::function<void()> &action) {
+        throw_on_all_ranks(writer ? fault_of(action) : "", communicator);
+      };
+      alone([&] { folder.begin(); });
+      manifest.files = write_files(folder.unfinished, contents, communicator);
+      alone([&] { folder.finish(manifest); });
+    }
+
+
+    /// What a user wants to know after a checkpoint has failed.
+    std::string what_is_left(const CheckpointFolder &folder, const double time, const double n_bytes)
+    {
+      std::string names;
+      for (const std::string &name : folder.whole())
+        names += (names.empty() ? "" : " and ") + name;
+      return " The checkpoint at t = " + number_text(time) + " s needs " + std::to_string(std::uint64_t(n_bytes)) +
+             " bytes in all. " + (names.empty() ? "There is no older one." : "Still whole: " + names + '.');
     }
   } // namespace
 
 
   template <int dim>
   void save_checkpoint(const std::string &run_folder,
+                       const double time,
+                       const std::uint64_t step,
+                       const CaseEntries &entries,
                        const BackgroundGrid<dim> &grid,
                        const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_oarchive &)> &state)
   {
-    const std::string folder    = run_folder + "/checkpoint/";
+    const CheckpointFolder folder(run_folder);
     const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const bool writer           = Utilities::MPI::this_mpi_process(communicator) == 0;
-    if (writer)
-      std::filesystem::create_directories(folder);
-    const std::string name = Utilities::MPI::broadcast(communicator, other(latest(folder)));
+    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
 
-    for (PointSet<dim> *points : sets)
-      points->handler().prepare_for_serialization();
-    grid.triangulation().save(folder + name + ".mesh");
-    if (writer)
+    std::map<std::string, std::string> contents{ { name_of_points + std::to_string(rank), pack_points(sets) } };
+    if (rank == 0)
       {
-        std::ofstream file(folder + name + ".state", std::ios::binary);
-        boost::archive::binary_oarchive archive(file);
-        for (PointSet<dim> *points : sets)
-          archive << points->handler();
-        state(archive);
+        contents[name_of_state]   = packed_state(state);
+        contents[name_of_entries] = entries.text();
       }
-    MPI_Barrier(communicator);
-    if (writer)
+    try
       {
-        std::ofstream(folder + "latest.new") << name << '\n';
-        std::filesystem::rename(folder + "latest.new", folder + "latest");
+        write_checkpoint(folder, { first_line(version_text()), dim, time, step, {} }, contents, communicator);
+      }
+    catch (const EntryError &error)
+      {
+        double n_bytes = 0;
+        for (const auto &[name, content] : contents)
+          n_bytes += content.size();
+        n_bytes = Utilities::MPI::sum(n_bytes, communicator);
+        if (rank == 0)
+          folder.abandon();
+        throw_on_all_ranks(rank == 0 ? error.what() + what_is_left(folder, time, n_bytes) : "", communicator);
       }
   }
 
 
-  template <int dim>
-  void load_checkpoint(const std::string &run_folder,
-                       BackgroundGrid<dim> &grid,
-                       const std::vector<PointSet<dim> *> &sets,
-                       const std::function<void(boost::archive::binary_iarchive &)> &state)
+  Checkpoint find_checkpoint(const std::string &run_folder,
+                             const std::function<void(const std::string &)> &log,
+                             const MPI_Comm communicator)
   {
-    const std::string folder = run_folder + "/checkpoint/";
-    const std::string name   = latest(folder);
-    require_entry(!name.empty(),
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    std::string faults;
+    for (const std::string &folder : Utilities::MPI::broadcast(communicator, CheckpointFolder(run_folder).all()))
+      {
+        Checkpoint checkpoint{ folder, {}, {} };
+        const std::string fault        = fault_of([&] {
+          checkpoint.manifest = Manifest::read(folder);
+          checkpoint.entries  = CaseEntries(read_checked_file(folder, checkpoint.manifest.file(name_of_entries)));
+          const auto &files   = checkpoint.manifest.files;
+          for (unsigned int f = rank; f < files.size(); f += n_ranks)
+            read_checked_file(folder, files[f]);
+        });
+        const std::string fault_of_all = fault_of_any_rank(fault, communicator);
+        if (fault_of_all.empty())
+          return checkpoint;
+        log("The checkpoint " + folder + " is damaged and not used. " + fault_of_all + '.');
+        faults += ' ' + fault_of_all + '.';
+      }
+    require_entry(!faults.empty(),
                   "",
                   "Output directory",
                   run_folder,
                   "there is no checkpoint to resume from. Write a \"Checkpoint interval\" in subsection Output and run "
                   "without --resume first.");
+    throw EntryError(
+        entry_message("",
+                      "Output directory",
+                      run_folder,
+                      "no checkpoint there is whole." + faults + " Bring the files back, or run without --resume."));
+  }
 
-    grid.load(folder + name + ".mesh");
-    std::ifstream file(folder + name + ".state", std::ios::binary);
-    boost::archive::binary_iarchive archive(file);
+
+  template <int dim>
+  void load_checkpoint(const Checkpoint &checkpoint,
+                       const BackgroundGrid<dim> &grid,
+                       const std::vector<PointSet<dim> *> &sets,
+                       const std::function<void(boost::archive::binary_iarchive &)> &state)
+  {
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const auto on_all_ranks     = [&](const std::function<void()> &action) {
+      const std::string fault = fault_of(action);
+      throw_on_all_ranks(fault.empty() ? ""
+                                       : "The checkpoint " + checkpoint.folder + " of " + checkpoint.manifest.program +
+                                             " cannot be read. " + fault,
+                         communicator);
+    };
     for (PointSet<dim> *points : sets)
-      archive >> points->handler();
+      points->handler().clear_particles();
+    std::vector<std::uint64_t> n_points;
+    on_all_ranks([&] { n_points = read_points(checkpoint, grid.triangulation(), sets); });
     for (PointSet<dim> *points : sets)
       {
-        points->handler().deserialize();
-        points->sort();
+        points->handler().update_cached_numbers();
+        points->sort(); // brings the points of a cell together in memory
       }
-    state(archive);
+    on_all_ranks([&] {
+      for (unsigned int s = 0; s < sets.size(); ++s)
+        AssertThrow(sets[s]->handler().n_global_particles() == n_points[s],
+                    ExcMessage("Points lie in cells that the case does not have."));
+      read_state(checkpoint, state);
+    });
   }
 
   template void save_checkpoint(const std::string &,
+                                const double,
+                                const std::uint64_t,
+                                const CaseEntries &,
                                 const BackgroundGrid<2> &,
                                 const std::vector<PointSet<2> *> &,
                                 const std::function<void(boost::archive::binary_oarchive &)> &);
   template void save_checkpoint(const std::string &,
+                                const double,
+                                const std::uint64_t,
+                                const CaseEntries &,
                                 const BackgroundGrid<3> &,
                                 const std::vector<PointSet<3> *> &,
                                 const std::function<void(boost::archive::binary_oarchive &)> &);
-  template void load_checkpoint(const std::string &,
-                                BackgroundGrid<2> &,
+  template void load_checkpoint(const Checkpoint &,
+                                const BackgroundGrid<2> &,
                                 const std::vector<PointSet<2> *> &,
                                 const std::function<void(boost::archive::binary_iarchive &)> &);
-  template void load_checkpoint(const std::string &,
-                                BackgroundGrid<3> &,
+  template void load_checkpoint(const Checkpoint &,
+                                const BackgroundGrid<3> &,
                                 const std::vector<PointSet<3> *> &,
                                 const std::function<void(boost::archive::binary_iarchive &)> &);
 } // namespace scree

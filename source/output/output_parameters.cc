@@ -19,6 +19,11 @@ namespace scree
                       checkpoint_interval,
                       "Simulated time between checkpoints, from which --resume goes on, s; 0: none.",
                       Patterns::Double(0));
+    prm.add_parameter(
+        "Checkpoint failure",
+        checkpoint_failure,
+        "What follows if a checkpoint cannot be written: stop; go on (the next one is tried when it is due).",
+        Patterns::Selection("stop|go on"));
     prm.add_parameter("Graphics",
                       graphics,
                       "What is written for ParaView: points and grid, points, or none.",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
 #include <scree/output/run_folder.h>
+#include <scree/output/whole_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -67,7 +68,7 @@ namespace scree
   void RunFolder::write(const std::string &name, const std::string &text) const
   {
     if (writer)
-      std::ofstream(file(name)) << text;
+      write_whole_file(file(name), text);
   }
 
 

@@ -4,7 +4,6 @@
 // with known velocities.
 
 #include <scree/material/table.h>
-#include <scree/output/checkpoint.h>
 #include <scree/output/graphics.h>
 #include <scree/output/statistics.h>
 #include <scree/points/seeding.h>
@@ -212,42 +211,6 @@ void test_statistics(std::ostream &out)
     }
 }
 
-/// Sets of points come back from a checkpoint, an empty one among them.
-template <int dim>
-void test_checkpoint(std::ostream &out)
-{
-  const std::string folder =
-      "run_" + std::to_string(dim) + "_" + std::to_string(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
-  const Point<dim> place = dim == 2 ? Point<dim>(0.33, 0.71) : Point<dim>(0.33, 0.71, 0.12);
-  {
-    Scene<dim> saved;
-    PointSet<dim> empty(saved.grid.triangulation(), saved.grid.mapping(), 2);
-    PointSet<dim> marker(saved.grid.triangulation(), saved.grid.mapping(), 1);
-    empty.sort();
-    for (const auto &cell : saved.grid.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->point_inside(place))
-        marker.handler().insert_particle(
-            place, Point<dim>((place - cell->vertex(0)) / saved.grid.cell_size()), 0, cell, std::vector<double>{ 9. });
-    marker.handler().update_cached_numbers();
-    marker.sort();
-    save_checkpoint(folder, saved.grid, { &saved.bodies.back().points, &empty, &marker }, [](auto &) {});
-  }
-  BackgroundGrid<dim> grid(Scene<dim>::box(), MPI_COMM_WORLD);
-  PointSet<dim> soil(grid.triangulation(),
-                     grid.mapping(),
-                     PropertyLayout<dim>(0, false, WaterLayout<dim>(0, false).n_properties()).n_properties);
-  PointSet<dim> empty(grid.triangulation(), grid.mapping(), 2), marker(grid.triangulation(), grid.mapping(), 1);
-  load_checkpoint(folder, grid, { &soil, &empty, &marker }, [](auto &) {});
-  double found = 0;
-  for (const auto &cell : marker.cells())
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      found += cell.properties_of(p)[0] + cell.location_of(p).distance(place);
-  expect(Utilities::MPI::sum(found, MPI_COMM_WORLD), 9., 1e-12, "the marker's property");
-  expect(soil.handler().n_global_particles(), dim == 2 ? 128 : 2048, 0., "number of soil points");
-  expect(empty.handler().n_global_particles(), 0., 0., "number of points of the empty set");
-  out << dim << "D checkpoint: OK" << std::endl;
-}
-
 
 int main(int argc, char *argv[])
 {
@@ -260,6 +223,4 @@ int main(int argc, char *argv[])
   test_graphics<3>(out);
   test_statistics<2>(out);
   test_statistics<3>(out);
-  test_checkpoint<2>(out);
-  test_checkpoint<3>(out);
 }

@@ -34,9 +34,6 @@ namespace scree
   public:
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator);
 
-    /// Replaces the mesh by a saved one of the same box, whose nodes are still to be distributed. Collective.
-    void load(const std::string &file);
-
     /// Builds the nodes for the current partition of the mesh. Collective; called again after a repartition.
     void distribute_nodes();
 

@@ -3,6 +3,8 @@
 #define scree_output_checkpoint_h
 
 #include <scree/grid/background_grid.h>
+#include <scree/input/case_entries.h>
+#include <scree/output/checkpoint_files.h>
 #include <scree/points/point_set.h>
 
 #include <boost/archive/binary_iarchive.hpp>
@@ -14,19 +16,39 @@
 
 namespace scree
 {
-  /// Writes mesh, the points of all `sets` and `state` to the folder `checkpoint` of the run. The older checkpoint
-  /// stays valid until this one is whole: the file `latest` names the newest. Collective.
+  /// A whole checkpoint of a run.
+  struct Checkpoint
+  {
+    std::string folder;
+    Manifest manifest;
+    CaseEntries entries; ///< of the case that wrote it
+  };
+
+  /// Writes `entries`, the points of all `sets` and the `state` of a run at `time` s to a new checkpoint of the run. It
+  /// gets its name when all of it has been read again and found whole; before that no older one is touched. Collective.
+  /// Throws EntryError on all ranks if that fails: it tells the file, what the checkpoint needs and what is still
+  /// there.
   template <int dim>
   void save_checkpoint(const std::string &run_folder,
+                       const double time,
+                       const std::uint64_t step,
+                       const CaseEntries &entries,
                        const BackgroundGrid<dim> &grid,
                        const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_oarchive &)> &state);
 
-  /// Reads the newest checkpoint, on any number of ranks. The grid must be fresh, and the sets empty and in the
-  /// order in which they were saved. Collective; throws EntryError if there is no checkpoint.
+  /// The newest checkpoint of the run that is whole; `log` gets a line for each newer one that is not. Collective;
+  /// throws EntryError if there is none.
+  Checkpoint find_checkpoint(const std::string &run_folder,
+                             const std::function<void(const std::string &)> &log,
+                             const MPI_Comm communicator);
+
+  /// Reads a checkpoint, on any number of ranks. The grid must be as it was when it was written, whatever its
+  /// partition; the sets, in the order in which they were saved, lose the points they have. Collective; throws
+  /// EntryError if the files do not fit.
   template <int dim>
-  void load_checkpoint(const std::string &run_folder,
-                       BackgroundGrid<dim> &grid,
+  void load_checkpoint(const Checkpoint &checkpoint,
+                       const BackgroundGrid<dim> &grid,
                        const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_iarchive &)> &state);
 } // namespace scree

@@ -27,14 +27,22 @@ namespace scree
   /// Subsection Output.
   struct OutputParameters
   {
-    double interval            = 0.1; ///< s, of pictures
-    double statistics_interval = 0;   ///< s; 0: as pictures
-    double checkpoint_interval = 0;   ///< s; 0: none
-    std::string graphics       = "points and grid";
-    std::string screen         = "progress";
+    double interval                = 0.1; ///< s, of pictures
+    double statistics_interval     = 0;   ///< s; 0: as pictures
+    double checkpoint_interval     = 0;   ///< s; 0: none
+    std::string checkpoint_failure = "stop";
+    std::string graphics           = "points and grid";
+    std::string screen             = "progress";
 
     void add_parameters(dealii::ParameterHandler &prm);
     Screen screen_kind() const;
+
+    /// Whether a checkpoint that cannot be written ends the run.
+    bool stops_without_checkpoint() const
+    {
+      return checkpoint_failure == "stop";
+    }
+
     Pictures graphics_kind() const;
     double interval_of_statistics() const;
   };

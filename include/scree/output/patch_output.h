@@ -2,8 +2,13 @@
 #ifndef scree_output_patch_output_h
 #define scree_output_patch_output_h
 
-#include <deal.II/base/data_out_base.h>
+#include <scree/input/input_error.h>
+#include <scree/output/whole_file.h>
 
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -40,14 +45,39 @@ namespace scree
       add_range(name, 9, dealii::DataComponentInterpretation::component_is_part_of_tensor);
     }
 
-    /// Writes `<folder>/<name>_<number>.pvtu` and a `.vtu` a rank; returns the name of the former. Collective.
+    /// Writes `<folder>/<name>_<number>.pvtu` and a `.vtu` a rank; returns the name of the former. Collective; throws
+    /// EntryError on all ranks if a file cannot be written.
     std::string
     write(const std::string &folder, const std::string &name, const unsigned int number, const MPI_Comm communicator)
     {
+      namespace MPI = dealii::Utilities::MPI;
       dealii::DataOutBase::VtkFlags flags;
       flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
       this->set_flags(flags);
-      return this->write_vtu_with_pvtu_record(folder, name, number, communicator, 5);
+
+      const std::string picture = name + '_' + dealii::Utilities::int_to_string(number, 5);
+      std::vector<std::string> pieces;
+      for (unsigned int rank = 0; rank < MPI::n_mpi_processes(communicator); ++rank)
+        pieces.push_back(picture + '.' + std::to_string(rank) + ".vtu");
+      std::string fault;
+      try
+        {
+          const unsigned int rank = MPI::this_mpi_process(communicator);
+          std::ostringstream piece, record;
+          this->write_vtu(piece);
+          write_whole_file(folder + pieces[rank], piece.str());
+          if (rank == 0)
+            {
+              this->write_pvtu_record(record, pieces);
+              write_whole_file(folder + picture + ".pvtu", record.str());
+            }
+        }
+      catch (const FileError &error)
+        {
+          fault = error.what();
+        }
+      throw_on_all_ranks(fault, communicator);
+      return picture + ".pvtu";
     }
 
   private:

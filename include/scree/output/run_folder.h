@@ -19,7 +19,7 @@ namespace scree
     /// Removes log, pictures and checkpoints of an earlier run. Collective.
     void remove_old_results();
 
-    /// Writes a file of the folder with the given text.
+    /// Writes a file of the folder with the given text, see write_whole_file().
     void write(const std::string &name, const std::string &text) const;
 
     /// Adds a line to `log.txt` and, if wanted, to the screen.

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/case_entries.h>
+#include <scree/input/input_error.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/property_tree/json_parser.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Tree = boost::property_tree::ptree;
+
+    constexpr char separator = '\t'; // neither names nor values have tabs
+
+    void collect(const Tree &tree, const std::string &path, std::vector<CaseEntry> &entries)
+    {
+      const auto is_entry = [](const Tree &child) { return child.count("pattern_description") > 0; };
+      for (const auto &[name, child] : tree)
+        if (is_entry(child))
+          entries.push_back({ path, name, child.get<std::string>("value") });
+      for (const auto &[name, child] : tree)
+        if (!is_entry(child))
+          collect(child, subsection_path(path, name), entries);
+    }
+
+    /// Whether the two words are the same or numbers of the same value.
+    bool same_word(const std::string &first, const std::string &second)
+    {
+      if (first == second)
+        return true;
+      char *end_of_first, *end_of_second;
+      const double a = std::strtod(first.c_str(), &end_of_first), b = std::strtod(second.c_str(), &end_of_second);
+      return !first.empty() && !second.empty() && *end_of_first == '\0' && *end_of_second == '\0' && a == b;
+    }
+  } // namespace
+
+
+  CaseEntries::CaseEntries(const ParameterHandler &prm)
+  {
+    std::stringstream json;
+    prm.print_parameters(json, ParameterHandler::JSON);
+    Tree tree;
+    boost::property_tree::read_json(json, tree);
+    collect(tree, "", entries);
+  }
+
+
+  CaseEntries::CaseEntries(const std::string &text)
+  {
+    std::istringstream in(text);
+    CaseEntry entry;
+    while (std::getline(in, entry.subsection, separator) && std::getline(in, entry.name, separator) &&
+           std::getline(in, entry.value))
+      entries.push_back(entry);
+  }
+
+
+  std::string CaseEntries::text() const
+  {
+    std::string result;
+    for (const CaseEntry &entry : entries)
+      result += entry.subsection + separator + entry.name + separator + single_blanks(entry.value) + '\n';
+    return result;
+  }
+
+
+  const CaseEntry *CaseEntries::find(const std::string &subsection, const std::string &name) const
+  {
+    const auto found = std::find_if(entries.begin(), entries.end(), [&](const CaseEntry &entry) {
+      return entry.subsection == subsection && entry.name == name;
+    });
+    return found == entries.end() ? nullptr : &*found;
+  }
+
+
+  bool CaseEntries::has_subsection(const std::string &path) const
+  {
+    return std::any_of(
+        entries.begin(), entries.end(), [&](const CaseEntry &entry) { return entry.subsection == path; });
+  }
+
+
+  bool same_value(const std::string &first, const std::string &second)
+  {
+    const auto a = Utilities::split_string_list(single_blanks(first));
+    const auto b = Utilities::split_string_list(single_blanks(second));
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_word);
+  }
+} // namespace scree
