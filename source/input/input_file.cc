@@ -30,6 +30,20 @@ namespace scree
         throw InputError(file + ": this is no plain text, but holds zero bytes. Save it as UTF-8, not UTF-16.");
       return text;
     }
+
+    /// Whether the bytes are characters of UTF-8.
+    bool is_utf8(const std::string &text)
+    {
+      unsigned int n_to_follow = 0;
+      for (const unsigned char c : text)
+        if (n_to_follow > 0 && c >= 0x80 && c < 0xC0)
+          --n_to_follow;
+        else if (n_to_follow == 0 && (c < 0x80 || (c >= 0xC2 && c < 0xF5)))
+          n_to_follow = c < 0x80 ? 0 : c < 0xE0 ? 1 : c < 0xF0 ? 2 : 3;
+        else
+          return false;
+      return n_to_follow == 0;
+    }
   } // namespace
 
 
@@ -89,6 +103,9 @@ namespace scree
   {
     if (line.empty())
       return;
+    if (!is_utf8(line))
+      throw place.error(quoted(line) +
+                        " holds letters that are not UTF-8. Save the file as UTF-8, or write them without accents.");
     Statement statement = place;
     if (!open.subsections.empty())
       statement.path = subsection_path(open.subsections.back().path, open.subsections.back().name);
