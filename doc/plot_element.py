@@ -1,26 +1,38 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Plot what scree-element wrote: plot_element.py DIRECTORY... makes DIRECTORY/element.png of DIRECTORY/table.txt."""
+"""Plots what scree-element wrote: /usr/bin/python3 doc/plot_element.py FOLDER... makes FOLDER/element.png of FOLDER/table.txt."""
 
 import pathlib
 import sys
+import warnings
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")  # No display is needed.
-import matplotlib.pyplot as plt
-import numpy as np
+    matplotlib.use("Agg")  # No display is needed.
+    import matplotlib.pyplot as plt
+    import numpy as np
+except ModuleNotFoundError as missing:
+    sys.exit(f"plot_element.py: {sys.executable} has no module {missing.name}: start this with /usr/bin/python3, and install python3-matplotlib.")
 
 
 def read(file):
     """Columns of the table by name, without units."""
-    names = file.open().readline().split()
-    values = np.loadtxt(file, skiprows=1, ndmin=2)
+    names = file.open(encoding="utf-8").readline().split()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of a table without rows
+        values = np.loadtxt(file, skiprows=1, ndmin=2)
+    if values.shape[1] != len(names):
+        raise ValueError(f"{file} is no table of scree-element, or one without rows")
     return {name.split("[")[0]: values[:, i] for i, name in enumerate(names)}
 
 
 def plot(directory):
+    """Throws OSError or ValueError if there is no table of scree-element."""
     columns = read(directory / "table.txt")
+    missing = [name for name in ("strain", "stress_ratio", "mean_pressure", "deviator_stress") if name not in columns]
+    if missing:
+        raise ValueError(f"{directory / 'table.txt'} has no column {missing[0]}: is {directory} a folder of scree-element?")
     pressure = columns["mean_pressure"] / 1000
     # Laws without pores: the volume ratio stands in for the specific volume.
     volume = "specific_volume" if "specific_volume" in columns else "volume_ratio"
@@ -45,5 +57,8 @@ def plot(directory):
 if __name__ == "__main__":
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    for name in sys.argv[1:]:
-        plot(pathlib.Path(name))
+    try:
+        for name in sys.argv[1:]:
+            plot(pathlib.Path(name))
+    except (OSError, ValueError) as error:
+        sys.exit(f"plot_element.py: {error}")

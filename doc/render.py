@@ -4,7 +4,8 @@
 
 /usr/bin/python3 doc/render.py results/quickstart --field deviatoric_stress --times 0,0.5,1
 
-Writes points.png and statistics.png into the run folder. Needs Debian's python3-vtk9 and python3-matplotlib.
+Writes points.png, of the soil, water.png, of the water, and statistics.png into the run folder; what is asked for (--field, --times, --limits)
+is part of a picture's name. Needs Debian's python3-vtk9 and python3-matplotlib.
 """
 
 import argparse
@@ -14,14 +15,19 @@ import sys
 import xml.etree.ElementTree
 from typing import NamedTuple
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.collections
-import matplotlib.pyplot as plt
-import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    matplotlib.use("Agg")
+    import matplotlib.collections
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkObject
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+except ModuleNotFoundError as missing:
+    sys.exit(f"render.py: {sys.executable} has no module {missing.name}: start this with /usr/bin/python3, and install "
+             "python3-vtk9 and python3-matplotlib.")
 
 import variants
 
@@ -49,6 +55,8 @@ FIELDS = {
     "seepage_velocity": Field("seepage velocity", "m/s", 1),
     "pressure": Field("pore pressure", "kPa", 1e-3),
 }
+
+DEFAULT_FIELDS = {"points": "mean_effective_stress", "water": "pressure"}  # of each collection
 
 
 class Points(NamedTuple):
@@ -111,6 +119,10 @@ def read_box(run):
     """The box of the mesh from parameters.prm."""
     entries = variants.read_entries(pathlib.Path(run) / "parameters.prm")
 
+    for key in ("Mesh/Lower corner", "Mesh/Upper corner", "Mesh/Cell size"):
+        if key not in entries:
+            raise ValueError(f"{run}/parameters.prm has no entry {key}.")
+
     def vector(key):
         return np.array([float(word) for word in entries[key].split(",")])
 
@@ -133,7 +145,7 @@ def _pictures(run, collection):
     pvd = pathlib.Path(run) / "solution" / f"{collection}.pvd"
     if not pvd.exists():
         raise FileNotFoundError(f"{pvd} is not there: is {run} a run folder, and has the run written a picture?")
-    sets = xml.etree.ElementTree.parse(pvd).getroot().iter("DataSet")
+    sets = _xml(pvd).iter("DataSet")
     pictures = {float(data_set.get("timestep")): pvd.parent / data_set.get("file") for data_set in sets}
     if not pictures:
         raise ValueError(f"{pvd} lists no picture.")
@@ -144,14 +156,29 @@ def _pieces(path):
     """The .vtu files of a .pvtu, one a rank. VTK's own reader of .pvtu trusts its types, and crashes if they are wrong."""
     if path.suffix == ".vtu":
         return [path]
-    return [path.parent / piece.get("Source") for piece in xml.etree.ElementTree.parse(path).getroot().iter("Piece")]
+    return [path.parent / piece.get("Source") for piece in _xml(path).iter("Piece")]
+
+
+def _xml(path):
+    try:
+        return xml.etree.ElementTree.parse(path).getroot()
+    except xml.etree.ElementTree.ParseError as error:
+        raise ValueError(f"{path} is damaged: {error}.") from error
 
 
 def _read_piece(path):
     """The points of one .vtu without their time; None if it has none."""
+    if not path.exists():
+        raise FileNotFoundError(f"{path} is not there, but the run folder lists it.")
+    with open(path, "rb") as file:
+        file.seek(-min(path.stat().st_size, 64), 2)
+        is_whole = file.read().rstrip().endswith(b"</VTKFile>")
+    vtkObject.GlobalWarningDisplayOff()  # It would print a page on a damaged file.
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(path))
     reader.Update()
+    if not is_whole or reader.GetErrorCode() != 0:
+        raise ValueError(f"{path} is damaged.")
     grid = reader.GetOutput()
     if grid.GetNumberOfPoints() == 0:
         return None
@@ -332,30 +359,73 @@ def render_statistics(run, output):
     return True
 
 
+def fields_of(run, collection):
+    """The names of the arrays of a collection's last picture."""
+    return read_points(run, None, collection).arrays
+
+
+def _numbers(option, text, count=None):
+    """The numbers of an option; None without it."""
+    try:
+        values = text and [float(word) for word in text.split(",")]
+    except ValueError:
+        values = []
+    if text is not None and (not values or not np.all(np.isfinite(values)) or (count and len(values) != count)):
+        raise ValueError(f"{option} {text}: write {count or ''} numbers, separated by commas, with a decimal point".replace("  ", " "))
+    return values
+
+
+def _collections(arguments):
+    """What is to be drawn: {collection: field}."""
+    wanted = [arguments.collection] if arguments.collection else [name for name in DEFAULT_FIELDS if has_collection(arguments.run, name)]
+    if not arguments.field:
+        return {name: DEFAULT_FIELDS[name] for name in wanted or ["points"]}
+    available = {name: fields_of(arguments.run, name) for name in wanted or ["points"]}
+    chosen = {name: arguments.field for name, fields in available.items() if arguments.field in fields}
+    if not chosen:
+        raise ValueError(f"No field {arguments.field}; there are: " +
+                         "; ".join(f"{', '.join(sorted(fields))} ({name})" for name, fields in available.items()) + ".")
+    return chosen
+
+
+def _output(arguments, name):
+    """The file of a picture: what is asked for makes its name, so that no other picture is overwritten."""
+    if arguments.output:
+        output = arguments.output.with_name(arguments.output.stem + (f"_{name}" if name else "") + (arguments.output.suffix or ".png"))
+        if output.exists() and not arguments.force:
+            raise ValueError(f"{output} is there already: write another name, or add --force.")
+        return output
+    asked = [f"{option}_{value}" if option != "field" else value
+             for option, value in (("field", arguments.field), ("t", arguments.times), ("limits", arguments.limits)) if value]
+    return arguments.run / ("_".join([name or "points"] + ([] if name == "statistics" else asked)).replace(",", "_").replace(" ", "") + ".png")
+
+
+def draw(arguments):
+    """Draws what the command line asks for. Throws OSError or ValueError."""
+    times, limits = _numbers("--times", arguments.times), _numbers("--limits", arguments.limits, 2)
+    chosen = _collections(arguments)
+    only = len(chosen) == 1 and arguments.output
+    outputs = {collection: _output(arguments, "" if only else collection) for collection in chosen}
+    statistics = _output(arguments, "statistics")
+    for collection, output in outputs.items():
+        render_points(arguments.run, output, chosen[collection], times, limits, collection)
+        print(f"Wrote {output}")
+    if (arguments.run / "statistics").exists() and render_statistics(arguments.run, statistics):
+        print(f"Wrote {statistics}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
-    parser.add_argument("--collection", choices=["points", "water"],
-                        help="points of the soil or of the water; default: of the soil, if there is any")
+    parser.add_argument("--collection", choices=list(DEFAULT_FIELDS), help="points of the soil or of the water; default: both, a picture each")
     parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: mean_effective_stress, pressure of water")
     parser.add_argument("--times", help="times in s, separated by commas; default: first, 1/4, 1/2 and last")
     parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
-    parser.add_argument("--output", type=pathlib.Path, help="default: points.png in the run folder")
+    parser.add_argument("--output", type=pathlib.Path, help="another file, which must not be there; default: in the run folder, named after what it shows")
+    parser.add_argument("--force", action="store_true", help="overwrite the file of --output")
     arguments = parser.parse_args()
-
-    def numbers(text):
-        return text and [float(word) for word in text.split(",")]
-
-    collection = arguments.collection or ("points" if has_collection(arguments.run, "points")
-                                          or not has_collection(arguments.run, "water") else "water")
-    field = arguments.field or ("mean_effective_stress" if collection == "points" else "pressure")
-    output = arguments.output or arguments.run / f"{collection}.png"
     try:
-        render_points(arguments.run, output, field, numbers(arguments.times), numbers(arguments.limits), collection)
-        print(f"Wrote {output}")
-        statistics = output.with_name("statistics.png")
-        if (arguments.run / "statistics").exists() and render_statistics(arguments.run, statistics):
-            print(f"Wrote {statistics}")
+        draw(arguments)
     except (OSError, KeyError, ValueError) as error:
         sys.exit(f"render.py: {error.args[0] if isinstance(error, KeyError) else error}")
 

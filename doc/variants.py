@@ -2,10 +2,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads and edits parameter files in deal.II's text format.
 
-python3 doc/variants.py BASE.prm TARGET.prm "Stabilisation/F-bar = none" "Output directory = results/x" ...
+/usr/bin/python3 doc/variants.py BASE.prm TARGET.prm "Stabilisation/F-bar = none" "Output directory = results/x" ...
+
+Entries that BASE.prm does not have are looked up in what the program lists: build/scree, or scree of the PATH.
 """
 
+import difflib
+import os
+import pathlib
 import re
+import shutil
+import subprocess
 import sys
 
 
@@ -33,19 +40,26 @@ def _subsection(statement):
     return match and match.group(1)
 
 
+def _entries_of(text):
+    """All entries of a text: {"Mesh/Cell size": "0.05", "End time": "12", ...}. Throws a ValueError at an "end" too many."""
+    entries, path = {}, []
+    for _, statement in _lines(text):
+        if _subsection(statement):
+            path.append(_subsection(statement))
+        elif statement.lower() == "end":
+            if not path:
+                raise ValueError('an "end" closes no subsection')
+            path.pop()
+        elif _entry(statement):
+            name, value = _entry(statement)
+            entries["/".join(path + [name])] = value
+    return entries
+
+
 def read_entries(prm):
     """All entries of a file: {"Mesh/Cell size": "0.05", "End time": "12", ...}."""
-    entries, path = {}, []
-    with open(prm, encoding="utf-8") as file:
-        for _, statement in _lines(file.read()):
-            if _subsection(statement):
-                path.append(_subsection(statement))
-            elif statement.lower() == "end":
-                path.pop()
-            elif _entry(statement):
-                name, value = _entry(statement)
-                entries["/".join(path + [name])] = value
-    return entries
+    with open(prm, encoding="utf-8-sig") as file:
+        return _entries_of(file.read())
 
 
 def set_entry(text, key, value):
@@ -90,7 +104,7 @@ def write_variant(base_prm, target_prm, entries):
     `entries`: {"Stabilisation/F-bar": "none", "Output directory": "results/none"}; the name of an entry follows those
     of its subsections, separated by "/". An entry that is not in the file is added.
     """
-    with open(base_prm, encoding="utf-8") as file:
+    with open(base_prm, encoding="utf-8-sig") as file:
         text = file.read().rstrip("\n")
     for key, value in entries.items():
         text = set_entry(text, key, value)
@@ -98,8 +112,56 @@ def write_variant(base_prm, target_prm, entries):
         file.write(text + "\n")
 
 
-if __name__ == "__main__":
-    if len(sys.argv) < 4 or not all("=" in argument for argument in sys.argv[3:]):
+def _program(name):
+    """The path of scree or scree-element: built or installed beside this file, or on the PATH; else None."""
+    root = pathlib.Path(__file__).resolve().parents[1]
+    beside = [root / "build" / name, root.parents[1] / "bin" / name]
+    return next((str(path) for path in beside if os.access(path, os.X_OK)), shutil.which(name))
+
+
+def known_entries(base):
+    """The entries that a case like `base` may have, where bodies have its names; None if no program is there to ask."""
+    is_element = "Path" in base  # a case of scree-element
+    program = _program("scree-element" if is_element else "scree")
+    if program is None:
+        return None
+    listed = subprocess.run([program, "--help" if is_element else "--print-parameters"], capture_output=True, text=True, check=True).stdout
+    known = set(_entries_of(listed))
+    if not is_element:
+        of_a_body = [name.split("/", 1)[1] for name in known if name.startswith("Soil/")]
+        bodies = [name.strip() for name in base.get("Bodies", "Soil").split(",")]
+        known = {name for name in known if not name.startswith("Soil/")} | {f"{body}/{name}" for body in bodies for name in of_a_body}
+    return known
+
+
+def check_entries(base, entries):
+    """Throws a ValueError at an entry that is neither in the case `base`, with its values, nor known to the program."""
+    unsure = [key for key in entries if key not in base]
+    known = known_entries({**base, **entries}) if unsure else set()
+    for key in unsure:
+        if known is None:
+            print(f'variants.py: no program is there to ask whether there is an entry "{key}".', file=sys.stderr)
+        elif key not in known:
+            close = difflib.get_close_matches(key, known | set(base), 1) or [name for name in sorted(known) if name.split("/")[-1] == key]
+            raise ValueError(f'there is no entry "{key}".' + (f' Did you mean "{close[0]}"?' if close else ""))
+
+
+def main(arguments):
+    if len(arguments) < 3:
         sys.exit(__doc__)
-    write_variant(sys.argv[1], sys.argv[2],
-                  dict([part.strip() for part in argument.split("=", 1)] for argument in sys.argv[3:]))
+    base, target, *texts = arguments
+    try:
+        for text in texts:
+            if "=" not in text:
+                raise ValueError(f'"{text}" has no "=": write "SUBSECTION/ENTRY = VALUE"')
+        entries = dict([part.strip() for part in text.split("=", 1)] for text in texts)
+        if os.path.exists(target) and os.path.samefile(base, target):
+            raise ValueError(f"{target} is the case itself: write another name")
+        check_entries(read_entries(base), entries)
+        write_variant(base, target, entries)
+    except (OSError, ValueError, subprocess.CalledProcessError) as error:
+        sys.exit(f"variants.py: {error}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

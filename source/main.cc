@@ -72,6 +72,10 @@ namespace
       {
         throw parameters.error(error);
       }
+    catch (const scree::ValueError &error)
+      {
+        throw scree::ValueError(parameters.error(scree::EntryError(error.what())).what());
+      }
   }
 
   int run_case(const std::vector<std::string> &arguments, std::ostream &out)

@@ -69,7 +69,7 @@ namespace scree
         declare(handler);
         if (has_water)
           declare_water(handler);
-        std::istringstream text(file.text());
+        std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
         check();
       }
@@ -168,6 +168,8 @@ namespace scree
                       " components in m/s^2, separated by commas.");
     require_entry(!output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
     grid.check(dimension);
+    transfer.check();
+    output.check(end_time);
     boundaries.check(dimension);
     surface_load.check(grid, dimension);
     body_force.check(dimension);

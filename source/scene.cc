@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
 #include <scree/initial/water_start.h>
+#include <scree/memory.h>
 #include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
 #include <scree/scene.h>
@@ -17,9 +18,21 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// The entries of the mesh, if there is memory for the case. Collective.
+    template <int dim>
+    const GridParameters &grid_that_fits(const Parameters &parameters, const MPI_Comm communicator)
+    {
+      require_memory<dim>(parameters, communicator);
+      return parameters.grid;
+    }
+  } // namespace
+
+
   template <int dim>
   Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm communicator)
-      : grid(parameters.grid, communicator)
+      : grid(grid_that_fits<dim>(parameters, communicator), communicator)
       , walls(grid, parameters.boundaries)
       , water_walls(parameters.has_water
                         ? std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries)
@@ -102,10 +115,17 @@ namespace scree
   template <int dim>
   void Scene<dim>::fill_with_points()
   {
+    const auto soil = parameters.soil_regions();
+    if (soil.size() > 1)
+      {
+        unsigned int points_per_cell = 1;
+        for (const BodyParameters &body : parameters.bodies)
+          points_per_cell = std::max(points_per_cell, body.seeding.points_per_cell);
+        require_apart(soil, points_per_cell, grid.triangulation(), grid.cell_size());
+      }
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size());
-    const auto soil = parameters.soil_regions();
     for (auto &part : water)
       seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
     for (const auto &load : loads)
@@ -124,7 +144,8 @@ namespace scree
         const InitialStateParameters &state = (entries++)->initial_state;
         if (state.stress_kind() != InitialStress::k0)
           {
-            set_isotropic_stress(body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0.);
+            set_isotropic_stress(
+                body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0., communicator);
             continue;
           }
         if (!overburden)
@@ -162,6 +183,52 @@ namespace scree
     for (const auto &part : water)
       for_each_point(part.points(), [&](const auto &point) { include_point(point.properties + part.layout.velocity); });
     return largest;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::require_steps(const double stable_step, const Speeds &speeds) const
+  {
+    constexpr double most_steps = 1e10; // months, even of the smallest mesh
+    const double time           = std::max(parameters.end_time, parameters.settling.maximum_time);
+    if (time / stable_step <= most_steps)
+      return;
+    const std::string remedy = "the step is " + number_text(stable_step) + " s, so that a run of " + number_text(time) +
+                               " s would take " + number_text(time / stable_step) +
+                               " steps, and at most 1e10 are possible.";
+    const TimeStepParameters &step = parameters.time_step;
+    require_entry(stable_step < step.maximum_time_step,
+                  "Time step",
+                  "Maximum time step",
+                  step.maximum_time_step,
+                  remedy + " Write a larger one.");
+    require_entry(Clock(step).stable_step(grid.cell_size(), speeds.wave, speeds.points) <= stable_step,
+                  "Water",
+                  "Viscosity",
+                  parameters.water.viscosity,
+                  remedy + " Write a smaller one.");
+    const bool by_waves = speeds.wave >= speeds.points;
+    const std::string c = number_text(by_waves ? speeds.wave : speeds.points) + " m/s: ";
+    const auto stiffest = [](const auto &a, const auto &b) {
+      constexpr double pressure = 1e5; // Pa, of a few metres of soil
+      return a.wave_speed(a.material->initial_bulk_modulus(pressure)) <
+             b.wave_speed(b.material->initial_bulk_modulus(pressure));
+    };
+    if (by_waves)
+      {
+        const auto body   = std::max_element(bodies.begin(), bodies.end(), stiffest);
+        const auto &entry = parameters.bodies[std::distance(bodies.begin(), body)];
+        entry.material.throw_too_stiff(
+            entry.name, "waves in the soil run at " + c + remedy + " Write a softer soil, or look at its density.");
+      }
+    for (const BodyParameters &body : parameters.bodies)
+      require_entry(body.seeding.initial_velocity.empty(),
+                    body.name,
+                    "Initial velocity",
+                    body.seeding.initial_velocity,
+                    "points move at " + c + remedy + " Write slower ones.");
+    require_entry(
+        false, "Water", "Initial velocity", parameters.water.initial_velocity, "points move at " + c + remedy);
   }
 
 

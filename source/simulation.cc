@@ -3,6 +3,7 @@
 #include <scree/input/input_error.h>
 #include <scree/output/checkpoint.h>
 #include <scree/simulation.h>
+#include <scree/unusual_units.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -52,8 +53,11 @@ namespace scree
   {
     scene.fill();
     folder.remove_old_results(); // not before the input has proved good
+    for (const std::string &question : unusual_units(parameters))
+      folder.log(question);
     repartition();
     measure_speeds();
+    scene.require_steps(stable_step(), speeds);
     if (parameters.settling.maximum_time > 0)
       settle();
     scheme->read_points();

@@ -40,6 +40,11 @@ def axis(label, entry, values):
     return [Variant({label: value}, entries(value)) for value in values]
 
 
+def transfer(method):
+    """The entries of a method other than FLIP: none reads the PIC rate that a case of FLIP may set, and the program refuses it."""
+    return {"Transfer/Method": method, "Transfer/PIC rate": 1}  # the default
+
+
 def product(*axes):
     """All combinations of the variants of several axes; lists of variants add up with +."""
     return [Variant({name: value for part in parts for name, value in part.labels.items()},

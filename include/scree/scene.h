@@ -19,7 +19,8 @@ namespace scree
   class Scene
   {
   public:
-    /// Makes all of it, without points but for the markers of loads. Collective.
+    /// Makes all of it, without points but for the markers of loads. Collective; throws EntryError if the memory is too
+    /// small for the case.
     Scene(const Parameters &parameters, const MPI_Comm communicator);
 
     /// Fills bodies and water with points, and gives them the state that the case starts from. Collective; throws
@@ -34,6 +35,10 @@ namespace scree
 
     /// The speeds of the points of all ranks, before the first step. Collective.
     Speeds speeds() const;
+
+    /// Throws EntryError, with the entry, if the run would take more steps than any run can: the time would not move.
+    /// @param stable_step s, at these `speeds` of all ranks
+    void require_steps(const double stable_step, const Speeds &speeds) const;
 
     /// Stops all points: no velocity, no affine field of velocity.
     void stop();

@@ -33,7 +33,7 @@ namespace
     ElementParameters parameters;
     parameters.add_parameters(prm);
     input.check(prm, "scree-element --help lists all of them.");
-    prm.parse_input_from_string(input.text());
+    prm.parse_input_from_string(input.statements_text());
     parameters.check();
 
     ElementDriver driver(parameters);

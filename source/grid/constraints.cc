@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/grid/constraints.h>
+#include <scree/input/input_error.h>
 
 #include <algorithm>
 #include <map>
@@ -71,7 +72,7 @@ namespace scree
   void Constraints<dim>::close_gate(std::unique_ptr<Region<dim>> region)
   {
     gate = std::move(region);
-    reinit();
+    on_all_ranks(grid.triangulation().get_communicator(), [&] { reinit(); });
   }
 
 

@@ -97,17 +97,50 @@ namespace scree
 
   namespace
   {
-    /// Gives each point the state with the stress components that `fill_stress(location, components)` writes.
-    template <int dim, typename Function>
-    void set_stress(SoilBody<dim> &body, const Function &fill_stress)
+    /// Throws ValueError, which begins with `entry`, unless the elastic strain of a point at `x` is one that soil can
+    /// have: a modulus that is too small for the stress shows here.
+    /// @param left_cauchy_green its first three components
+    template <int dim>
+    void require_bearable(const std::string &body,
+                          const std::string &entry,
+                          const Point<dim> &x,
+                          const double *left_cauchy_green)
     {
-      for_each_point(body.points, [&](const auto &point) {
-        double stress[n_symmetric_components<dim>] = {};
-        fill_stress(point.location, stress);
-        body.material->initialise(stress,
-                                  point.properties + body.layout.left_cauchy_green,
-                                  point.properties + body.layout.stress,
-                                  point.properties + body.layout.internal_variables);
+      constexpr double largest = 1;
+      for (unsigned int i = 0; i < 3; ++i)
+        if (const double strain = 0.5 * std::log(left_cauchy_green[i]); !(std::abs(strain) <= largest))
+          throw ValueError(entry + ": the stress at " + number_text(std::vector<double>(x.begin_raw(), x.end_raw())) +
+                           " m would strain the soil elastically by " +
+                           (std::isfinite(strain) ? number_text(strain) : "a number beyond all bounds") +
+                           ", and at most 1 is allowed. Write a larger modulus in subsection " + body +
+                           ", or less stress.");
+    }
+
+
+    /// Gives each point the state with the stress components that `fill_stress(location, components)` writes. Throws
+    /// EntryError, which begins with `entry`, if the law cannot bear one. Collective.
+    template <int dim, typename Function>
+    void
+    set_stress(SoilBody<dim> &body, const std::string &entry, const MPI_Comm communicator, const Function &fill_stress)
+    {
+      on_all_ranks(communicator, [&] {
+        for_each_point(body.points, [&](const auto &point) {
+          double stress[n_symmetric_components<dim>] = {};
+          fill_stress(point.location, stress);
+          double *strain = point.properties + body.layout.left_cauchy_green;
+          try
+            {
+              body.material->initialise(stress,
+                                        strain,
+                                        point.properties + body.layout.stress,
+                                        point.properties + body.layout.internal_variables);
+            }
+          catch (const ExceptionBase &error)
+            {
+              throw ValueError(entry + ": " + plain_text(error));
+            }
+          require_bearable(body.name, entry, point.location, strain);
+        });
       });
     }
   } // namespace
@@ -116,31 +149,28 @@ namespace scree
   template <int dim>
   void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0)
   {
-    std::string fault; // The law may refuse the stress of points on one rank only.
-    try
-      {
-        set_stress(body, [&](const Point<dim> &x, double *stress) {
-          set_k0_components(overburden.weight_above(x), k0, overburden.vertical_axis(), stress);
-        });
-      }
-    catch (const ExceptionBase &error)
-      {
-        fault = entry_name(body.name + "/Initial state", "K0") + " = " + number_text(k0) + ": " + plain_text(error);
-      }
-    throw_on_all_ranks(fault, overburden.communicator());
+    set_stress(body,
+               entry_name(body.name + "/Initial state", "K0") + " = " + number_text(k0),
+               overburden.communicator(),
+               [&](const Point<dim> &x, double *stress) {
+                 set_k0_components(overburden.weight_above(x), k0, overburden.vertical_axis(), stress);
+               });
   }
 
 
   template <int dim>
-  void set_isotropic_stress(SoilBody<dim> &body, const double pressure)
+  void set_isotropic_stress(SoilBody<dim> &body, const double pressure, const MPI_Comm communicator)
   {
-    set_stress(body, [&](const Point<dim> &, double *stress) { std::fill_n(stress, 3, -pressure); });
+    set_stress(body,
+               entry_name(body.name + "/Initial state", "Pressure") + " = " + number_text(pressure),
+               communicator,
+               [&](const Point<dim> &, double *stress) { std::fill_n(stress, 3, -pressure); });
   }
 
   template class Overburden<2>;
   template class Overburden<3>;
   template void set_k0_stress(SoilBody<2> &, Overburden<2> &, const double);
   template void set_k0_stress(SoilBody<3> &, Overburden<3> &, const double);
-  template void set_isotropic_stress(SoilBody<2> &, const double);
-  template void set_isotropic_stress(SoilBody<3> &, const double);
+  template void set_isotropic_stress(SoilBody<2> &, const double, const MPI_Comm);
+  template void set_isotropic_stress(SoilBody<3> &, const double, const MPI_Comm);
 } // namespace scree

@@ -44,10 +44,12 @@ namespace scree
   {
     const Tensor<1, dim> gradient = water.density * water_overburden.gravity_vector();
     const auto &layout            = water.layout;
-    for_each_point(water.points(), [&](const auto &point) {
-      point.properties[layout.pressure] = water_overburden.weight_above(point.location);
-      for (unsigned int a = 0; a < dim; ++a)
-        point.properties[layout.pressure_gradient + a] = gradient[a];
+    on_all_ranks(water_overburden.communicator(), [&] {
+      for_each_point(water.points(), [&](const auto &point) {
+        point.properties[layout.pressure] = water_overburden.weight_above(point.location);
+        for (unsigned int a = 0; a < dim; ++a)
+          point.properties[layout.pressure_gradient + a] = gradient[a];
+      });
     });
   }
 

@@ -4,7 +4,10 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <cctype>
+#include <cmath>
 #include <iostream>
+#include <regex>
 
 namespace scree
 {
@@ -28,36 +31,100 @@ namespace scree
     private:
       std::streambuf *screen;
     };
-  } // namespace
 
 
-  template <int dim>
-  std::unique_ptr<FunctionParser<dim>> parse_expression(const std::string &where,
-                                                        const std::string &text,
-                                                        const unsigned int n_components,
-                                                        const bool with_time)
-  {
-    const std::string variables = FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
-    auto function               = std::make_unique<FunctionParser<dim>>(n_components);
-    std::string fault;
-    if (const auto n = Utilities::split_string_list(text, ';').size(); n != n_components)
-      fault = std::to_string(n) + " expression(s) where " + std::to_string(n_components) + " are needed";
-    else
+    /// What muParser accepts and nobody means, a comma between no arguments and a single "=": it would go on with what
+    /// follows the comma, and set the variable. Empty if there is neither.
+    std::string misleading_sign(const std::string &text)
+    {
+      const auto at = [&](const std::size_t i) { return i < text.size() ? text[i] : ' '; };
+      std::vector<bool> is_call; // of the parentheses that are open
+      char before = ' ';         // the last character that is no blank
+      for (std::size_t i = 0; i < text.size(); ++i)
+        {
+          const char c            = text[i];
+          const std::string place = " after " + quoted(text.substr(0, i));
+          if (c == '(')
+            is_call.push_back(std::isalnum(static_cast<unsigned char>(before)) || before == '_');
+          else if (c == ')' && !is_call.empty())
+            is_call.pop_back();
+          else if (c == ',' && (is_call.empty() || !is_call.back()))
+            return "the comma" + place +
+                   " stands between no arguments of a function. Decimals have a point: 0.5, not 0,5";
+          else if (c == '=' && at(i + 1) == '=')
+            ++i;
+          else if (c == '=' && std::string("<>!").find(before) == std::string::npos)
+            return "the \"=\"" + place + " compares nothing. Write ==, or better < and >";
+          if (c != ' ')
+            before = c;
+        }
+      return "";
+    }
+
+
+    /// What keeps the expressions from being read; empty: nothing.
+    template <int dim>
+    std::string read_expressions(Expression<dim> &function, const std::string &text, const bool with_time)
+    {
+      const unsigned int n_components = function.n_components;
+      const std::string variables     = FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
+      if (const auto n = Utilities::split_string_list(text, ';').size(); n != n_components)
+        return std::to_string(n) + " expression(s) where " + std::to_string(n_components) + " are needed";
+      if (const std::string fault = misleading_sign(text); !fault.empty())
+        return fault;
       try
         {
           const Silence silence;
           // muParser reads an expression when it is first evaluated.
-          function->initialize(variables, text, { { "pi", numbers::PI } }, with_time);
+          function.initialize(variables, text, { { "pi", numbers::PI } }, with_time);
           for (unsigned int c = 0; c < n_components; ++c)
-            function->value(Point<dim>(), c);
+            function.FunctionParser<dim>::value(Point<dim>(), c);
         }
       catch (const ExceptionBase &error)
         {
           const std::string message = plain_text(error), mark = "said: ";
           const std::size_t said = message.find(mark);
-          fault                  = said == std::string::npos ? message : message.substr(said + mark.size());
+          std::string fault      = said == std::string::npos ? message : message.substr(said + mark.size());
           fault.erase(fault.find_last_not_of('.') + 1);
+          return fault +
+                 (std::regex_search(text, std::regex("[0-9],[0-9]")) ? ". Decimals have a point: 0.5, not 0,5" : "");
         }
+      return "";
+    }
+  } // namespace
+
+
+  template <int dim>
+  Expression<dim>::Expression(const std::string &name, const unsigned int n_components, const bool with_time)
+      : FunctionParser<dim>(n_components)
+      , name(name)
+      , with_time(with_time)
+  {
+  }
+
+
+  template <int dim>
+  double Expression<dim>::value(const Point<dim> &x, const unsigned int component) const
+  {
+    const double result = FunctionParser<dim>::value(x, component);
+    if (!std::isfinite(result))
+      throw ValueError(name + ": it is " + (std::isnan(result) ? "not a number" : "infinite") + " at " +
+                       number_text(std::vector<double>(x.begin_raw(), x.end_raw())) + " m" +
+                       (with_time ? ", t = " + number_text(this->get_time()) + " s" : "") +
+                       ". Write an expression that is a number wherever it is asked for, for instance with "
+                       "if(x > 0, ..., ...).");
+    return result;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Expression<dim>> parse_expression(const std::string &where,
+                                                    const std::string &text,
+                                                    const unsigned int n_components,
+                                                    const bool with_time)
+  {
+    auto function             = std::make_unique<Expression<dim>>(where + " = " + text, n_components, with_time);
+    const std::string fault   = read_expressions(*function, text, with_time);
     const std::string example = n_components == 1   ? "if(x < 2, y < 2, y < 4 - x)"
                                 : n_components == 2 ? "0; -2*x"
                                                     : "0; 0; -2*x";
@@ -73,8 +140,10 @@ namespace scree
     return function;
   }
 
-  template std::unique_ptr<FunctionParser<2>>
+  template class Expression<2>;
+  template class Expression<3>;
+  template std::unique_ptr<Expression<2>>
   parse_expression(const std::string &, const std::string &, const unsigned int, const bool);
-  template std::unique_ptr<FunctionParser<3>>
+  template std::unique_ptr<Expression<3>>
   parse_expression(const std::string &, const std::string &, const unsigned int, const bool);
 } // namespace scree

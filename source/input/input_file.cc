@@ -18,12 +18,31 @@ namespace scree
     std::string read_text(const std::string &file, const std::string &remedy)
     {
       std::ifstream in(file);
-      std::ostringstream text;
-      if (in && !std::filesystem::is_directory(file))
-        text << std::string(std::istreambuf_iterator<char>(in), {});
-      else
+      // A pipe may be read, too; a device such as /dev/zero may have no end.
+      if (!in || std::filesystem::is_directory(file) || std::filesystem::is_block_file(file) ||
+          std::filesystem::is_character_file(file))
         throw InputError(file + ": this is no file that can be read. " + remedy);
-      return text.str();
+      std::string text(std::istreambuf_iterator<char>(in), {});
+      const std::string byte_order_mark = "\xEF\xBB\xBF";
+      if (text.rfind(byte_order_mark, 0) == 0)
+        text.erase(0, byte_order_mark.size());
+      if (text.find('\0') != std::string::npos)
+        throw InputError(file + ": this is no plain text, but holds zero bytes. Save it as UTF-8, not UTF-16.");
+      return text;
+    }
+
+    /// Whether the bytes are characters of UTF-8.
+    bool is_utf8(const std::string &text)
+    {
+      unsigned int n_to_follow = 0;
+      for (const unsigned char c : text)
+        if (n_to_follow > 0 && c >= 0x80 && c < 0xC0)
+          --n_to_follow;
+        else if (n_to_follow == 0 && (c < 0x80 || (c >= 0xC2 && c < 0xF5)))
+          n_to_follow = c < 0x80 ? 0 : c < 0xE0 ? 1 : c < 0xF0 ? 2 : 3;
+        else
+          return false;
+      return n_to_follow == 0;
     }
   } // namespace
 
@@ -32,16 +51,18 @@ namespace scree
       : file_name(file)
       , whole_text(read_text(file, "Check the path; cases are in the folder prm."))
   {
-    std::vector<Statement> open;
+    Open open;
     read(whole_text, file, open);
-    if (!open.empty())
-      throw open.back().error("subsection " + subsection_path(open.back().path, open.back().name) +
-                              " is still open where the file ends. Write \"end\" after its last entry.");
+    if (!open.subsections.empty())
+      throw open.subsections.back().error("subsection " +
+                                          subsection_path(open.subsections.back().path, open.subsections.back().name) +
+                                          " is still open where the file ends. Write \"end\" after its last entry.");
   }
 
 
-  void InputFile::read(const std::string &text, const std::string &file, std::vector<Statement> &open)
+  void InputFile::read(const std::string &text, const std::string &file, Open &open)
   {
+    open.files.push_back(file);
     std::istringstream in(text);
     std::string line, statement;
     unsigned int n_lines = 0, first_line = 0;
@@ -59,16 +80,35 @@ namespace scree
             single_blanks(statement.substr(0, statement.find('#'))), { Kind::set, file, first_line, "", "", "" }, open);
         statement.clear();
       }
+    open.files.pop_back();
   }
 
 
-  void InputFile::read_line(const std::string &line, const Statement &place, std::vector<Statement> &open)
+  void InputFile::include(const std::string &file, const Statement &place, Open &open)
+  {
+    const std::string text = read_text(file,
+                                       "It is included in " + place.file + ", line " + std::to_string(place.line) +
+                                           "; the path counts from where scree is started.");
+    std::string loop;
+    for (const std::string &reader : open.files)
+      if (!loop.empty() || std::filesystem::equivalent(reader, file))
+        loop += reader + " -> ";
+    if (!loop.empty())
+      throw place.error("files include each other in a loop: " + loop + file + ". Remove one of these includes.");
+    read(text, file, open);
+  }
+
+
+  void InputFile::read_line(const std::string &line, const Statement &place, Open &open)
   {
     if (line.empty())
       return;
+    if (!is_utf8(line))
+      throw place.error(quoted(line) +
+                        " holds letters that are not UTF-8. Save the file as UTF-8, or write them without accents.");
     Statement statement = place;
-    if (!open.empty())
-      statement.path = subsection_path(open.back().path, open.back().name);
+    if (!open.subsections.empty())
+      statement.path = subsection_path(open.subsections.back().path, open.subsections.back().name);
     const std::size_t blank   = line.find(' ');
     const std::string keyword = line.substr(0, blank);
     const std::string rest    = blank == std::string::npos ? "" : line.substr(blank + 1);
@@ -78,16 +118,16 @@ namespace scree
       {
         statement.kind = Kind::subsection;
         statement.name = rest;
-        open.push_back(statement);
+        open.subsections.push_back(statement);
       }
     else if (keyword == "end" || keyword == "END")
       {
         statement.kind = Kind::end;
         if (!rest.empty())
           throw statement.error(quoted(line) + " does not read. Write \"end\" alone in its line.");
-        if (open.empty())
+        if (open.subsections.empty())
           throw statement.error("this \"end\" closes no subsection. Remove it, or look for a wrong \"end\" above.");
-        open.pop_back();
+        open.subsections.pop_back();
       }
     else if ((keyword == "set" || keyword == "SET") && equals != std::string::npos)
       {
@@ -99,11 +139,7 @@ namespace scree
                             " has no '='. Write: set ENTRY = VALUE");
     else if (keyword == "include" || keyword == "INCLUDE")
       {
-        read(read_text(rest,
-                       "It is included in " + place.file + ", line " + std::to_string(place.line) +
-                           "; the path counts from where scree is started."),
-             rest,
-             open);
+        include(rest, place, open);
         return;
       }
     else
@@ -116,6 +152,20 @@ namespace scree
   InputError InputFile::Statement::error(const std::string &message) const
   {
     return InputError(file + ", line " + std::to_string(line) + ": " + message);
+  }
+
+
+  std::string InputFile::statements_text() const
+  {
+    std::string result;
+    for (const Statement &statement : statements)
+      if (statement.kind == Kind::subsection)
+        result += "subsection " + statement.name + '\n';
+      else if (statement.kind == Kind::end)
+        result += "end\n";
+      else // The mark of a comment keeps a backslash at the end of a value from joining lines.
+        result += "set " + statement.name + " = " + statement.value + " #\n";
+    return result;
   }
 
 

@@ -66,6 +66,23 @@ namespace scree
   }
 
 
+  void MaterialParameters::throw_too_stiff(const std::string &subsection, const std::string &remedy) const
+  {
+    const auto error = [&](const std::string &law_subsection, const std::string &entry, const double value) {
+      return EntryError(entry_message(subsection_path(subsection, law_subsection), entry, number_text(value), remedy));
+    };
+    const std::string modulus = "Young's modulus";
+    if (law_kind() == LawKind::linear_elastic)
+      throw error(linear_elastic_subsection, modulus, linear_elastic.young_modulus);
+    if (law_kind() == LawKind::mohr_coulomb)
+      throw error(mohr_coulomb_name, modulus, mohr_coulomb.young_modulus);
+    constexpr double pressure = 1e5; // Pa, of a few metres of soil
+    if (nor_sand.shear_modulus > pressure / nor_sand.swelling_index)
+      throw error(nor_sand_name, "Shear modulus", nor_sand.shear_modulus);
+    throw error(nor_sand_name, "Swelling index", nor_sand.swelling_index);
+  }
+
+
   template <int dim>
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters)
   {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
 #include <scree/output/output_parameters.h>
 
 #include <map>
@@ -33,6 +34,21 @@ namespace scree
                       "What appears on the screen: progress; statistics (the last row only, for tests); nothing.",
                       Patterns::Selection("progress|statistics|nothing"));
     prm.leave_subsection();
+  }
+
+
+  void OutputParameters::check(const double end_time) const
+  {
+    constexpr double most = 1e8; // times at which a run meets an output, each with a step of its own
+    for (const auto &[name, interval] : { std::make_pair("Interval", interval),
+                                          { "Statistics interval", statistics_interval },
+                                          { "Checkpoint interval", checkpoint_interval } })
+      require_entry(interval == 0 || end_time / interval <= most,
+                    "Output",
+                    name,
+                    interval,
+                    "until \"End time\" = " + number_text(end_time) + " s it would be due " +
+                        number_text(end_time / interval) + " times, and at most 1e8 are possible. Write a longer one.");
   }
 
 

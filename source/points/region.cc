@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/expression.h>
 #include <scree/points/region.h>
 
 #include <deal.II/base/utilities.h>

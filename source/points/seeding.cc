@@ -70,6 +70,46 @@ namespace scree
 
 
   template <int dim>
+  void require_apart(const std::vector<SoilRegion> &soil,
+                     const unsigned int points_per_cell,
+                     const Triangulation<dim> &triangulation,
+                     const double cell_size)
+  {
+    std::vector<Region<dim>> regions;
+    for (const SoilRegion &body : soil)
+      regions.emplace_back(entry_name(body.name, "Region"), body.region);
+    const auto body_at = [&](const Point<dim> &x, const unsigned int first) {
+      unsigned int body = first;
+      while (body < regions.size() && !regions[body].contains(x))
+        ++body;
+      return body;
+    };
+    // Not in the middle: regions that meet share a face, and faces go through the middles of cubes or along diagonals.
+    constexpr double places[3] = { 0.37, 0.41, 0.34 };
+    const unsigned int n       = 2 * points_per_cell;
+    std::string fault;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (unsigned int i = 0; cell->is_locally_owned() && fault.empty() && i < Utilities::fixed_power<dim>(n); ++i)
+        {
+          Point<dim> x = cell->vertex(0);
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+            x[a] += cell_size / n * (rest % n + places[a]);
+          const unsigned int first  = body_at(x, 0);
+          const unsigned int second = body_at(x, first + 1);
+          if (second < regions.size())
+            fault =
+                entry_message(soil[second].name,
+                              "Region",
+                              soil[second].region,
+                              "it overlaps that of " + quoted(soil[first].name) + ", " + soil[first].region +
+                                  ": both are true at " + number_text(std::vector<double>(x.begin_raw(), x.end_raw())) +
+                                  " m, and would be filled twice. Leave the place to one of them.");
+        }
+    throw_on_all_ranks(fault, triangulation.get_communicator());
+  }
+
+
+  template <int dim>
   void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,
             const Triangulation<dim> &triangulation,
@@ -82,14 +122,18 @@ namespace scree
             : parse_expression<dim>(entry_name(body.name, "Initial velocity"), parameters.initial_velocity, dim);
 
     const MPI_Comm communicator = triangulation.get_communicator();
-    const auto seeds            = lattice_seeds<dim>(triangulation,
-                                          cell_size,
-                                          { parameters.points_per_cell, parameters.jitter, 0 },
-                                          [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
-                                            const auto [volume, centroid] = region.part_of_cube(lower, width);
-                                            return { volume, volume, centroid };
-                                          });
-    double volume               = 0;
+    std::vector<Seed<dim>> seeds;
+    on_all_ranks(communicator, [&] {
+      seeds = lattice_seeds<dim>(triangulation,
+                                 cell_size,
+                                 { parameters.points_per_cell, parameters.jitter, 0 },
+                                 [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
+                                   const auto [volume, centroid] = region.part_of_cube(lower, width);
+                                   return { volume, volume, centroid };
+                                 });
+      require_velocities(velocity.get(), seeds);
+    });
+    double volume = 0;
     for (const Seed<dim> &one : seeds)
       volume += one.volume;
     require_entry(Utilities::MPI::sum(volume, communicator) > 0,
@@ -111,6 +155,10 @@ namespace scree
         });
   }
 
+  template void
+  require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<2> &, const double);
+  template void
+  require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<3> &, const double);
   template void seed(SoilBody<2> &, const SeedingParameters &, const Triangulation<2> &, const double);
   template void seed(SoilBody<3> &, const SeedingParameters &, const Triangulation<3> &, const double);
 } // namespace scree

@@ -75,8 +75,12 @@ namespace scree
         return sum;
       };
       const MPI_Comm communicator = triangulation.get_communicator();
-      const auto seeds            = lattice_seeds<dim>(
-          triangulation, cell_size, { parameters.points_per_cell, parameters.jitter, 1 }, part_of_cube);
+      std::vector<Seed<dim>> seeds;
+      on_all_ranks(communicator, [&] {
+        seeds = lattice_seeds<dim>(
+            triangulation, cell_size, { parameters.points_per_cell, parameters.jitter, 1 }, part_of_cube);
+        require_velocities(velocity.get(), seeds);
+      });
 
       Utilities::MPI::sum(filled, communicator, filled);
       require_entry(std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),

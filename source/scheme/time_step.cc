@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/time_step.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +53,10 @@ namespace scree
 
   void Clock::advance(const double time_step, const double due)
   {
+    AssertThrow(current_time + time_step > current_time,
+                ExcMessage("The time stands still: at t = " + Utilities::to_string(current_time) + " s the step is " +
+                           Utilities::to_string(time_step) +
+                           " s. Remedies: a shorter 'End time', smaller moduli or a smaller 'Viscosity'."));
     const bool arrives = current_time + 1.5 * time_step > due;
     current_time       = arrives ? due : current_time + time_step;
     ++n_steps;

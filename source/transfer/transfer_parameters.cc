@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <map>
@@ -19,6 +20,17 @@ namespace scree
                       "Rate at which FLIP forgets the points' own velocity, 1/s: per step it keeps exp(-rate dt).",
                       Patterns::Double(0));
     prm.leave_subsection();
+  }
+
+
+  void TransferParameters::check() const
+  {
+    require_entry(transfer_method() == TransferMethod::flip || pic_rate == TransferParameters().pic_rate,
+                  "Transfer",
+                  "PIC rate",
+                  pic_rate,
+                  "nothing reads it, as \"Method = " + method +
+                      "\" has no such rate. Remove it, or write \"Method = FLIP\".");
   }
 
 

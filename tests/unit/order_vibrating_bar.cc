@@ -22,7 +22,8 @@ int main(int argc, char *argv[])
                   number(1. / n) + "\n set Cell size = " + number(1. / n) +
                   "\nend\nsubsection Time step\n set Courant number = " + number(2. / n) +
                   "\nend\nsubsection Transfer\n set Method = " + method +
-                  "\n set PIC rate = 0\nend\nsubsection Stabilisation\n set F-bar = none\nend\n"
+                  "\n set PIC rate = " + (method == "FLIP" ? "0" : "1") +
+                  "\nend\nsubsection Stabilisation\n set F-bar = none\nend\n"
                   "subsection Boundaries\n set Left = fixed\n set Right = fixed\n set Bottom = free slip\n"
                   " set Top = free slip\nend\n"
                   "subsection Soil\n set Region = 1\n set Material = linear elastic\n set Grain density = 1e3\n"

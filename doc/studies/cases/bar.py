@@ -10,7 +10,7 @@ import numpy as np
 
 from charts import WorkPrecision
 from precision import DEFAULTS, at_finest, costs, failed, listed, order, ratio
-from study import Claim, Study, axis, product
+from study import Claim, Study, axis, product, transfer
 
 SPEED, MODULUS, AMPLITUDE = math.sqrt(10.), 1e4, 1e-5  # of the wave, m/s; Pa; m/s
 TIME = 4.25 / SPEED  # s
@@ -20,9 +20,9 @@ METHODS = {
     "linear": {"Mesh/Basis": "linear"},
     "quadratic": {"Mesh/Basis": "quadratic"},
     "PIC rate 5": {"Transfer/PIC rate": 5},
-    "PIC": {"Transfer/Method": "PIC"},
-    "APIC": {"Transfer/Method": "APIC"},
-    "TPIC": {"Transfer/Method": "TPIC"},
+    "PIC": transfer("PIC"),
+    "APIC": transfer("APIC"),
+    "TPIC": transfer("TPIC"),
     "2 x 2 points": {"Soil/Points per cell": 2},
     "3 x 3 points": {"Soil/Points per cell": 3},
     "Courant number 0.15": {"Time step/Courant number": 0.15},

@@ -4,14 +4,14 @@ State: `measures.classify`; J out of bounds: a point's volume is halved or doubl
 by .7 and more of its mean in a collapse). The number is that oscillation."""
 from charts import StabilityMap
 from measures import classify, energy_gain, mean_oscillation, volume_ratios
-from study import Claim, Study, axis, product
+from study import Claim, Study, axis, product, transfer
 
 
 def water(kind):
     if kind == "dry":
         return {}
     return {"Soil/Initial porosity": 0.4, "Water/Region": "same", "Water/Points per cell": 3, "Water/Hydraulic conductivity": 5e-3,
-            "Transfer/Method": "TPIC", "Time step/Maximum time step": 1e-3}
+            **transfer("TPIC"), "Time step/Maximum time step": 1e-3}
 
 
 def measure(run):

@@ -13,7 +13,7 @@ import math
 import re
 
 from charts import Curves
-from study import Claim, Study, Variant
+from study import Claim, Study, Variant, transfer
 
 COLUMN = {"End time": 0.5, "Mesh/Upper corner": "3, 1.5", "Output/Interval": 1.}
 BLOCK = {"Mesh/Cell size": 0.02, "End time": 1.}
@@ -22,7 +22,7 @@ BOXES = {"stiff block": ("prm/benchmarks/elastic_2d.prm", 1.28, 1.28, STIFF),
          "soft block": ("prm/benchmarks/elastic_2d.prm", 1.28, 1.28, BLOCK),
          "dry column": ("prm/column_dense.prm", 3., 1.5, COLUMN),
          "dam break": ("prm/dam_break.prm", 9., 3., {"Mesh/Cell size": 0.1, "End time": 1.2, "Output/Interval": 2.})}
-PHASES = {**COLUMN, "Transfer/Method": "TPIC", "Time step/Maximum time step": 5e-4, "End time": 0.2}
+PHASES = {**COLUMN, **transfer("TPIC"), "Time step/Maximum time step": 5e-4, "End time": 0.2}
 SOIL = {**PHASES, "Soil/Initial porosity": 0.4}
 WATER = {"dry": ("prm/column_dense.prm", SOIL),
          "single": ("prm/column_dense.prm", {**SOIL, "Water/Region": "same", "Water/Point sets": "single"}),

@@ -10,10 +10,10 @@ import math
 
 import measures
 from charts import StabilityMap
-from study import Claim, Study, Variant, axis, product
+from study import Claim, Study, Variant, axis, product, transfer
 
 TRANSFERS = {**{f"FLIP, {rate}/s": {"Transfer/Method": "FLIP", "Transfer/PIC rate": rate} for rate in (0, 1, 5, 20, 100)},
-             **{method: {"Transfer/Method": method} for method in ("PIC", "APIC", "TPIC")}}
+             **{method: transfer(method) for method in ("PIC", "APIC", "TPIC")}}
 
 
 SCENES = [Variant({"scene": "vibrating bar"}, {"Mesh/Cell size": 0.0625, "Mesh/Upper corner": "1, 0.0625", "End time": 1.26491,

@@ -22,7 +22,7 @@ import math
 import numpy as np
 
 from charts import Curves
-from study import Claim, Study, Variant
+from study import Claim, Study, Variant, transfer
 
 GRAVITY, WATER, GRAINS, POROSITY = 9.81, 1000., 2650., 0.4
 POISSON, FRICTION, K0 = 0.3, 30., 0.5
@@ -55,7 +55,7 @@ def common(height, cells, length, top):
     motion = math.sqrt(height / GRAVITY)
     return {"End time": f"{END * motion:.6g}", "Output/Interval": f"{END * motion / 40:.9g}", "Output/Graphics": "none",
             "Mesh/Cell size": height / cells, "Mesh/Upper corner": f"{length * height:g}, {top * height:g}",
-            "Time step/Maximum time step": f"{1e-3 * math.sqrt(height):.3g}", "Transfer/Method": "TPIC"}
+            "Time step/Maximum time step": f"{1e-3 * math.sqrt(height):.3g}", **transfer("TPIC")}
 
 
 def collapse(height, young, cells=10):

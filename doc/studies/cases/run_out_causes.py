@@ -9,13 +9,13 @@ saturated slope serves in the same way, with cells of 1/7 m and 1/10 m. "Front b
 
 import run_out
 from charts import Curves
-from study import Claim, Study
+from study import Claim, Study, transfer
 
 COLUMN_CAUSES = {
     "as it is": {},
     "PIC rate 0": {"Transfer/PIC rate": 0},
     "PIC rate 20 1/s": {"Transfer/PIC rate": 20},
-    "TPIC": {"Transfer/Method": "TPIC"},
+    "TPIC": transfer("TPIC"),
     "no F-bar": {"Stabilisation/F-bar": "none"},
     "2 x 2 points": {"Soil/Points per cell": 2},
     "4 x 4 points": {"Soil/Points per cell": 4},

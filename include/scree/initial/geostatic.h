@@ -77,9 +77,10 @@ namespace scree
   template <int dim>
   void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0);
 
-  /// Gives the points an isotropic stress, Pa, compression positive.
+  /// Gives the points an isotropic stress, Pa, compression positive. Collective; throws EntryError if the law cannot
+  /// bear that.
   template <int dim>
-  void set_isotropic_stress(SoilBody<dim> &body, const double pressure);
+  void set_isotropic_stress(SoilBody<dim> &body, const double pressure, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

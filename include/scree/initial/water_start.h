@@ -25,7 +25,7 @@ namespace scree
                                                             const std::vector<SoilRegion> &soil);
 
   /// Gives the points of water the weight of the water above them as pressure, Pa, and density times gravity as its
-  /// gradient, Pa/m.
+  /// gradient, Pa/m. Collective.
   template <int dim>
   void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden);
 } // namespace scree

@@ -26,6 +26,13 @@ namespace scree
     using InputError::InputError;
   };
 
+  /// An entry whose value fails at one place or time, which a single rank may meet; what() is the whole message.
+  class ValueError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
   /// `Soil/Initial state` of `Soil` and `Initial state`; an empty path is the top of the file.
   std::string subsection_path(const std::string &path, const std::string &name);
 
@@ -69,6 +76,23 @@ namespace scree
 
   /// Throws EntryError on all ranks if any rank has found a `fault` (not empty). Collective.
   void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator);
+
+  /// Does `work`, in which ranks do not wait for each other; a ValueError of any rank becomes an EntryError of all.
+  /// Collective.
+  template <typename Work>
+  void on_all_ranks(const MPI_Comm communicator, const Work &work)
+  {
+    std::string fault;
+    try
+      {
+        work();
+      }
+    catch (const ValueError &error)
+      {
+        fault = error.what();
+      }
+    throw_on_all_ranks(fault, communicator);
+  }
 } // namespace scree
 
 #endif

@@ -21,7 +21,8 @@ namespace scree
     /// No file.
     InputFile() = default;
 
-    /// Reads `file` and the files it includes. Throws InputError at what is no statement and at open subsections.
+    /// Reads `file` and the files it includes. Throws InputError at what is no statement, at open subsections and at
+    /// files that include each other.
     explicit InputFile(const std::string &file);
 
     /// The text of the file as it was read.
@@ -29,6 +30,9 @@ namespace scree
     {
       return whole_text;
     }
+
+    /// The statements of the file and those it includes, for ParameterHandler::parse_input().
+    std::string statements_text() const;
 
     /// The value of an entry of the subsection, or `otherwise` if the file does not set it.
     std::string value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const;
@@ -70,8 +74,16 @@ namespace scree
       InputError error(const std::string &message) const;
     };
 
-    void read(const std::string &text, const std::string &file, std::vector<Statement> &open);
-    void read_line(const std::string &line, const Statement &place, std::vector<Statement> &open);
+    /// What is open where the reader is.
+    struct Open
+    {
+      std::vector<Statement> subsections;
+      std::vector<std::string> files; ///< each included by the one before
+    };
+
+    void read(const std::string &text, const std::string &file, Open &open);
+    void read_line(const std::string &line, const Statement &place, Open &open);
+    void include(const std::string &file, const Statement &place, Open &open);
 
     void check_entry(const Statement &statement, const DeclaredNames &declared, const std::string &last_remedy) const;
 

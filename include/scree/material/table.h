@@ -36,6 +36,10 @@ namespace scree
 
     /// Throws dealii::ExcMessage if there is no law of that name.
     LawKind law_kind() const;
+
+    /// Throws EntryError that names the entry of the law, in the body's `subsection`, which makes waves so fast that a
+    /// run is too long, and the `remedy`.
+    [[noreturn]] void throw_too_stiff(const std::string &subsection, const std::string &remedy) const;
   };
 
   /// The law `parameters.law` names. Throws dealii::ExcMessage if there is none of that name.

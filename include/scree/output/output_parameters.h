@@ -35,6 +35,10 @@ namespace scree
     std::string screen             = "progress";
 
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at an interval that no run to `end_time`, s, can meet.
+    void check(const double end_time) const;
+
     Screen screen_kind() const;
 
     /// Whether a checkpoint that cannot be written ends the run.

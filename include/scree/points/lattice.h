@@ -4,6 +4,8 @@
 
 #include <scree/points/point_set.h>
 
+#include <deal.II/base/function.h>
+
 #include <deal.II/grid/tria.h>
 
 #include <functional>
@@ -50,6 +52,16 @@ namespace scree
                                        const double cell_size,
                                        const Lattice &lattice,
                                        const PartOfCube<dim> &part_of_cube);
+
+  /// Throws ValueError if the velocity of a seed is no number.
+  /// @param velocity null: at rest
+  template <int dim>
+  void require_velocities(const dealii::Function<dim> *velocity, const std::vector<Seed<dim>> &seeds)
+  {
+    for (const Seed<dim> &seed : seeds)
+      for (unsigned int a = 0; velocity && a < dim; ++a)
+        velocity->value(seed.location, a);
+  }
 
   /// Writes a new point's properties, which are 0 before.
   template <int dim>

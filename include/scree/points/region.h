@@ -2,7 +2,7 @@
 #ifndef scree_points_region_h
 #define scree_points_region_h
 
-#include <deal.II/base/function_parser.h>
+#include <scree/input/expression.h>
 
 #include <memory>
 #include <string>
@@ -18,6 +18,7 @@ namespace scree
     /// @param where entry_name(), for the message if the expression does not parse
     Region(const std::string &where, const std::string &expression);
 
+    /// Throws ValueError if the expression is no number there.
     bool contains(const dealii::Point<dim> &x) const
     {
       return function->value(x) != 0.;
@@ -27,7 +28,7 @@ namespace scree
     std::pair<double, dealii::Point<dim>> part_of_cube(const dealii::Point<dim> &lower, const double width) const;
 
   private:
-    std::unique_ptr<dealii::FunctionParser<dim>> function;
+    std::unique_ptr<Expression<dim>> function;
   };
 } // namespace scree
 

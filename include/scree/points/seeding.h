@@ -8,6 +8,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
+#include <vector>
 
 namespace scree
 {
@@ -37,10 +38,18 @@ namespace scree
     double bulk_density; ///< dry, kg/m^3
   };
 
+  /// Throws EntryError, with a place, if two bodies claim the same one; looks at 2 places an axis for each of
+  /// `points_per_cell`. Collective.
+  template <int dim>
+  void require_apart(const std::vector<SoilRegion> &soil,
+                     const unsigned int points_per_cell,
+                     const dealii::Triangulation<dim> &triangulation,
+                     const double cell_size);
+
   /// Fills the body's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point
   /// stands at the centroid of the part of its cube that is inside and has its volume, and slivers join their
   /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
-  /// holds no volume.
+  /// holds no volume, or an expression is no number at one of the places.
   template <int dim>
   void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,

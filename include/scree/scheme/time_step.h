@@ -29,7 +29,8 @@ namespace scree
     /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `due`.
     double next_step(const double stable_step, const double due) const;
 
-    /// Moves on by the step, to the due time itself if the step ends there.
+    /// Moves on by the step, to the due time itself if the step ends there. Throws if the step is too small to move the
+    /// time.
     void advance(const double time_step, const double due);
 
     double time() const

@@ -32,6 +32,10 @@ namespace scree
     double pic_rate    = 1; ///< 1/s
 
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at an entry that the method does not read.
+    void check() const;
+
     TransferMethod transfer_method() const;
     bool carries_affine_field() const;
   };

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_memory_h
+#define scree_memory_h
+
+#include <scree/parameters.h>
+
+namespace scree
+{
+  /// What a case will take of memory, from its entries alone.
+  struct MemoryEstimate
+  {
+    double n_cells = 0, n_soil_points = 0, n_water_points = 0;
+    double bytes_of_cells = 0, bytes_of_points = 0; ///< of all ranks
+    double bytes_of_rank = 0;                       ///< of each rank beside its share of the cells
+  };
+
+  /// Numbers of cells and points of a case; regions are sampled. Throws ValueError if one is no number at a sample.
+  template <int dim>
+  MemoryEstimate estimate_memory(const Parameters &parameters);
+
+  /// Bytes that this host still has for this process: what is free, and what its control groups and limits let it take.
+  double available_memory();
+
+  /// Throws EntryError, with the estimate, if the hosts of the ranks have not enough memory for the case. Collective.
+  template <int dim>
+  void require_memory(const Parameters &parameters, const MPI_Comm communicator);
+} // namespace scree
+
+#endif

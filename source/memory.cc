@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/memory.h>
+#include <scree/points/water_seeding.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Measured in 2D and 3D: peaks of runs on one rank, a step and a picture long, over their numbers of cells and
+    // points. Good to a fifth.
+    constexpr double bytes_of_cell[2]        = { 1200, 1900 };
+    constexpr double bytes_of_wet_cell[2]    = { 0, 29000 }; // beside that: matrix and multigrid of the pressure
+    constexpr double bytes_of_soil_point[2]  = { 750, 900 };
+    constexpr double bytes_of_water_point[2] = { 300, 600 };
+    constexpr double bytes_of_coarse_cell    = 300;
+    constexpr double bytes_of_program        = 1.7e8;
+
+
+    /// Part of the box that a region covers.
+    template <int dim>
+    double part_of_box(const Region<dim> &region, const GridParameters &grid)
+    {
+      constexpr unsigned int n         = dim == 2 ? 200 : 40; // samples an axis
+      constexpr unsigned int n_samples = Utilities::pow(n, dim);
+      unsigned int n_inside            = 0;
+      for (unsigned int i = 0; i < n_samples; ++i)
+        {
+          Point<dim> x;
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+            x[a] = grid.lower_corner[a] + (grid.upper_corner[a] - grid.lower_corner[a]) * (rest % n + 0.5) / double(n);
+          n_inside += region.contains(x);
+        }
+      return n_inside / double(n_samples);
+    }
+
+
+    /// The number in a file; infinity if there is none, such as "max".
+    double number_in(const std::string &file)
+    {
+      std::ifstream in(file);
+      double number = 0;
+      return in >> number ? number : std::numeric_limits<double>::infinity();
+    }
+
+
+    /// The number after a word in a file, in the unit of the file; 0 if the word is not there.
+    double number_after(const std::string &word, const std::string &file)
+    {
+      std::ifstream in(file);
+      std::string line, name;
+      while (std::getline(in, line))
+        {
+          std::istringstream words(line);
+          double number = 0;
+          if (words >> name >> number && name == word)
+            return number;
+        }
+      return 0;
+    }
+
+
+    /// What a control group of either version leaves, in bytes; files that the kernel keeps in memory can go.
+    double left_by_group(const std::string &folder)
+    {
+      const double limit   = std::min(number_in(folder + "/memory.max"), number_in(folder + "/memory.limit_in_bytes"));
+      const double version = std::isfinite(number_in(folder + "/memory.current")) ? 2 : 1;
+      const double used    = number_in(folder + (version == 2 ? "/memory.current" : "/memory.usage_in_bytes"));
+      if (!std::isfinite(limit) || !std::isfinite(used))
+        return std::numeric_limits<double>::infinity();
+      const std::string kept = version == 2 ? "" : "total_";
+      return limit - used + number_after(kept + "inactive_file", folder + "/memory.stat") +
+             number_after(kept + "active_file", folder + "/memory.stat");
+    }
+
+
+    /// The least that the control groups of this process leave, in bytes.
+    double left_by_groups()
+    {
+      double left = std::numeric_limits<double>::infinity();
+      std::ifstream in("/proc/self/cgroup"); // lines such as 4:memory:/jobs/7, or 0::/jobs/7 in version 2
+      std::string line;
+      while (std::getline(in, line))
+        {
+          const auto parts = Utilities::split_string_list(line, ':');
+          if (parts.size() != 3 || !(parts[1].empty() || parts[1] == "memory"))
+            continue;
+          const std::string root = std::string("/sys/fs/cgroup") + (parts[1].empty() ? "" : "/memory");
+          std::string path       = parts[2] == "/" ? "" : parts[2];
+          for (;; path.erase(path.rfind('/'))) // the limits of the groups around this one hold, too
+            {
+              left = std::min(left, left_by_group(root + path));
+              if (path.rfind('/') == std::string::npos)
+                break;
+            }
+        }
+      return left;
+    }
+
+
+    /// What `ulimit -v` leaves, in bytes.
+    double left_by_limit()
+    {
+      rlimit limit;
+      if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return std::numeric_limits<double>::infinity();
+      return double(limit.rlim_cur) - 1024 * number_after("VmSize:", "/proc/self/status");
+    }
+
+
+    std::string size_text(const double bytes)
+    {
+      std::ostringstream text;
+      text.precision(2);
+      text << bytes / 1e9 << " GB";
+      return text.str();
+    }
+
+
+    /// The entry that most of the memory is for, with its subsection and value.
+    std::tuple<std::string, std::string, double> largest_part(const Parameters &parameters,
+                                                              const MemoryEstimate &estimate)
+    {
+      if (estimate.bytes_of_cells >= estimate.bytes_of_points)
+        return { "Mesh", "Cell size", parameters.grid.cell_size };
+      if (estimate.n_water_points > estimate.n_soil_points)
+        return { "Water", "Points per cell", parameters.water.points_per_cell };
+      const auto densest =
+          std::max_element(parameters.bodies.begin(), parameters.bodies.end(), [](const auto &a, const auto &b) {
+            return a.seeding.points_per_cell < b.seeding.points_per_cell;
+          });
+      return { densest->name, "Points per cell", densest->seeding.points_per_cell };
+    }
+  } // namespace
+
+
+  template <int dim>
+  MemoryEstimate estimate_memory(const Parameters &parameters)
+  {
+    const GridParameters &grid = parameters.grid;
+    MemoryEstimate estimate;
+    estimate.n_cells        = 1;
+    unsigned int n_halvings = 31;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        const long cells = std::lround((grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size);
+        estimate.n_cells *= cells;
+        while (cells % (1l << n_halvings) != 0)
+          --n_halvings;
+      }
+    const double n_coarse_cells = estimate.n_cells / std::pow(1l << n_halvings, dim);
+
+    const auto soil = parameters.soil_regions();
+    for (unsigned int i = 0; i < soil.size(); ++i)
+      estimate.n_soil_points += estimate.n_cells * std::pow(parameters.bodies[i].seeding.points_per_cell, dim) *
+                                part_of_box(Region<dim>(entry_name(soil[i].name, "Region"), soil[i].region), grid);
+    double n_wet_cells = 0;
+    if (parameters.has_water)
+      for (const WaterPart &part : water_parts(parameters.water, soil))
+        n_wet_cells += estimate.n_cells * part_of_box(Region<dim>(entry_name("Water", "Region"), part.region), grid);
+    if (parameters.water.point_sets_kind() == PointSets::double_point)
+      estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim);
+
+    estimate.bytes_of_cells = bytes_of_cell[dim - 2] * estimate.n_cells + bytes_of_wet_cell[dim - 2] * n_wet_cells;
+    estimate.bytes_of_points =
+        bytes_of_soil_point[dim - 2] * estimate.n_soil_points + bytes_of_water_point[dim - 2] * estimate.n_water_points;
+    estimate.bytes_of_rank = bytes_of_program + bytes_of_coarse_cell * n_coarse_cells;
+    return estimate;
+  }
+
+
+  double available_memory()
+  {
+    const double free = 1024 * number_after("MemAvailable:", "/proc/meminfo");
+    return std::min({ free > 0 ? free : std::numeric_limits<double>::infinity(), left_by_groups(), left_by_limit() });
+  }
+
+
+  template <int dim>
+  void require_memory(const Parameters &parameters, const MPI_Comm communicator)
+  {
+    MemoryEstimate estimate;
+    on_all_ranks(communicator, [&] { estimate = estimate_memory<dim>(parameters); });
+
+    MPI_Comm host;
+    MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host);
+    const double ranks_of_host = Utilities::MPI::n_mpi_processes(host);
+    MPI_Comm_free(&host);
+    const double share = ranks_of_host / Utilities::MPI::n_mpi_processes(communicator);
+    const double needed =
+        share * (estimate.bytes_of_cells + estimate.bytes_of_points) + ranks_of_host * estimate.bytes_of_rank;
+    const double available = available_memory();
+    std::string fault;
+    if (needed > available)
+      {
+        const auto [subsection, entry, value] = largest_part(parameters, estimate);
+        fault                                 = entry_message(subsection,
+                              entry,
+                              number_text(value),
+                              "the run would need about " + size_text(needed) + " of memory, for " +
+                                  number_text(estimate.n_cells) + " cells and about " +
+                                  number_text(estimate.n_soil_points + estimate.n_water_points) + " points, but only " +
+                                  size_text(available) + " are available" + (share < 1 ? " on a host" : "") +
+                                  ". Write larger cells or fewer points per cell, or use more hosts.");
+      }
+    throw_on_all_ranks(fault, communicator);
+  }
+
+  template MemoryEstimate estimate_memory<2>(const Parameters &);
+  template MemoryEstimate estimate_memory<3>(const Parameters &);
+  template void require_memory<2>(const Parameters &, const MPI_Comm);
+  template void require_memory<3>(const Parameters &, const MPI_Comm);
+} // namespace scree
