@@ -1,0 +1,52 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# sh tests/sanitise.sh: builds scree with the sanitisers of addresses and of undefined behaviour in build-sanitise, and runs the short
+# cases of tests/debug, tests/cases and tests/errors with it. Not one of the tests: the build takes long. Ends with an error if
+# a sanitiser has found something; what it said is then in build-sanitise/runs.
+
+# Leaks are not looked for: MPI and its plug-ins keep what they have allocated. deal.II's package is not instrumented, so that containers
+# that cross its border must not be annotated.
+export ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0:abort_on_error=0:exitcode=99
+export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=0
+export OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
+build=${1:-$root/build-sanitise}
+cmake -S "$root" -B "$build" -GNinja -DCMAKE_BUILD_TYPE=Release -DSCREE_NATIVE=OFF -DSCREE_SANITISE=ON &&
+  cmake --build "$build" --target scree scree-element || exit 1
+
+failed=0
+# check NAME COMMAND...: runs it in a folder of its own; a sanitiser must have been silent, whatever the exit code.
+check()
+{
+  name=$1
+  shift
+  folder=$build/runs/$name
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  (cd "$folder" && "$@" >screen 2>errors </dev/null)
+  if grep -Eq 'ERROR: AddressSanitizer|runtime error:' "$folder/errors"; then
+    echo "$name: FAILED"
+    grep -E -A8 'ERROR: AddressSanitizer|runtime error:' "$folder/errors" | head -20
+    failed=1
+  else
+    echo "$name: clean"
+  fi
+}
+
+# The runs of tests/errors end with exit code 1, as they should.
+for case in "$root"/tests/debug/*.prm "$root"/tests/cases/*.prm; do
+  name=$(basename "$case" .prm)
+  check "$name" "$build/scree" "$case"
+  check "$name.mpirun=2" mpirun -np 2 "$build/scree" "$case"
+done
+check resume "$build/scree" "$root/tests/cases/column_short.prm"
+for case in "$root"/tests/errors/*.prm; do
+  check "errors/$(basename "$case" .prm)" "$build/scree" "$case"
+done
+for case in "$root"/prm/element/*.prm; do
+  check "element/$(basename "$case" .prm)" "$build/scree-element" "$case"
+done
+exit "$failed"
