@@ -18,7 +18,10 @@ namespace
       "       scree --print-parameters   all entries with defaults and explanations\n"
       "       scree --version            version and commit, libraries, compiler\n"
       "       scree --help, -h           this text\n"
-      "In parallel: mpirun -np 2 scree case.prm";
+      "In parallel: mpirun -np 2 scree case.prm\n"
+      "Exit code: 0 done, 1 an error, 3 stopped before the end time as it was asked to, and --resume goes on";
+
+  constexpr int exit_code_of_a_stop = 3;
 
   void check_command_line(const std::vector<std::string> &arguments, const bool resume)
   {
@@ -107,9 +110,10 @@ namespace
     check_command_line(arguments, resume);
     scree::Parameters parameters(arguments[0]);
     const scree::Start start = resume ? scree::Start::resume : scree::Start::fresh;
+    scree::End end           = scree::End::complete;
     in_its_dimension(parameters,
-                     [&](const auto dim) { scree::Simulation<dim()>(parameters, start, MPI_COMM_WORLD).run(); });
-    return 0;
+                     [&](const auto dim) { end = scree::Simulation<dim()>(parameters, start, MPI_COMM_WORLD).run(); });
+    return end == scree::End::stopped ? exit_code_of_a_stop : 0;
   }
 } // namespace
 

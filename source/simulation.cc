@@ -2,6 +2,7 @@
 #include <scree/case_changes.h>
 #include <scree/input/input_error.h>
 #include <scree/output/checkpoint.h>
+#include <scree/output/log_header.h>
 #include <scree/simulation.h>
 #include <scree/unusual_units.h>
 
@@ -27,6 +28,7 @@ namespace scree
       : parameters(parameters)
       , communicator(communicator)
       , folder(parameters.output_directory, parameters.output.screen_kind() == Screen::progress, communicator)
+      , stop(folder.is_writer() ? folder.file("terminate") : "", parameters.output.wall_time_limit)
       , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
       , scene(parameters, communicator)
       , scheme(scene.make_scheme(timer))
@@ -34,13 +36,9 @@ namespace scree
       , clock(parameters.time_step)
       , output_times(parameters.output, parameters.end_time)
       , graphics(scene.grid, parameters.output, parameters.output_directory)
-      , statistics(scene.grid, scene.forcing.gravity())
+      , statistics(scene.grid, scene.forcing.gravity(), scene.loads.size())
+      , rows(folder.file("statistics"))
   {
-    folder.write("original.prm", parameters.original());
-    std::ostringstream all_entries;
-    parameters.print(all_entries);
-    folder.write("parameters.prm", all_entries.str());
-
     if (start == Start::resume)
       resume();
     else
@@ -52,12 +50,14 @@ namespace scree
   void Simulation<dim>::initialise()
   {
     scene.fill();
-    folder.remove_old_results(); // not before the input has proved good
-    for (const std::string &question : unusual_units(parameters))
-      folder.log(question);
     repartition();
     measure_speeds();
     scene.require_steps(stable_step(), speeds);
+    folder.remove_old_results(); // not before the input has proved good
+    record_case();
+    log_size(folder, scene.grid, scene.bodies, scene.water);
+    for (const std::string &question : unusual_units(parameters))
+      folder.log(question);
     if (parameters.settling.maximum_time > 0)
       settle();
     scheme->read_points();
@@ -81,10 +81,34 @@ namespace scree
       totals = RunTotals<dim>(); // The writer holds the sums.
     reinit();
     output_times.begin(clock.time());
+    record_case();
+    log_size(folder, scene.grid, scene.bodies, scene.water);
+    cut_output();
     folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) +
                ", from " + checkpoint.folder + " of " + checkpoint.manifest.program + '.');
     for (const std::string &note : notes)
       folder.log(note);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::record_case()
+  {
+    folder.write("original.prm", parameters.original());
+    std::ostringstream all_entries;
+    parameters.print(all_entries);
+    folder.write("parameters.prm", all_entries.str());
+    log_program(folder, communicator);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::cut_output()
+  {
+    graphics.cut();
+    if (folder.is_writer())
+      if (const std::string missing = rows.cut(); !missing.empty())
+        folder.log(missing);
   }
 
 
@@ -98,15 +122,16 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::run()
+  End Simulation<dim>::run()
   {
     timer.reset(); // Only the steps' time is to be told.
+    stop.listen();
     Progress progress(folder, clock.time(), parameters.end_time);
     if (clock.step() == 0)
       report();
     const double updates_before = point_updates;
     const double first_step     = stable_step();
-    while (!output_times.is_end(clock.time()))
+    while (!output_times.is_end(clock.time()) && stop_reason == StopReason::none)
       {
         const double largest_step = stable_step();
         check_step(largest_step, first_step);
@@ -117,17 +142,53 @@ namespace scree
         report();
         progress.report(clock.time(), clock.step(), last_time_step);
       }
+    const End end = output_times.is_end(clock.time()) ? End::complete : End::stopped;
+    if (end == End::stopped)
+      write_last();
+    summarise(progress, updates_before);
+    return end;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::write_last()
+  {
+    folder.require_presence();
+    if (step_of_checkpoint != clock.step())
+      write_checkpoint();
+    require_entry(
+        step_of_checkpoint == clock.step(),
+        "Output",
+        "Checkpoint failure",
+        parameters.output.checkpoint_failure,
+        "the run was stopped by " + text_of(stop_reason) +
+            ", and its last checkpoint could not be written. The log tells why; make room, and use --resume if "
+            "there is an older one.");
+    // After the checkpoint, so that a resumed run drops it, unless it was due.
+    if (statistics.step_of_last_row() != clock.step())
+      write_row();
+    folder.log("Stopped at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", by " +
+               text_of(stop_reason) + ". A checkpoint is written: --resume goes on from here.");
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::summarise(Progress &progress, const double point_updates_before)
+  {
     progress.summarise(timer,
-                       Utilities::MPI::sum(point_updates - updates_before, communicator),
+                       Utilities::MPI::sum(point_updates - point_updates_before, communicator),
                        Utilities::MPI::n_mpi_processes(communicator),
                        scene.name_of_a_point());
     progress.summarise_ranks(
         seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
+    log_peak_memory(folder, communicator);
     folder.log(
         "Results are in " + parameters.output_directory +
         (parameters.output.graphics_kind() == Pictures::none ? "." : " (open solution/points.pvd in ParaView)."));
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
       statistics.print_last_row(std::cout);
+    if (folder.is_writer() && !rows.is_complete())
+      rows.append(""); // throws if the disk still refuses them
   }
 
 
@@ -190,8 +251,11 @@ namespace scree
     for (double &value : largest)
       if (std::isnan(value))
         value = std::numeric_limits<double>::infinity();
+    largest.push_back(static_cast<double>(stop.reason()));
     Utilities::MPI::max(largest, communicator, largest);
-    speeds = { largest[0], largest[1] };
+    speeds      = { largest[0], largest[1] };
+    stop_reason = static_cast<StopReason>(largest.back());
+    largest.pop_back();
   }
 
 
@@ -286,19 +350,28 @@ namespace scree
   {
     const double time          = clock.time();
     const bool at_start_or_end = clock.step() == 0 || output_times.is_end(time);
+    const bool row_is_due      = at_start_or_end || output_times.row_is_due(time);
+    const bool picture_is_due  = at_start_or_end || output_times.picture_is_due(time);
     const TimedPart part(timer, StepPart::output);
 
-    if (at_start_or_end || output_times.row_is_due(time))
-      {
-        statistics.collect(scene.bodies, scene.water, totals, time, clock.step(), last_time_step, last_update);
-        if (folder.is_writer())
-          statistics.write(folder.file("statistics"));
-      }
-    if (at_start_or_end || output_times.picture_is_due(time))
+    if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
+      folder.require_presence();
+    if (row_is_due)
+      write_row();
+    if (picture_is_due)
       graphics.write(scene.bodies, scheme->soil_field(), time, scheme->water_view().get());
     if (output_times.checkpoint_is_due(time))
       write_checkpoint();
     output_times.begin(time);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::write_row()
+  {
+    statistics.collect(scene.bodies, scene.water, totals, clock.time(), clock.step(), last_time_step, last_update);
+    folder.try_to_write("statistics",
+                        [&] { rows.append((rows.is_empty() ? statistics.head() : "") + statistics.row()); });
   }
 
 
@@ -309,7 +382,7 @@ namespace scree
     double time             = clock.time();
     unsigned long long step = clock.step();
     archive &time &step &speeds.wave &speeds.points &last_time_step;
-    archive &totals &statistics &graphics;
+    archive &totals &statistics &graphics &rows;
     clock.set(time, step);
   }
 
@@ -319,6 +392,7 @@ namespace scree
   {
     const RunTotals<dim> own = totals;
     totals                   = totals.sum_over_ranks(communicator);
+    folder.try_to_write("statistics", [&] { rows.sync(); });
     std::string fault;
     try
       {
@@ -337,7 +411,9 @@ namespace scree
     totals = own;
     if (!fault.empty() && parameters.output.stops_without_checkpoint())
       throw EntryError(fault);
-    if (!fault.empty())
+    if (fault.empty())
+      step_of_checkpoint = clock.step();
+    else
       folder.log("No checkpoint at t = " + Utilities::to_string(clock.time()) + " s: " + fault);
   }
 

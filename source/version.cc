@@ -20,4 +20,10 @@ namespace scree
          << SCREE_COMPILER ", " SCREE_BUILD_TYPE "\n";
     return text.str();
   }
+
+
+  std::string compiler_flags()
+  {
+    return SCREE_FLAGS;
+  }
 } // namespace scree

@@ -5,10 +5,14 @@
 #include <scree/output/graphics.h>
 #include <scree/output/output_times.h>
 #include <scree/output/progress.h>
+#include <scree/output/row_file.h>
 #include <scree/output/statistics.h>
+#include <scree/output/stop_requests.h>
 #include <scree/points/partition.h>
 #include <scree/scene.h>
 #include <scree/scheme/step_part.h>
+
+#include <limits>
 
 namespace scree
 {
@@ -19,6 +23,13 @@ namespace scree
     resume ///< from the newest checkpoint in the run folder
   };
 
+  /// How a run ends.
+  enum class End
+  {
+    complete, ///< at its end time
+    stopped   ///< before, as it was asked to
+  };
+
   /// A run: a scene, the scheme that moves it, and what is written of it. Owns everything, and nobody knows it.
   template <int dim>
   class Simulation
@@ -27,8 +38,8 @@ namespace scree
     /// Throws InputError or dealii exceptions if the parameters do not make a run.
     Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator);
 
-    /// From the start to the end time, with all output.
-    void run();
+    /// From the start to the end time, with all output; or to a request to stop (StopRequests), with a checkpoint.
+    End run();
 
     /// One step of `time_step` s.
     void advance(const double time_step);
@@ -85,7 +96,8 @@ namespace scree
     /// The speeds of the points as they are.
     void measure_speeds();
 
-    /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Collective.
+    /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Also agrees on
+    /// whether to stop. Collective.
     void agree_on(std::vector<double> &largest);
 
     /// Throws if the motion is unstable.
@@ -93,7 +105,20 @@ namespace scree
     void check_speed(const double time_step) const;
 
     void report();
+    void write_row();
     void write_checkpoint();
+
+    /// Keeps the case with its results and begins the log.
+    void record_case();
+
+    /// After a checkpoint has been read: drops from lists and rows what was written after it.
+    void cut_output();
+
+    /// Writes what --resume and the eye need of a run that ends before its time.
+    void write_last();
+
+    /// What is told when a run ends.
+    void summarise(Progress &progress, const double point_updates_before);
 
     template <class Archive>
     void serialize_state(Archive &archive);
@@ -101,6 +126,7 @@ namespace scree
     Parameters &parameters;
     const MPI_Comm communicator;
     RunFolder folder;
+    StopRequests stop;
     dealii::TimerOutput timer;
     Scene<dim> scene;
     std::unique_ptr<Scheme<dim>> scheme;
@@ -110,12 +136,15 @@ namespace scree
     OutputTimes output_times;
     Graphics<dim> graphics;
     Statistics<dim> statistics;
+    RowFile rows; // of the statistics
 
     RunTotals<dim> totals;
-    double point_updates = 0;  // points times steps, of this rank
-    UpdateReport last_update;  // of this rank
-    Speeds speeds;             // of all ranks
-    double last_time_step = 0; // s
+    double point_updates = 0;                  // points times steps, of this rank
+    UpdateReport last_update;                  // of this rank
+    Speeds speeds;                             // of all ranks
+    double last_time_step                 = 0; // s
+    unsigned long long step_of_checkpoint = std::numeric_limits<unsigned long long>::max(); // the newest, of this run
+    StopReason stop_reason                = StopReason::none;                               // of all ranks
   };
 } // namespace scree
 

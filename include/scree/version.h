@@ -12,6 +12,9 @@ namespace scree
   ///   GNU 12.2.0, Release
   /// The commit is "unknown" if the sources were no git repository; "-dirty": files differed from the commit.
   std::string version_text();
+
+  /// The compiler's flags but for warnings, such as -O3 -fno-math-errno -march=native.
+  std::string compiler_flags();
 } // namespace scree
 
 #endif

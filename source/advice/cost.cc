@@ -30,10 +30,9 @@ namespace scree
     /// rate sqrt(g/H), over the strain at which the law divides it; at rest.
     constexpr double substeps_of_strain = 0.33, resting_update = 0.65;
 
-    /// Core-seconds of a picture and of a row of `statistics`: by themselves, a point, and a row written before (each
-    /// row writes all).
+    /// Core-seconds of a picture and of a row of `statistics`: by themselves, and a point.
     constexpr double picture_seconds = 1.5e-3, picture_seconds_per_point = 8e-7;
-    constexpr double row_seconds = 5e-5, row_seconds_per_point = 1.5e-7, row_seconds_per_row = 5e-7;
+    constexpr double row_seconds = 5e-5, row_seconds_per_point = 1.5e-7;
 
     /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the output times.
     double count_steps(const OutputParameters &output, const double begin, const double end, const double step)
@@ -60,7 +59,7 @@ namespace scree
           (output.graphics_kind() == Pictures::none ? 0. : count(output.interval)) + count(output.checkpoint_interval);
       const double rows = count(output.interval_of_statistics());
       return pictures * (picture_seconds + picture_seconds_per_point * scene.n_points()) +
-             rows * (row_seconds + row_seconds_per_point * scene.n_points() + 0.5 * rows * row_seconds_per_row);
+             rows * (row_seconds + row_seconds_per_point * scene.n_points());
     }
 
     /// Core-seconds of a part of a step; 0 if it was not met.

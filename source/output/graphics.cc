@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/output/graphics.h>
+#include <scree/output/whole_file.h>
 
 #include <deal.II/base/data_out_base.h>
 
-#include <fstream>
+#include <sstream>
 
 namespace scree
 {
@@ -50,10 +51,27 @@ namespace scree
                              const std::string &file) const
   {
     files.emplace_back(time, file);
-    if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) != 0)
+    write_series(series, files);
+  }
+
+
+  template <int dim>
+  void Graphics<dim>::write_series(const std::string &series, const std::vector<TimeAndFile> &files) const
+  {
+    if (files.empty() || Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) != 0)
       return;
-    std::ofstream out(folder + series + ".pvd");
-    DataOutBase::write_pvd_record(out, files);
+    std::ostringstream text;
+    DataOutBase::write_pvd_record(text, files);
+    write_whole_file(folder + series + ".pvd", text.str());
+  }
+
+
+  template <int dim>
+  void Graphics<dim>::cut() const
+  {
+    write_series("points", point_files);
+    write_series("water", water_files);
+    write_series("grid", grid_files);
   }
 
   template class Graphics<2>;

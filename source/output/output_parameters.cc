@@ -25,6 +25,11 @@ namespace scree
         checkpoint_failure,
         "What follows if a checkpoint cannot be written: stop; go on (the next one is tried when it is due).",
         Patterns::Selection("stop|go on"));
+    prm.add_parameter("Wall time limit",
+                      wall_time_limit,
+                      "Time of the clock on the wall, s, within which the run writes a checkpoint and ends, so that "
+                      "--resume can go on: a little less than what a batch system grants; 0: none.",
+                      Patterns::Double(0));
     prm.add_parameter("Graphics",
                       graphics,
                       "What is written for ParaView: points and grid, points, or none.",

@@ -75,6 +75,6 @@ namespace scree
 
   bool OutputTimes::checkpoint_is_due(const double time) const
   {
-    return reached(time, checkpoint);
+    return checkpoint_interval > 0 && reached(time, checkpoint);
   }
 } // namespace scree

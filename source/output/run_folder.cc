@@ -29,26 +29,22 @@ namespace scree
       , writer(Utilities::MPI::this_mpi_process(communicator) == 0)
       , communicator(communicator)
   {
-    std::string fault;
-    if (writer)
-      {
-        std::error_code error;
-        std::filesystem::create_directories(path + "/solution", error);
-        if (error)
-          fault = error.message();
-        else
-          {
-            log_file.open(file("log.txt"), std::ios::app);
-            if (!log_file)
-              fault = "no file can be written there";
-          }
-      }
-    fault = Utilities::MPI::broadcast(communicator, fault);
-    require_entry(fault.empty(),
-                  "",
-                  "Output directory",
-                  path,
-                  "the run cannot write there: " + fault + ". Name a folder in which you may write.");
+    const std::string fault = Utilities::MPI::broadcast(communicator, writer ? open() : std::string());
+    require_entry(fault.empty(), "", "Output directory", path, fault);
+  }
+
+
+  std::string RunFolder::open()
+  {
+    std::error_code error;
+    std::filesystem::create_directories(file("solution"), error);
+    if (!error)
+      log_file.open(file("log.txt"), std::ios::app);
+    if (error || !log_file)
+      return "the run cannot write there: " + (error ? error.message() : "no file can be written there") +
+             ". Name a folder in which you may write.";
+    lock = std::make_unique<FolderLock>(file("lock"));
+    return lock->refusal();
   }
 
 
@@ -58,6 +54,7 @@ namespace scree
       {
         remove_pictures(file("solution"));
         std::filesystem::remove_all(file("checkpoint"));
+        std::filesystem::remove(file("statistics"));
         log_file.close();
         log_file.open(file("log.txt"), std::ios::trunc);
       }
@@ -72,12 +69,52 @@ namespace scree
   }
 
 
+  void RunFolder::require_presence() const
+  {
+    throw_on_all_ranks(!writer || std::filesystem::is_directory(file("solution"))
+                           ? ""
+                           : entry_message("",
+                                           "Output directory",
+                                           path,
+                                           "it was removed or renamed while the run wrote to it. Leave it alone until "
+                                           "the run has ended, and start anew."),
+                       communicator);
+  }
+
+
+  void RunFolder::try_to_write(const std::string &name, const std::function<void()> &write)
+  {
+    if (!writer)
+      return;
+    try
+      {
+        write();
+        if (refused.erase(name) > 0)
+          log(file(name) + ": is written again, and nothing of it is missing.");
+      }
+    catch (const FileError &error)
+      {
+        tell_once(name, std::string(error.what()) + " The run goes on, and tries again each time.");
+      }
+  }
+
+
   void RunFolder::log(const std::string &line)
   {
     if (!writer)
       return;
     log_file << line << std::endl;
+    if (!log_file)
+      tell_once("log.txt", error_of_writing(file("log.txt"), line.size() + 1).what());
+    log_file.clear();
     if (to_screen)
       std::cout << line << std::endl;
+  }
+
+
+  void RunFolder::tell_once(const std::string &name, const std::string &fault)
+  {
+    if (refused.insert(name).second)
+      std::cerr << "scree: " + fault + '\n' << std::flush;
   }
 } // namespace scree

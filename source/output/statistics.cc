@@ -4,8 +4,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
+#include <sstream>
 
 namespace scree
 {
@@ -55,9 +55,12 @@ namespace scree
 
 
   template <int dim>
-  Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid, const Tensor<1, dim> &gravity)
+  Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid,
+                              const Tensor<1, dim> &gravity,
+                              const unsigned int n_loads)
       : grid(grid)
       , gravity(gravity)
+      , n_loads(n_loads)
   {
   }
 
@@ -65,9 +68,6 @@ namespace scree
   template <int dim>
   void Statistics<dim>::add(const std::string &column, const double value)
   {
-    table.add_value(column, value);
-    table.set_scientific(column, true);
-    table.set_precision(column, 12);
     last_row.emplace_back(column, value);
   }
 
@@ -120,7 +120,9 @@ namespace scree
     add("Mass lost (kg)", totals.lost_mass);
     if (!water.empty())
       add_water_columns(bodies, water, now, totals, step);
-    add_load_column(balance);
+    if (n_loads > 0)
+      add("Load work (J)", balance.load_work);
+    last_row_step = step;
   }
 
 
@@ -174,29 +176,31 @@ namespace scree
 
     const double iterations = totals.balance.n_iterations;
     add("CG iterations per step",
-        step > step_of_last_row ? (iterations - iterations_at_last_row) / (step - step_of_last_row) : 0.);
+        step > last_row_step ? (iterations - iterations_at_last_row) / (step - last_row_step) : 0.);
     add("Preconditioners built", totals.balance.n_preconditioners);
-    step_of_last_row       = step;
     iterations_at_last_row = iterations;
   }
 
 
   template <int dim>
-  void Statistics<dim>::add_load_column(const StepBalance<dim> &balance)
+  std::string Statistics<dim>::head() const
   {
-    has_load = has_load || balance.load_work != 0 || balance.load_impulse.norm_square() > 0;
-    if (!has_load)
-      return;
-    table.set_auto_fill_mode(true); // the rows before the load's first step hold 0
-    add("Load work (J)", balance.load_work);
+    std::string lines;
+    for (unsigned int i = 0; i < last_row.size(); ++i)
+      lines += "# " + std::to_string(i + 1) + ": " + last_row[i].first + '\n';
+    return lines;
   }
 
 
   template <int dim>
-  void Statistics<dim>::write(const std::string &file) const
+  std::string Statistics<dim>::row() const
   {
-    std::ofstream out(file);
-    table.write_text(out, TableHandler::table_with_separate_column_description);
+    std::ostringstream line;
+    line << std::scientific << std::setprecision(12);
+    for (const auto &entry : last_row)
+      line << entry.second << ' ';
+    line << '\n';
+    return line.str();
   }
 
 

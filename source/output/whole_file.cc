@@ -38,6 +38,11 @@ namespace scree
         return number >= 0;
       }
 
+      bool truncate(const std::uintmax_t size) const
+      {
+        return number >= 0 && ::ftruncate(number, size) == 0;
+      }
+
       bool sync() const
       {
         return number >= 0 && ::fsync(number) == 0;
@@ -105,6 +110,34 @@ namespace scree
     if (in.bad())
       throw FileError(file + ": cannot be read to its end");
     return content;
+  }
+
+
+  void append_to_file(const std::string &file, const std::uintmax_t size, const std::string &content)
+  {
+    Descriptor out(file, O_WRONLY | O_APPEND | (size == 0 ? O_CREAT | O_TRUNC : 0));
+    if (!out.write(content))
+      {
+        const FileError error = error_of_writing(file, content.size());
+        out.truncate(size); // A part of a row must not stay.
+        throw error;
+      }
+    if (!out.close())
+      throw error_of_writing(file, content.size());
+  }
+
+
+  void cut_file(const std::string &file, const std::uintmax_t size)
+  {
+    if (!Descriptor(file, O_WRONLY).truncate(size))
+      throw error_of_writing(file, 0);
+  }
+
+
+  void sync_file(const std::string &file)
+  {
+    if (!Descriptor(file, O_WRONLY).sync())
+      throw error_of_writing(file, 0);
   }
 
 

@@ -39,6 +39,9 @@ namespace scree
                const double time,
                const WaterView<dim> *view = nullptr);
 
+    /// After the state has been read from a checkpoint: takes the pictures that were written after it off the lists.
+    void cut() const;
+
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
@@ -64,6 +67,7 @@ namespace scree
                 std::vector<TimeAndFile> &files,
                 const double time,
                 const std::string &file) const;
+    void write_series(const std::string &series, const std::vector<TimeAndFile> &files) const;
 
     const BackgroundGrid<dim> &grid;
     const Pictures pictures;

@@ -30,6 +30,7 @@ namespace scree
     double interval                = 0.1; ///< s, of pictures
     double statistics_interval     = 0;   ///< s; 0: as pictures
     double checkpoint_interval     = 0;   ///< s; 0: none
+    double wall_time_limit         = 0;   ///< s of the clock on the wall; 0: none
     std::string checkpoint_failure = "stop";
     std::string graphics           = "points and grid";
     std::string screen             = "progress";

@@ -6,9 +6,12 @@
 #include <scree/output/point_sums.h>
 #include <scree/scheme/step_balance.h>
 
-#include <deal.II/base/table_handler.h>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <string>
+#include <vector>
 
 namespace scree
 {
@@ -40,15 +43,16 @@ namespace scree
     }
   };
 
-  /// The file `statistics`: a row of global numbers at each due time.
+  /// The rows of the file `statistics`: global numbers at each due time.
   template <int dim>
   class Statistics
   {
   public:
-    Statistics(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity);
+    /// With loads, there is a column of their work.
+    Statistics(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const unsigned int n_loads);
 
-    /// Appends a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
-    /// A surface load adds its work from the row on that finds it at work. Collective.
+    /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
+    /// Collective.
     void collect(const std::list<SoilBody<dim>> &bodies,
                  const std::list<WaterPhase<dim>> &water,
                  const RunTotals<dim> &totals,
@@ -57,17 +61,25 @@ namespace scree
                  const double time_step,
                  const UpdateReport &last_step);
 
-    /// Writes all rows so far (rank 0 should call it).
-    void write(const std::string &file) const;
+    /// The lines above the first row, which name the columns.
+    std::string head() const;
+
+    /// The last row, as a line of the file.
+    std::string row() const;
 
     /// Prints the last row, one quantity a line.
     void print_last_row(std::ostream &out) const;
 
+    /// Steps of the run at the last row.
+    unsigned long long step_of_last_row() const
+    {
+      return last_row_step;
+    }
+
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &table &has_start &start_momentum &start_energy &last_row;
-      archive &has_load &step_of_last_row &iterations_at_last_row;
+      archive &has_start &start_momentum &start_energy &last_row &last_row_step &iterations_at_last_row;
     }
 
   private:
@@ -80,18 +92,16 @@ namespace scree
                            const PointSums<dim> &now,
                            const RunTotals<dim> &totals,
                            const unsigned long long step);
-    void add_load_column(const StepBalance<dim> &balance);
     void add(const std::string &column, const double value);
 
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
-    dealii::TableHandler table;
+    const unsigned int n_loads;
     bool has_start = false;
     dealii::Tensor<1, dim> start_momentum;
-    double start_energy                 = 0;
-    bool has_load                       = false;
-    unsigned long long step_of_last_row = 0;
-    double iterations_at_last_row       = 0;
+    double start_energy              = 0;
+    unsigned long long last_row_step = 0;
+    double iterations_at_last_row    = 0;
     std::vector<std::pair<std::string, double>> last_row;
   };
 } // namespace scree

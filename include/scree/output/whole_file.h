@@ -26,6 +26,16 @@ namespace scree
   /// The content of `file`. Throws FileError.
   std::string read_whole_file(const std::string &file);
 
+  /// Writes `content` at the end of `file`, which has `size` bytes, or to a new file if that is 0. Throws FileError,
+  /// also if a file that was begun is gone; it then is as long as before.
+  void append_to_file(const std::string &file, const std::uintmax_t size, const std::string &content);
+
+  /// Shortens `file` to `size` bytes. Throws FileError.
+  void cut_file(const std::string &file, const std::uintmax_t size);
+
+  /// Brings to the disk what was appended to `file`. Throws FileError.
+  void sync_file(const std::string &file);
+
   /// Brings to the disk which files a folder has: after a rename or removal. Throws FileError.
   void sync_folder(const std::string &folder);
 } // namespace scree

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_log_header_h
+#define scree_output_log_header_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/output/run_folder.h>
+#include <scree/points/soil_body.h>
+#include <scree/points/water_phase.h>
+
+#include <list>
+
+namespace scree
+{
+  /// Logs what runs where: program and commit, libraries, compiler and its flags, ranks, host, process, date.
+  /// Collective.
+  void log_program(RunFolder &folder, const MPI_Comm communicator);
+
+  /// Logs the size of the run: cells, points, and the memory that they take, MB of all ranks. Collective.
+  template <int dim>
+  void log_size(RunFolder &folder,
+                const BackgroundGrid<dim> &grid,
+                const std::list<SoilBody<dim>> &bodies,
+                const std::list<WaterPhase<dim>> &water);
+
+  /// Logs the largest memory so far, MB of all ranks. Collective.
+  void log_peak_memory(RunFolder &folder, const MPI_Comm communicator);
+} // namespace scree
+
+#endif

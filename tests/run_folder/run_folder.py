@@ -1,0 +1,362 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""run_folder.py SCREE LAUNCHER TEST: what becomes of a run folder when runs are killed, stopped or in each other's way.
+
+Each test is a function below; it works in the current folder. LAUNCHER is "mpirun -np" or alike.
+"""
+
+import atexit
+import hashlib
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+SCREE, LAUNCHER = sys.argv[1], sys.argv[2].split()
+CASE = (pathlib.Path(__file__).parent / "column.prm").read_text(encoding="utf-8")
+RESULTS = pathlib.Path("results")
+STATISTICS = RESULTS / "statistics"
+PATIENCE = 100  # s; far beyond what anything here takes
+STOPPED = 3  # the exit code
+
+
+def write_case(name, entries=(), text=CASE):
+    """A variant of the case: each of `entries`, such as "End time = 1", replaces a line or is added to subsection Output."""
+    for entry in entries:
+        key = entry.split("=", 1)[0].strip()
+        text, n = re.subn(rf"set {key} *=.*", f"set {entry}", text)
+        if n == 0:
+            text = text.replace("subsection Output\n", f"subsection Output\n  set {entry}\n")
+    pathlib.Path(name).write_text(text, encoding="utf-8")
+
+
+def start(case, *options, ranks=1, **how):
+    command = ([*LAUNCHER, str(ranks)] if ranks > 1 else []) + [SCREE, case, *options]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **how)
+    atexit.register(process.kill)  # Nothing is left behind by a test that fails.
+    return process
+
+
+def end(process):
+    """Exit code and standard error."""
+    _, errors = process.communicate(timeout=PATIENCE)
+    return process.returncode, errors
+
+
+def run(case, *options, wanted=0, **how):
+    code, errors = end(start(case, *options, **how))
+    check(code == wanted, f"{case} {' '.join(options)}: exit code {code}, not {wanted}: {errors}")
+    return errors
+
+
+def check(fact, text):
+    if not fact:
+        sys.exit("FAILED: " + text)
+
+
+def content():
+    return STATISTICS.read_bytes() if STATISTICS.exists() else b""
+
+
+def n_rows():
+    return sum(line[:1] != b"#" for line in content().splitlines())
+
+
+def log():
+    return (RESULTS / "log.txt").read_text(encoding="utf-8")
+
+
+def wait_for(fact, process=None):
+    before = time.monotonic()
+    while not fact():
+        check(time.monotonic() - before < PATIENCE, "nothing happens")
+        if process and process.poll() is not None:
+            return
+        time.sleep(0.002)
+
+
+def fresh():
+    shutil.rmtree(RESULTS, ignore_errors=True)
+
+
+def whole_run(case):
+    """The statistics of a run that nobody disturbs."""
+    fresh()
+    run(case)
+    check(not (RESULTS / "lock").exists(), "a run that has ended left its lock")
+    result = content()
+    fresh()
+    return result
+
+
+def resumable():
+    return any((RESULTS / "checkpoint").glob("step-*"))
+
+
+def options_to_go_on():
+    return ["--resume"] if resumable() else []
+
+
+def kill():
+    """kill -9 at random instants, from the start of the program on, and on and on: at each of them `statistics` is the
+    beginning of the undisturbed run's and has each row that was seen before, and in the end it is all of it."""
+    write_case("case.prm", ["Statistics interval = 0.0002", "Checkpoint interval = 0.003"])
+    wanted = whole_run("case.prm")
+    chance = random.Random(20)
+    n_kills = 0
+    for rows_more in [0, 0, 10, 20, 30, 50, 0, 80, 10, 50, 20, 80]:
+        process = start("case.prm", *options_to_go_on())
+        seen = 0
+        if rows_more == 0:
+            time.sleep(chance.uniform(0, 0.3))
+        else:
+            seen = rows_more + (n_rows() if resumable() else 0)
+            wait_for(lambda: n_rows() >= seen, process)
+            time.sleep(chance.uniform(0, 0.02))
+        process.kill()
+        n_kills += end(process)[0] == -signal.SIGKILL
+        check(process.returncode == 0 or n_rows() >= seen, f"after {n_kills} kills, of {seen} rows {n_rows()} are left")
+        check(wanted.startswith(content()), f"after {n_kills} kills, statistics is no beginning of the undisturbed run's")
+        check(content()[-1:] in (b"", b"\n"), f"after {n_kills} kills, a row is cut")
+    rows = n_rows()
+    run("case.prm", *options_to_go_on())
+    check(content() == wanted, "statistics differs from the undisturbed run's")
+    check(n_kills > 6, f"only {n_kills} runs were killed")
+    print(f"{n_kills} kills, the last after {rows} rows; {n_rows()} rows in the end, as in the undisturbed run")
+
+
+def kill_two_ranks():
+    """One of two ranks is killed, mpirun ends the other one; the run that goes on has the undisturbed run's rows."""
+    write_case("case.prm", ["Checkpoint interval = 0.003"])
+    whole = whole_run("case.prm")
+    pathlib.Path("whole").write_bytes(whole)
+    for rows in (3, 20):
+        process = start("case.prm", *options_to_go_on(), ranks=2)
+        wait_for(lambda: n_rows() >= rows, process)
+        os.kill(int((RESULTS / "lock").read_text(encoding="utf-8").split()[1]), signal.SIGKILL)
+        check(end(process)[0] != 0, "the run came to its end although a rank was killed")
+    run("case.prm", "--resume", ranks=2)
+    compare = pathlib.Path(__file__).parent.parent / "cases" / "compare_statistics.py"
+    check(subprocess.call(["/usr/bin/python3", compare, "whole", STATISTICS, "1e-9"]) == 0, "the rows differ")
+
+
+def stop_and_go_on(case, wanted, ask, reason, ranks=1):
+    """A run that is asked to stop writes a checkpoint of its last step, a row, and goes on as if nothing had been."""
+    fresh()
+    process = start(case, ranks=ranks)
+    wait_for(lambda: n_rows() >= 5, process)
+    ask(process)
+    code, errors = end(process)
+    check(code == STOPPED, f"{reason}: exit code {code}, not {STOPPED}: {errors}")
+    message = re.search(rf"Stopped at t = (\S+) s, step (\d+), by {reason}\. .*--resume", log())
+    check(message, f"the log does not tell of {reason}: {log()}")
+    last_row = content().splitlines()[-1].split()
+    check(float(last_row[1]) == int(message.group(2)), f"{reason}: the last row is not that of the last step")
+    check(not (RESULTS / "lock").exists() and not (RESULTS / "terminate").exists(), f"{reason}: lock or terminate is left")
+    run(case, "--resume", ranks=ranks)
+    if ranks == 1:
+        check(content() == wanted, f"{reason}: statistics differs from the undisturbed run's")
+    else:
+        check(len(content().splitlines()) == len(wanted.splitlines()), f"{reason}: other rows than the undisturbed run's")
+    print(f"{reason}, {ranks} rank(s): stopped at step {message.group(2)}, resumed to the undisturbed run's rows")
+
+
+def signals():
+    """Without a checkpoint interval: the signal alone makes one. mpirun hands on SIGUSR1."""
+    write_case("case.prm", ["End time = 0.2"])
+    wanted = whole_run("case.prm")
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
+        stop_and_go_on("case.prm", wanted, lambda process, n=number: process.send_signal(n), number.name)
+    stop_and_go_on("case.prm", wanted, lambda process: process.send_signal(signal.SIGUSR1), "SIGUSR1", ranks=2)
+
+
+def terminate():
+    """A file stops the run. It is looked for each second: the run is one that would last for minutes."""
+    write_case("case.prm", ["End time = 0.2"])
+    wanted = whole_run("case.prm")
+    write_case("long.prm", ["End time = 200"])
+    process = start("long.prm")
+    wait_for(lambda: n_rows() >= 5, process)
+    (RESULTS / "terminate").touch()
+    code, errors = end(process)
+    check(code == STOPPED, f"exit code {code}: {errors}")
+    check("by the file terminate. " in log(), "the log does not tell of the file")
+    check(not (RESULTS / "terminate").exists(), "the file terminate is left")
+    common = min(len(wanted.splitlines()), len(content().splitlines())) - 1  # the last one is off the schedule
+    check(content().splitlines()[:common] == wanted.splitlines()[:common], "other rows than the undisturbed run's")
+
+
+def wall_time():
+    """The run ends before its wall time limit, and its checkpoint is good; in a resumed run the limit holds anew."""
+    write_case("long.prm", ["End time = 200", "Wall time limit = 2", "Checkpoint interval = 0.05"])
+    for options in ([], ["--resume"]):
+        before = time.monotonic()
+        run("long.prm", *options, wanted=STOPPED)
+        check('by the entry "Wall time limit". ' in log(), "the log does not tell of the limit")
+        seconds = time.monotonic() - before
+        check(0.5 < seconds < 20, f"the run took {seconds} s")  # starting and ending a program takes time, too
+        rows = n_rows()
+        print(f"limit 2 s: {seconds:.1f} s with start and end, {rows} rows")
+
+
+def fingerprints():
+    return {
+        str(path): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(RESULTS.rglob("*"))
+        if path.is_file()
+    }
+
+
+def failed_input():
+    """A case that fails on its input, early or late, touches nothing of the results that are there."""
+    write_case("case.prm", ["End time = 0.02", "Checkpoint interval = 0.01"])
+    run("case.prm")
+    before = fingerprints()
+    check(any("checkpoint" in path for path in before) and any(".vtu" in path for path in before), "results are missing")
+    write_case("misspelt.prm", ["End tme = 0.02"])
+    write_case("empty.prm", text=CASE.replace("x < 0.5 && y < 0.5", "x < 0"))
+    write_case("load.prm", text=CASE + "subsection Surface load\n  set Lower corner = 0, 0.7\n"
+               "  set Upper corner = 0.5, 0.7\n  set Traction = 0; -1000\nend\n")
+    for case in ("misspelt.prm", "empty.prm", "load.prm"):
+        for ranks in (1, 2):
+            errors = run(case, wanted=1, ranks=ranks)
+            check("entry" in errors, f"{case}: {errors}")
+            check(fingerprints() == before, f"{case}: the older results have changed")
+
+
+def lock():
+    """Two runs in a folder: the second is refused. A dead process's lock is replaced, one of another host is obeyed."""
+    write_case("case.prm", ["End time = 0.02", "Checkpoint interval = 0.01"])
+    write_case("long.prm", ["End time = 200", "Checkpoint interval = 0.01"])
+    first = start("long.prm")
+    wait_for(lambda: n_rows() >= 5 and resumable(), first)
+    for options in ([], ["--resume"]):
+        for ranks in (1, 2):
+            errors = run("case.prm", *options, wanted=1, ranks=ranks)
+            check(f"another run writes there (process {first.pid} on {os.uname().nodename}" in errors, errors)
+    check(first.poll() is None, "the first run was disturbed")
+    rows = n_rows()
+    wait_for(lambda: n_rows() > rows + 2, first)
+    first.kill()
+    first.wait()
+    check((RESULTS / "lock").exists(), "the killed run has no lock")
+    run("case.prm")
+    check(f"The run before this one (process {first.pid} on " in log(), "the log does not tell of the killed run")
+    # A process of that number lives, but it is another one.
+    (RESULTS / "lock").write_text(f"{os.uname().nodename} {os.getpid()} 1 2026-01-01T00:00:00Z\n", encoding="utf-8")
+    run("case.prm", "--resume")
+    for text in ("elsewhere 1 1 2026-01-01T00:00:00Z\n", ""):
+        (RESULTS / "lock").write_text(text, encoding="utf-8")
+        before = fingerprints()
+        errors = run("case.prm", "--resume", wanted=1)
+        check("If that run is dead, remove the file results/lock" in errors, errors)
+        check(fingerprints() == before, "a run that was refused has changed the folder")
+    (RESULTS / "lock").unlink()
+    run("case.prm", "--resume")
+
+
+def no_checkpoint():
+    """Without an interval there is no checkpoint, and a finished run does not start again from 0."""
+    write_case("case.prm", ["End time = 0.01"])
+    run("case.prm")
+    check(not (RESULTS / "checkpoint").exists(), "there is a checkpoint although there is no interval")
+    before = fingerprints()
+    errors = run("case.prm", "--resume", wanted=1)
+    check("no checkpoint to resume from" in errors, errors)
+    check(fingerprints() == before, "the results have changed")
+
+
+def removed_folder():
+    """The folder is removed, and another one takes its name: an error that names the entry."""
+    write_case("case.prm", ["End time = 200", "Graphics = none"])
+    for ranks in (1, 2):
+        fresh()
+        process = start("case.prm", ranks=ranks)
+        wait_for(lambda: n_rows() >= 5, process)
+        RESULTS.rename("gone")
+        code, errors = end(process)
+        shutil.rmtree("gone")
+        check(code == 1, f"exit code {code}: {errors}")
+        check('entry "Output directory" = results: it was removed or renamed while the run wrote to it' in errors, errors)
+        check(errors.count("scree:") == 1, "told more than once: " + errors)
+
+
+def start_on_full_disk(case, n_rows_before):
+    """A run for which files cannot grow any more, after so many rows: as if the disk were full."""
+    ignore = {"preexec_fn": lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN), "restore_signals": False}
+    fresh()
+    process = start(case, **ignore)
+    wait_for(lambda: n_rows() >= n_rows_before, process)
+    limit = len(content()) + 200  # a part of a row; the log is far shorter
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+    return process
+
+
+def full_disk():
+    """Rows that the disk does not take are told of once, and written when there is room; if there never is, the run fails."""
+    write_case("case.prm", ["Interval = 1", "Graphics = none", "End time = 0.4"])
+    wanted = whole_run("case.prm")
+    code, errors = end(start_on_full_disk("case.prm", 5))
+    check(code == 1, f"exit code {code}: {errors}")
+    check(errors.count("results/statistics: cannot be written: File too large") == 2, errors)  # once, and at the end
+    check("The run goes on" in errors and "scree: stopped: results/statistics" in errors, errors)
+    check(wanted.startswith(content()) and content().endswith(b"\n"), "a row was cut")
+
+    process = start_on_full_disk("case.prm", 5)
+    time.sleep(0.2)
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    code, errors = end(process)
+    check(code == 0, f"exit code {code}: {errors}")
+    check(errors.count("cannot be written") == 1, errors)
+    check("results/statistics: is written again, and nothing of it is missing." in log(), log())
+    check(content() == wanted, "rows are missing")
+
+
+def lost_rows():
+    """A resumed run tells if statistics has lost rows that were there at the checkpoint, and lists only pictures it has."""
+    entries = ["Checkpoint interval = 0.04", "Interval = 0.02"]
+    write_case("case.prm", entries)
+    wanted = whole_run("case.prm")
+    run("case.prm")
+    series = RESULTS / "solution" / "points.pvd"
+    check("points_00005" in series.read_text(encoding="utf-8"), "a picture is missing")
+    STATISTICS.write_bytes(wanted[: len(wanted) // 3])
+    write_case("case.prm", entries + ["Graphics = none"])
+    run("case.prm", "--resume")
+    check("bytes that it had at the checkpoint: rows are missing there." in log(), log())
+    check(content().endswith(wanted.splitlines(keepends=True)[-1]), "the rows do not go on")
+    rows = [line.split() for line in content().splitlines() if not line.startswith(b"#")]
+    check(all(len(row) == len(rows[0]) for row in rows), "a row was cut")
+    check("points_00004" in series.read_text(encoding="utf-8"), "a picture is missing on its list")
+    check("points_00005" not in series.read_text(encoding="utf-8"), "a picture of after the checkpoint is listed")
+
+
+def log_header():
+    """log.txt begins with what ran where, also on two ranks and after a resume."""
+    write_case("case.prm", ["End time = 0.01", "Checkpoint interval = 0.004"])
+    header = (
+        r"Scree [0-9.]+ \(commit \S+\)\n"
+        r"deal\.II [0-9.]+, Trilinos [0-9.]+, p4est [0-9.]+\n"
+        r"\w+ [0-9.]+, (Release|Debug)\n"
+        r"flags: .*-std=c\+\+17.*\n"
+        r"{ranks} rank\(s\), the first is process \d+ on \S+; 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d \w+\n"
+        r"120 cells of 0\.1 m; points: Soil 400; memory at the start [1-9]\d+ MB \(all ranks\)\n"
+    )
+    for ranks in (1, 2):
+        run("case.prm", ranks=ranks)
+        check(re.match(header.replace("{ranks}", str(ranks)), log()), log())
+        check(re.search(r"largest memory: [1-9]\d+ MB", log()), log())
+    run("case.prm", "--resume")
+    check(len(re.findall(header.replace("{ranks}", r"\d"), log())) == 2, log())
+    print(log())
+
+
+os.environ["OMPI_MCA_odls_base_sigkill_timeout"] = "0"  # Do not wait a second for ranks that end by themselves.
+fresh()
+globals()[sys.argv[3]]()
