@@ -187,6 +187,7 @@ namespace scree
         (parameters.output.graphics_kind() == Pictures::none ? "." : " (open solution/points.pvd in ParaView)."));
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
       statistics.print_last_row(std::cout);
+    folder.require_presence();
     if (folder.is_writer() && !rows.is_complete())
       rows.append(""); // throws if the disk still refuses them
   }

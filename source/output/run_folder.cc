@@ -69,9 +69,15 @@ namespace scree
   }
 
 
+  bool RunFolder::is_present() const
+  {
+    return std::filesystem::is_directory(file("solution"));
+  }
+
+
   void RunFolder::require_presence() const
   {
-    throw_on_all_ranks(!writer || std::filesystem::is_directory(file("solution"))
+    throw_on_all_ranks(!writer || is_present()
                            ? ""
                            : entry_message("",
                                            "Output directory",
@@ -94,7 +100,8 @@ namespace scree
       }
     catch (const FileError &error)
       {
-        tell_once(name, std::string(error.what()) + " The run goes on, and tries again each time.");
+        if (is_present()) // or else require_presence() is going to tell
+          tell_once(name, std::string(error.what()) + " The run goes on, and tries again each time.");
       }
   }
 

@@ -58,6 +58,7 @@ namespace scree
   private:
     /// Returns what is wrong, in words; empty if nothing is.
     std::string open();
+    bool is_present() const;
     void tell_once(const std::string &name, const std::string &fault);
 
     const std::string path;
