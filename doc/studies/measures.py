@@ -85,7 +85,7 @@ def share_of_defaults(rows):
         return max(filter(math.isfinite, values), default=-math.inf)
 
     def told(name):
-        return f"{name} up to {worst(name):.2g}, bound {BOUNDS[name]:g}"
+        return f"{name} up to {worst(name):{'.0f' if worst(name) > 100 else '.2g'}}, bound {BOUNDS[name]:g}"
     others = [f"{state} in {count(state)}" + "".join(f" ({told(name)})" for name in columns if worst(name) > BOUNDS[name])
               for state, columns in {"blow-up": (), **DECIDING}.items() if count(state)]
     if not others:
@@ -98,11 +98,12 @@ def share_of_defaults(rows):
 def bounds_in_words():
     """The bounds of the maps and what a default cell is, for the list of the studies."""
     bound = {name.replace("'", " prime"): f"{value:g}" for name, value in BOUNDS.items()}
-    return ("Stability maps share their bounds (`BOUNDS` in `doc/studies/measures.py`). A run is stable if it comes to its end with finite numbers, gains at most "
-            "{gain} of the energy that it releases, keeps V/V_0 (J) of each soil point between {smallest J} and {largest J}, and if p oscillates by at most "
-            "{oscillation of p}, p' by {oscillation of p prime}, and the error is at most {error}, in the units that its page names. ".format(**bound)
-            + "Each map had bounds of its own when it was run. The shared ones are those that most of them had for energy, volumes and p, and the strictest that any had for "
-            "p' and the error; no cell that was not stable has become so. A default cell has the program's defaults for the options that its map compares; what "
+    return ("Stability maps share their bounds (`BOUNDS` in `doc/studies/measures.py`). A run is stable if it comes to its end with finite numbers, gains "
+            "at most {gain} of the energy that it releases, keeps V/V_0 (J) of each soil point between {smallest J} and {largest J}, lets p oscillate by at most "
+            "{oscillation of p} and p' by {oscillation of p prime}, and has an error of at most {error}, each in the unit that the page names; what a map does not "
+            "measure is not judged. ".format(**bound)
+            + "Each map had bounds of its own when it was run. The shared ones are those that most of them had for energy, volumes and p, and the strictest "
+            "that any had for p' and the error; no cell that was not stable has become so. A default cell has the program's defaults for the options that its map compares; what "
             "describes the scene (conductivity, step, speed, size) is no option.")
 
 

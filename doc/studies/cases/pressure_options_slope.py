@@ -14,7 +14,8 @@ from study import Claim, Study, Variant, axis, product
 
 def measure(run):
     front = run.statistics("Front 99.5 % (m)")
-    return {**measures.classify(run, {SCATTER: measures.pressure_scatter(run)}), "front": float(front[-1]), "time reached": float(run.time[-1]), "largest p": float(max(run.statistics("Largest p (Pa)"))),
+    return {**measures.classify(run, {SCATTER: measures.pressure_scatter(run)}), "front": float(front[-1]),
+            "time reached": float(run.time[-1]), "largest p": float(max(run.statistics("Largest p (Pa)"))),
             "cause": measures.cause(run)}
 
 
