@@ -25,39 +25,86 @@ CAUSES = {
 }
 
 
-def classify(run, oscillation=0.1, column="p oscillation (-)", scatter=None, gain=0.005, energy=None, volume_ratio=(0.1, 10.), error=0.,
-             tolerance=math.inf):
-    """State of a run, the first of these that holds:
+# Bounds of the stability maps, the same in all of them. A column of their tables has the name of its bound; what a map takes for the
+# unit of p and for "error" stands in its introduction, which cannot move a bound.
+BOUNDS = {
+    "gain": 0.005,  # largest fall of the numerical dissipation over the energy that the run had to release, or the map's own unit
+    "smallest J": 0.1,  # V/V_0 of a soil point
+    "largest J": 10.,
+    "oscillation of p": 0.1,  # over the map's unit of p
+    "oscillation of p'": 0.2,  # over the mean of p', or the map's own unit
+    "error": 0.01,
+}
+DECIDING = {"J out of bounds": ("largest J",), "energy gain": ("gain",), "oscillating": ("oscillation of p", "oscillation of p'"),
+            "wrong": ("error",)}  # state -> columns with an upper bound that it depends on
 
-    - "blow-up": more energy came from nothing than the run had to release (`energy_gain` > 1), or a number is not finite
-    - "J out of bounds": before that, V/V_0 of a soil point left `volume_ratio`, in a row of statistics, in a picture, or in the
-      message that the run stopped with (`volume_ratios`)
-    - "blow-up", too: the program stopped for another reason, the time limit included (`cause` tells which)
-    - "energy gain": the numerical dissipation fell by more than `gain` of the energy that the run had to release
-    - "oscillating": the time mean of `column` of the statistics, without the state at the start, or the study's own `scatter` in its
-      place, is above `oscillation`
-    - "wrong": quiet, but the study's own `error` is above `tolerance`
-    - "stable": none of these
 
-    `gain` is that of the scene tests. `oscillation` depends on the scene: p' of points without stabilisation scatters by .7 of its
-    mean in a collapse, p of a saturated slope by .02. `energy`, J, replaces the released one where there is next to none (rest).
-    Raises ValueError if the program refused the case.
+def classify(run, measured=None, energy=None):
+    """State of a run and what it follows from, as columns: {"state", "gain", "smallest J", "largest J", **measured}.
+
+    `measured`: what else the study measures, by names of BOUNDS. `energy`, J, replaces the released one as the unit of "gain" where next to
+    none is released. Raises ValueError if the program refused the case.
     """
     if re.search(r"\.prm, line \d+: ", run.log):
         raise ValueError(run.log)
-    gained = energy_gain(run, energy)
-    if gained > 1 or (run.ended and not is_finite(run)):
-        return "blow-up"
     smallest, largest = volume_ratios(run)
-    if not volume_ratio[0] <= smallest <= largest <= volume_ratio[1]:
-        return "J out of bounds"
-    if not run.ended:
+    columns = {"gain": energy_gain(run, energy), "smallest J": smallest, "largest J": largest, **(measured or {})}
+    return {"state": state_of(columns, run.ended, run.ended and not is_finite(run)), **columns}
+
+
+def state_of(columns, ended, broken=False):
+    """State that follows from the columns named in BOUNDS, the first of these that holds; what a study does not measure decides nothing:
+
+    - "blow-up": more energy came from nothing than the run had to release ("gain" > 1), or a number is not finite (`broken`)
+    - "J out of bounds": before that, V/V_0 of a soil point left its bounds, in a row of statistics, in a picture, or in the message
+      that the run stopped with (`volume_ratios`)
+    - "blow-up", too: the program stopped for another reason, the time limit included (`cause` tells which)
+    - "energy gain", "oscillating" (of p or p'; a number that is not finite oscillates), "wrong" ("error"): the column is above its bound
+    - "stable": none of these
+    """
+    if columns["gain"] > 1 or broken:
         return "blow-up"
-    if gained > gain:
-        return "energy gain"
-    if (mean_oscillation(run, column) if scatter is None else scatter) > oscillation:
-        return "oscillating"
-    return "stable" if error <= tolerance else "wrong"
+    if columns.get("smallest J", 1.) < BOUNDS["smallest J"] or columns.get("largest J", 1.) > BOUNDS["largest J"]:
+        return "J out of bounds"
+    if not ended:
+        return "blow-up"
+    return next((state for state in ("energy gain", "oscillating", "wrong")
+                 if any(name in columns and not columns[name] <= BOUNDS[name] for name in DECIDING[state])), "stable")
+
+
+def share_of_defaults(rows):
+    """The headline of a map: how many of the cells with the program's defaults are stable and in which states the others are, with the worst
+    number of the cells that did not blow up; where all are stable, the number that is nearest to its bound."""
+    defaults = [row for row in rows if row["default"]]
+
+    def count(state, chosen=defaults):
+        return sum(row["state"] == state for row in chosen)
+
+    def worst(name):
+        values = [row.get(name, math.nan) for row in defaults if row["state"] != "blow-up"]
+        return max(filter(math.isfinite, values), default=-math.inf)
+
+    def told(name):
+        return f"{name} up to {worst(name):{'.0f' if worst(name) > 100 else '.2g'}}, bound {BOUNDS[name]:g}"
+    others = [f"{state} in {count(state)}" + "".join(f" ({told(name)})" for name in columns if worst(name) > BOUNDS[name])
+              for state, columns in {"blow-up": (), **DECIDING}.items() if count(state)]
+    if not others:
+        others = [told(max((name for columns in DECIDING.values() for name in columns), key=lambda name: worst(name) / BOUNDS[name]))]
+    within = [row for row in defaults if row.get("step/limit", 1.) <= 1]
+    return (f"{count('stable')} of {len(defaults)} default cells are stable; {', '.join(others)}."
+            + (f" Up to the limit step, {count('stable', within)} of {len(within)} are." if len(within) < len(defaults) else ""))
+
+
+def bounds_in_words():
+    """The bounds of the maps and what a default cell is, for the list of the studies."""
+    bound = {name.replace("'", " prime"): f"{value:g}" for name, value in BOUNDS.items()}
+    return ("Stability maps share their bounds (`BOUNDS` in `doc/studies/measures.py`). A run is stable if it comes to its end with finite numbers, gains "
+            "at most {gain} of the energy that it releases, keeps V/V_0 (J) of each soil point between {smallest J} and {largest J}, lets p oscillate by at most "
+            "{oscillation of p} and p' by {oscillation of p prime}, and has an error of at most {error}, each in the unit that the page names; what a map does not "
+            "measure is not judged. ".format(**bound)
+            + "Each map had bounds of its own when it was run. The shared ones are those that most of them had for energy, volumes and p, and the strictest "
+            "that any had for p' and the error; no cell that was not stable has become so. A default cell has the program's defaults for the options that its map compares; what "
+            "describes the scene (conductivity, step, speed, size) is no option.")
 
 
 def cause(run):

@@ -37,6 +37,39 @@ def order(rows, method=DEFAULTS, column="error"):
     return math.log(found[coarse][column] / found[fine][column]) / math.log(coarse / fine)
 
 
+class LimitFit:
+    """The defaults' errors against their own run on a finer mesh h_r, as A (h^p - h_r^p): what a run lacks of the limit is A h^p, not its error.
+
+    p: the order between 0.05 and 4 with the smallest rms deviation of log(error); `found` is False, and all is nan, where the meshes do not
+    tell it: fewer than three of them, or p at an end of that range.
+    """
+
+    def __init__(self, rows, reference, method=DEFAULTS, column="error"):
+        found = curve(rows, method, column)
+        h, errors = np.array(list(found)), np.array([row[column] for row in found.values()])
+        self.order = self.factor = math.nan
+        if len(found) >= 3:
+            orders = np.arange(0.05, 4.001, 0.01)
+            logs = np.array([np.log(errors / (h**order - reference**order)) for order in orders])
+            best = np.argmin(np.std(logs, axis=1))
+            if 0 < best < len(orders) - 1:
+                self.order, self.factor = float(orders[best]), float(np.exp(np.mean(logs[best])))
+        self.reference = reference
+
+    @property
+    def found(self):
+        return math.isfinite(self.order)
+
+    def lack(self, h):
+        """What the defaults lack of the limit with cells of size h."""
+        return self.factor * h**self.order
+
+    def against_limit(self, rows):
+        """The rows with what the reference lacks added to their errors: right where all methods tend to one limit, and fall short of it as the
+        reference does. Unchanged without a fit."""
+        return [{**row, "error": row["error"] + self.lack(self.reference)} for row in rows] if self.found else rows
+
+
 def ratio(rows, method, column="error", other=DEFAULTS):
     """Geometric mean over the common meshes of the column of a method over that of another."""
     own, base = curve(rows, method, column), curve(rows, other, column)

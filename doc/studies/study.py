@@ -59,7 +59,8 @@ class Study:
 
     entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure; quick_reference: that of the
     short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
-    no measures. default: the labels of the .prm's defaults, marked in the chart. program: scree or scree-element.
+    no measures. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
+    its headline is the share of these cells that are stable. program: scree or scree-element.
     """
     title: str
     base: str

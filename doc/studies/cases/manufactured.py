@@ -73,11 +73,11 @@ def verdict(rows):
     denser, linear, rejected = order(rows, "points as fine as cells^2"), ratio(rows, "linear"), failed(rows, "quadratic")
     large = ratio(rows, "Courant number 0.9")
     return [
-        Claim(f"Where points cross cells, only splines serve: linear functions make {linear:.2g} times the error, quadratic elements fail at "
-              f"h = {', '.join(f'{h:.2g}' for h in rejected)} m.", linear > 5 and len(rejected) > 0),
         Claim(f"With 4 x 4 points a cell the error levels out, at {fine:.2g} ({middle:.2g} with cells twice as large): the points, not the cells, "
               f"are what integrates. Finer cells pay only with denser points: spaced as h^2, order {denser:.2g}.", fine > 0.7 * middle and denser > 1,
               quick=False),
+        Claim(f"Where points cross cells, only splines serve: linear functions make {linear:.2g} times the error, quadratic elements fail at "
+              f"h = {', '.join(f'{h:.2g}' for h in rejected)} m.", linear > 5 and len(rejected) > 0),
         Claim(f"3 x 3 points: {ratio(rows, '3 x 3 points'):.2g} times the error; 2 x 2: it grows with refinement, from {few[0]:.2g} to {few[-1]:.2g}; 6 x 6: "
               f"{ratio(rows, '6 x 6 points'):.2g} times, for {ratio(rows, '6 x 6 points', 'core-seconds'):.2g} times the time. The default 4 x 4 is at the knee.",
               ratio(rows, "3 x 3 points") > 1.2 and few[-1] > few[0] and ratio(rows, "6 x 6 points") > 0.7, quick=False),

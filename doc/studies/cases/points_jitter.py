@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How many points does a cell need, and how irregular may they lie? Water at rest for 0.2 s, ten cells deep, with its surface on a face and at a
 quarter of a cell, and saturated soil. Points are moved at random from their lattice by up to the jitter, along each axis, and keep their volume,
-so that cells are no longer evenly filled. The number is the rms error of p at the water's points over rho g h, h the cell; a state above .05 is
-called wrong. One draw of the random numbers a cell of the map: neighbours may differ by a factor of two for that alone.
+so that cells are no longer evenly filled. State: `measures.BOUNDS`. The number is the error, the rms of that of p at the water's points over
+rho g h, h the cell. One draw of the random numbers a cell of the map: neighbours may differ by a factor of two for that alone.
 """
 
 import math
@@ -29,9 +29,7 @@ def measure(run):
     error = measures.hydrostatic_error(run, surface) if run.ended else float("nan")
     mass = run.statistics("Water mass (kg)")[0] / surface * CELL
     energy = mass * 9.81 * CELL
-    state = measures.classify(run, energy=energy, error=error, tolerance=0.05)
-    return {"state": state, "error": error, "p oscillation": measures.mean_oscillation(run), "gain": measures.energy_gain(run, energy),
-            "cause": measures.cause(run)}
+    return {**measures.classify(run, {"oscillation of p": measures.mean_oscillation(run), "error": error}, energy), "cause": measures.cause(run)}
 
 
 def verdict(rows):
@@ -61,6 +59,6 @@ STUDY = Study(
     variants=scene("water", "prm/hydrostatic.prm", "Water/Region", ["Water"], 1, {})
     + scene("water, surface at 1/4", "prm/hydrostatic.prm", "Water/Region", ["Water"], 1.025, {})
     + scene("saturated soil", "prm/saturated_rest.prm", "Soil/Region", ["Soil", "Water"], 1, {}),
-    measure=measure, verdict=verdict, needs_end=False,
+    measure=measure, verdict=verdict, needs_end=False, default={"points": 4},
     quick=lambda labels: labels["points"] in (1, 2, 4) and labels["jitter"] in (0., 0.3) and labels["scene"] != "saturated soil",
     chart=StabilityMap("jitter", "points", panels=["scene"], number="error", xlabel="jitter (spacings)", ylabel="points a cell and axis"))

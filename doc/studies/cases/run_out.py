@@ -7,6 +7,16 @@ k = 5e-2 m/s); the dense slope with k = 5e-3 m/s slides on slowly, it is measure
 rate of 1/s instead of 5 (`prm/slope_*_friction.prm`). Slopes with water travel by TPIC, which has no such rate. Columns have 3 x 3 points in a cell, slopes 2 x 2, for
 the time they take, but the dry dense one of the third treatment, which scatters more, 3 x 3.
 
+What was chosen after results were there:
+
+- The quantile: the study began with 99 % of the mass and went to 90 % after the first results. Both stand beside each other below.
+- Base and PIC rate: taken because the front depends less on the mesh with them ([run_out_causes](run_out_causes.md)), on the dense column that is judged here, too.
+- Points: the dry dense slope got 3 x 3 points because its last change was 2.5 % with 2 x 2, above the bound of 2 %.
+- Cases and sizes: the dense saturated slope with k = 5e-3 m/s, left out of the headline at first, had a last change of 3.8 % with three sizes and got a
+  fourth. The permeable one was added after it.
+
+So the last changes at 90 % are no test of the treatment on cases that it had not seen.
+
 Value at h = 0: the middle between the least-squares fits with errors in proportion to h and to h^2; its uncertainty is half their distance and the
 rms deviation of the worse one. Order: the exponent between 0.5 and 3 that fits best; where it is one of these two, the sizes do not tell it.
 """
@@ -107,9 +117,17 @@ class Limit:
         self.spread = values.max() / values.min() - 1
 
     @property
+    def fronts(self):
+        return ", ".join(f"{value:.2f}" for value in self.values)
+
+    @property
+    def short_text(self):
+        return f"{self.fronts} m, last change {100 * self.last_change:+.1f} %, within {100 * self.spread:.1f} %"
+
+    @property
     def text(self):
         order = f"order {self.order:.1f}" if len(self.h) > 2 and 0.51 < self.order < 2.99 else "no order to be told"
-        return (", ".join(f"{value:.2f}" for value in self.values) + " m with cells of " + ", ".join(f"{h:.3g}" for h in self.h) +
+        return (self.fronts + " m with cells of " + ", ".join(f"{h:.3g}" for h in self.h) +
                 f" m; last change {100 * self.last_change:+.1f} %, {order}; {self.value:.2f} +- {self.uncertainty:.2f} m at h = 0")
 
 
@@ -117,18 +135,20 @@ def verdict(rows):
     groups = curves(rows)
     limits = {key: Limit(group) for key, group in groups.items()}
     best = {key: limit for key, limit in limits.items() if key[2] == RECOMMENDED[key[0]]}
-    worst = max(abs(limit.last_change) for limit in best.values())
-    claims = [Claim("Columns and slopes, dry and saturated, of dense and of loose soil: with friction on the base and little damping the front moves by at most "
-                    f"{100 * worst:.1f} % from the second finest to the finest of four cells.", worst < 0.02, quick=False)]
-    claims += [Claim(f"{scene.capitalize()}, {soil}, {treatment}: {limit.text}. All sizes lie within {100 * limit.spread:.1f} %.",
+    tips = {key: Limit(groups[key], TIP) for key in best}
+    worst, worst_tip = (max(abs(limit.last_change) for limit in of.values()) for of in (best, tips))
+    spread, spread_tip = (max(limit.spread for limit in of.values()) for of in (best, tips))
+    claims = [Claim(f"With friction on the base and little damping the front that holds 99 % of the mass still moves by up to {100 * worst_tip:.1f} % from the second finest to the finest of four "
+                    f"cells (over all four by {100 * spread_tip:.0f} %), the front of 90 % by up to {100 * worst:.1f} % ({100 * spread:.0f} %): columns and slopes, dry and saturated, of dense and "
+                    "of loose soil. 90 % was chosen after a look at 99 %.", worst < 0.02, quick=False)]
+    claims += [Claim(f"{scene.capitalize()}, {soil}, {treatment}: {limit.text}. All sizes lie within {100 * limit.spread:.1f} %. At 99 %: {tips[scene, soil, treatment].short_text}.",
                      abs(limit.last_change) < 0.02, quick=False) for (scene, soil, treatment), limit in best.items()]
     for (scene, soil, treatment), limit in limits.items():
         if treatment == FIXED:
             other = limits[scene, soil, RECOMMENDED[scene]]
             claims.append(Claim(f"{scene.capitalize()}, {soil}, {treatment}: {limit.text}. The largest cells lack {100 * limit.missing:.0f} % of the value at "
                                 f"h = 0, {100 * other.missing:.0f} % with friction and a PIC rate of 1/s.", limit.missing > 1.5 * other.missing))
-    tips = {key: abs(Limit(groups[key], TIP).last_change) for key in best}
-    dry, wet = (max((tip for (scene, _, _), tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan) for is_dry in (True, False))
+    dry, wet = (max((abs(tip.last_change) for (scene, _, _), tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan) for is_dry in (True, False))
     claims.append(Claim(f"Nearer to the tip, at 99 % of the mass, the last change is at most {100 * dry:.1f} % dry, and up to {100 * wet:.1f} % with water.",
                         dry < 0.03 < wet, quick=False))
     return claims
