@@ -26,6 +26,7 @@ namespace scree
   template <int dim>
   Simulation<dim>::Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
       : parameters(parameters)
+      , start(start)
       , communicator(communicator)
       , folder(parameters.output_directory, parameters.output.screen_kind() == Screen::progress, communicator)
       , stop(folder.is_writer() ? folder.file("terminate") : "", parameters.output.wall_time_limit)
@@ -127,7 +128,7 @@ namespace scree
     timer.reset(); // Only the steps' time is to be told.
     stop.listen();
     Progress progress(folder, clock.time(), parameters.end_time);
-    if (clock.step() == 0)
+    if (start == Start::fresh) // A resumed run has reported its first state, also that at t = 0.
       report();
     const double updates_before = point_updates;
     const double first_step     = stable_step();

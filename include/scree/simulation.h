@@ -124,6 +124,7 @@ namespace scree
     void serialize_state(Archive &archive);
 
     Parameters &parameters;
+    const Start start;
     const MPI_Comm communicator;
     RunFolder folder;
     StopRequests stop;

@@ -131,6 +131,16 @@ def kill():
     print(f"{n_kills} kills, the last after {rows} rows; {n_rows()} rows in the end, as in the undisturbed run")
 
 
+def from_the_start():
+    """The only checkpoint is that at t = 0: the resumed run has its row there, and no second one."""
+    write_case("case.prm", ["Checkpoint interval = 1"])
+    wanted = whole_run("case.prm")
+    run("case.prm")
+    run("case.prm", "--resume")
+    check("Resumed at t = 0 s" in log(), log())
+    check(content() == wanted, f"{n_rows()} rows differ from the undisturbed run's")
+
+
 def kill_two_ranks():
     """One of two ranks is killed, mpirun ends the other one; the run that goes on has the undisturbed run's rows."""
     write_case("case.prm", ["Checkpoint interval = 0.003"])
