@@ -44,7 +44,12 @@ namespace scree
   {
     make_bodies();
     if (parameters.surface_load.is_set())
-      loads.emplace_back(grid, parameters.surface_load);
+      {
+        unsigned int points_per_cell = 1;
+        for (const auto &body : parameters.bodies)
+          points_per_cell = std::max(points_per_cell, body.seeding.points_per_cell);
+        loads.emplace_back(grid, parameters.surface_load, points_per_cell);
+      }
   }
 
 

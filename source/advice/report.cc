@@ -140,11 +140,16 @@ namespace scree
           writer.line("water points",
                       (choice.sets == PointSets::double_point ? "double: " : "single: ") + choice.reason);
         }
-      const double cells = law.cells_over_height(advice.accuracy);
-      const double size  = cell_size_for(advice.grid, scene.height, cells);
+      const double size = law.gap.empty()
+                              ? cell_size_for(advice.grid, scene.height, law.cells_over_height(advice.accuracy))
+                              : scene.cell_size;
       writer.line("cell size",
-                  rounded(size) + " m, H/h = " + rounded(scene.height / size) + " (now " + rounded(scene.cell_size) +
-                      " m: error about " + rounded(law.error(scene.height / scene.cell_size)) + ")");
+                  rounded(size) + " m, H/h = " + rounded(scene.height / size) +
+                      (law.gap.empty() ? " (now " + rounded(scene.cell_size) + " m: error about " +
+                                             rounded(law.error(scene.height / scene.cell_size)) + ")"
+                                       : " as now: the error is not known"));
+      if (!law.gap.empty())
+        writer.line("error", "not known: " + law.gap + ". Halve the cells and the step, and compare");
       const SceneNumbers wanted = with_cell_size(scene, size);
       const StepCost steps      = with_cell_size(advice.first_steps, scene, size);
       Schedule schedule         = advice.schedule;

@@ -90,6 +90,8 @@ namespace scree
         scene.has_soil   = !parameters.bodies.empty();
         scene.is_elastic = scene.has_soil;
         scene.has_water  = parameters.has_water;
+        scene.has_changing_forces =
+            parameters.surface_load.changes_with_time() || !parameters.body_force.expression.empty();
         if (!scene.has_water)
           return;
         scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;

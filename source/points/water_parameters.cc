@@ -47,11 +47,11 @@ namespace scree
                       fluidisation_porosity,
                       "Soil looser than this bears no effective stress; 1: never.",
                       Patterns::Double(1e-12, 1));
-    prm.add_parameter("Volume correction",
-                      volume_correction,
-                      "Part of the cells' surplus of free water that a step moves away; 0: none, 0.05 to 0.1 is usual. "
-                      "Double-point only.",
-                      Patterns::Double(0, 1));
+    prm.add_parameter("Volume correction rate",
+                      volume_correction_rate,
+                      "Rate at which a surplus of free water in crowded cells is moved away, 1/s; 0: never, 1/2 "
+                      "sqrt(g/h) with cells of size h is usual. Double-point only.",
+                      Patterns::Double(0));
     prm.add_parameter(
         "Initial pressure",
         initial_pressure,
@@ -126,8 +126,11 @@ namespace scree
         "\"Point sets = double\".";
     require_entry(points_per_cell == defaults.points_per_cell, "Water", "Points per cell", points_per_cell, remedy);
     require_entry(jitter == defaults.jitter, "Water", "Jitter", jitter, remedy);
-    require_entry(
-        volume_correction == defaults.volume_correction, "Water", "Volume correction", volume_correction, remedy);
+    require_entry(volume_correction_rate == defaults.volume_correction_rate,
+                  "Water",
+                  "Volume correction rate",
+                  volume_correction_rate,
+                  remedy);
     require_entry(initial_velocity == defaults.initial_velocity, "Water", "Initial velocity", initial_velocity, remedy);
   }
 

@@ -39,9 +39,9 @@ namespace scree
   {
     for (const auto &body : bodies)
       shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
-    if (water_parameters.volume_correction > 0)
+    if (water_parameters.volume_correction_rate > 0)
       volume_correction =
-          std::make_unique<VolumeCorrection<dim>>(grid, constraints, pressure, water_parameters.volume_correction);
+          std::make_unique<VolumeCorrection<dim>>(grid, constraints, pressure, water_parameters.volume_correction_rate);
   }
 
 
@@ -139,6 +139,7 @@ namespace scree
       complete_pores();
       pressure.locate(mixture);
       add_pressure_forces();
+      soil.add_loads(time_step); // p is that of the end, and the load is what it bears.
       soil.field.add_contributions();
       water_field.add_contributions();
       pores.add_contributions();

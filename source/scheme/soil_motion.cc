@@ -12,11 +12,11 @@ namespace scree
                               std::list<SoilBody<dim>> &bodies,
                               std::list<SurfaceLoad<dim>> &loads)
       : field(grid)
-      , grid(grid)
       , transfer(grid, transfer, stabilisation)
       , bodies(bodies)
-      , loads(loads)
   {
+    for (auto &load : loads)
+      this->loads.emplace_back(grid, load);
   }
 
 
@@ -24,19 +24,30 @@ namespace scree
   void SoilMotion<dim>::reinit()
   {
     field.reinit();
+    for (auto &one : loads)
+      one.reinit();
   }
 
 
   template <int dim>
   void SoilMotion<dim>::to_grid(const double time)
   {
-    step_start = time;
-    load       = 0.;
+    load_time = time;
     field.clear();
     for (const auto &body : bodies)
       transfer.to_grid(body, field);
+    for (auto &one : loads)
+      one.find_areas(bodies);
+  }
+
+
+  template <int dim>
+  void SoilMotion<dim>::add_loads(const double delay)
+  {
+    load_time += delay;
+    load = 0.;
     for (const auto &one : loads)
-      load += add_load(one, time, grid, field);
+      load += one.add_to(field, load_time);
   }
 
 
@@ -52,7 +63,7 @@ namespace scree
         report.n_updates += motion.material.n_updates;
       }
     for (auto &one : loads)
-      report.balance.load_work += move_load(one, step_start, grid, field, time_step);
+      report.balance.load_work += one.move(field, load_time, time_step);
   }
 
 
@@ -62,7 +73,7 @@ namespace scree
     for (auto &body : bodies)
       sets.push_back(&body.points);
     for (auto &one : loads)
-      sets.push_back(&one.points());
+      sets.push_back(&one.surface_load().points());
   }
 
   template class SoilMotion<2>;

@@ -8,15 +8,22 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Below it a corner is full: water at rest must not follow its rounding.
+    constexpr double least_surplus = 1e-6;
+  } // namespace
+
+
   template <int dim>
   VolumeCorrection<dim>::VolumeCorrection(const BackgroundGrid<dim> &grid,
                                           const Constraints<dim> &constraints,
                                           PorePressure<dim> &pressure,
-                                          const double part)
+                                          const double rate)
       : grid(grid)
       , constraints(constraints)
       , pressure(pressure)
-      , part(part)
+      , rate(rate)
       , shifts(grid.numbering())
   {
     reinit();
@@ -26,6 +33,7 @@ namespace scree
   template <int dim>
   void VolumeCorrection<dim>::reinit()
   {
+    pressure.reinit(volume_inside);
     pressure.reinit(source);
     pressure.reinit(potential);
     shifts.reinit();
@@ -33,15 +41,46 @@ namespace scree
 
 
   template <int dim>
-  void
+  void VolumeCorrection<dim>::find_inside(const Mixture<dim> &mixture)
+  {
+    const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
+    const double part                      = Utilities::fixed_power<dim>(0.5 * grid.cell_size()); // of a cell's corner
+    volume_inside.zero_out_ghost_values();
+    volume_inside = 0.;
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      {
+        const unsigned int *corners = pressure.corners_of(cell.cell);
+        if (std::all_of(corners, corners + cell.n_corners, [&](const unsigned int corner) {
+              return surface.kind(corner) == CornerKind::unknown;
+            }))
+          for (unsigned int v = 0; v < cell.n_corners; ++v)
+            volume_inside.local_element(corners[v]) += part;
+      }
+    volume_inside.compress(VectorOperation::add);
+  }
+
+
+  template <int dim>
+  bool
   VolumeCorrection<dim>::find_potential(const Mixture<dim> &mixture, const double time_step, StepBalance<dim> &balance)
   {
     const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
-    source                                 = 0.;
+    const double part                      = -std::expm1(-rate * time_step);
+    find_inside(mixture);
+    source = 0.;
     for (const unsigned int corner : surface.wet_corners())
       if (surface.kind(corner) == CornerKind::unknown && surface.is_free_water(corner))
-        source.local_element(corner) = part * (surface.fill(corner) - 1.) * surface.volume_under(corner) / time_step;
+        {
+          const double surplus = surface.fill(corner) - 1., volume = surface.volume_under(corner);
+          const bool inside = volume_inside.local_element(corner) > (1. - 1e-9) * volume;
+          // A lack beside the surface is the surface.
+          if (surplus > least_surplus || (inside && surplus < -least_surplus))
+            source.local_element(corner) = part * surplus * volume / time_step;
+        }
+    if (source.linfty_norm() == 0.)
+      return false;
     pressure.solve_potential(mixture, source, potential, balance);
+    return true;
   }
 
 
@@ -93,7 +132,8 @@ namespace scree
   {
     if (water.own_points() == nullptr)
       return; // Water that rides on the soil's points moves with them.
-    find_potential(mixture, time_step, balance);
+    if (!find_potential(mixture, time_step, balance))
+      return;
     find_shifts(mixture, water_field, pores, time_step);
     for_each_point(water.points(), [&](const auto &point) {
       Tensor<1, dim> shift;
@@ -102,6 +142,9 @@ namespace scree
           shift[c] += shape * shifts[node][dim + c];
       });
       point.location += shift;
+      // The pressure stays where it is; the point reads it at its new place.
+      for (unsigned int c = 0; c < dim; ++c)
+        point.properties[water.layout.pressure] += point.properties[water.layout.pressure_gradient + c] * shift[c];
     });
   }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
 
 namespace scree
@@ -14,8 +15,6 @@ namespace scree
 
   namespace
   {
-    constexpr unsigned int markers_per_cell = 4; // along each axis of the patch
-
     template <int dim>
     std::string point_text(const Point<dim> &x)
     {
@@ -23,8 +22,11 @@ namespace scree
     }
 
     /// The markers' places on one axis of a cell and the width each stands for, m.
-    std::vector<std::pair<double, double>>
-    places_on_axis(const double cell_lower, const double cell_size, const double lower, const double upper)
+    std::vector<std::pair<double, double>> places_on_axis(const double cell_lower,
+                                                          const double cell_size,
+                                                          const unsigned int markers_per_cell,
+                                                          const double lower,
+                                                          const double upper)
     {
       std::vector<std::pair<double, double>> places;
       const double width = cell_size / markers_per_cell;
@@ -55,6 +57,12 @@ namespace scree
                       "semicolons, e.g. 0; -1e4; empty: no load.",
                       Patterns::Anything());
     prm.leave_subsection();
+  }
+
+
+  bool SurfaceLoadParameters::changes_with_time() const
+  {
+    return std::regex_search(traction, std::regex("\\bt\\b"));
   }
 
 
@@ -123,14 +131,16 @@ namespace scree
 
 
   template <int dim>
-  SurfaceLoad<dim>::SurfaceLoad(const BackgroundGrid<dim> &grid, const SurfaceLoadParameters &parameters)
+  SurfaceLoad<dim>::SurfaceLoad(const BackgroundGrid<dim> &grid,
+                                const SurfaceLoadParameters &parameters,
+                                const unsigned int markers_per_cell)
       : corner(parameters.lower_corner)
+      , normal(parameters.normal_axis(dim))
       , markers(grid.triangulation(), grid.mapping(), 1)
       , function(
             parse_expression<dim>(entry_name("Surface load", "Traction"), parameters.traction, dim, /*with_time*/ true))
   {
-    const double cell_size    = grid.cell_size();
-    const unsigned int normal = parameters.normal_axis(dim);
+    const double cell_size = grid.cell_size();
     // Cells below the plane; 0 if the plane is the lower face of the box.
     const double cells_below = (parameters.lower_corner[normal] - grid.lower_corner()[normal]) / cell_size;
     const double layer       = std::max(0., std::ceil(cells_below - 1e-9) - 1);
@@ -150,10 +160,12 @@ namespace scree
         unsigned int n = 1;
         for (unsigned int a = 0; a < dim; ++a)
           {
-            places[a] =
-                a == normal
-                    ? std::vector<std::pair<double, double>>{ { plane, 1. } }
-                    : places_on_axis(lower[a], cell_size, parameters.lower_corner[a], parameters.upper_corner[a]);
+            places[a] = a == normal ? std::vector<std::pair<double, double>>{ { plane, 1. } }
+                                    : places_on_axis(lower[a],
+                                                     cell_size,
+                                                     markers_per_cell,
+                                                     parameters.lower_corner[a],
+                                                     parameters.upper_corner[a]);
             n *= places[a].size();
           }
         for (unsigned int i = 0; i < n; ++i)

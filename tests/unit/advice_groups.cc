@@ -130,6 +130,22 @@ void test_resolution()
       std::cout << "Error " << law.measure << ": law and its inverse " << law.error(law.cells_over_height(0.02)) / 0.02
                 << ", halved cells " << law.error(20) / law.error(40) << '\n';
     }
+  SceneNumbers cyclic = terzaghi(), reservoir = terzaghi(), early = terzaghi(), dam = slope(), still = slope(),
+               level         = slope();
+  cyclic.has_changing_forces = true;
+  reservoir.water_fills_soil = false;
+  early.end_time             = 0.5;
+  dam.has_soil = still.has_soil = false;
+  still.fall = level.fall = 0;
+  std::cout << "Whether the error is known: slope " << error_law_of(slope()).gap.empty() << ", dam "
+            << error_law_of(dam).gap.empty() << ", Terzaghi " << error_law_of(terzaghi()).gap.empty()
+            << "; cyclic load " << error_law_of(cyclic).gap.empty() << ", reservoir "
+            << error_law_of(reservoir).gap.empty() << ", before T_v = 0.1 " << error_law_of(early).gap.empty()
+            << ", still water " << error_law_of(still).gap.empty() << ", level soil " << error_law_of(level).gap.empty()
+            << '\n';
+  std::cout << "Promised for Terzaghi in 200 cells over the least that was measured: "
+            << error_law_of(terzaghi()).error(200) / ErrorLaw::smallest << "; Courant number beside a reservoir "
+            << time_step_for(reservoir, TimeStepParameters()).courant_number << '\n';
   GridParameters grid;
   grid.lower_corner = { 0, 0 };
   grid.upper_corner = { 10, 2.5 };

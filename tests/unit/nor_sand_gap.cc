@@ -42,6 +42,12 @@ int main()
     }
   AssertThrow(report.n_separated > 0 && material->elastic_energy(left_cauchy_green) < 1e-2,
               ExcMessage("The sand should be apart and store nothing."));
+  // A wide step is taken in many sub-steps, yet the point is apart once.
+  const UpdateReport before = report;
+  stretch(0.01);
+  std::cout << "pulled on in several sub-steps (" << (report.n_substeps > before.n_substeps + 5)
+            << "): points apart: " << report.n_separated - before.n_separated << std::endl;
+  stretch(-0.01);
   while (volume_strain > 1e-9)
     {
       stretch(-step);

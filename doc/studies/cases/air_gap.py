@@ -27,7 +27,7 @@ def with_case(variants):
             entries.update({"Soil/Initial state/Type": "none", "Soil/Points per cell": 3, "Soil/Region": " || ".join(soil),
                             "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": 1e-3})
         else:
-            entries.update({"Water/Volume correction": 0, "Time step/Maximum time step": 1e-3})
+            entries.update({"Water/Volume correction rate": 0, "Time step/Maximum time step": 1e-3})
         result.append(variants[0]._replace(labels=labels, entries=entries, base=None if soil else "prm/dam_break.prm"))
     return result
 

@@ -27,7 +27,7 @@ SOIL = {**PHASES, "Soil/Initial porosity": 0.4}
 WATER = {"dry": ("prm/column_dense.prm", SOIL),
          "single": ("prm/column_dense.prm", {**SOIL, "Water/Region": "same", "Water/Point sets": "single"}),
          "double": ("prm/column_dense.prm", {**SOIL, "Water/Region": "same"}),
-         "water alone": ("prm/dam_break.prm", {**PHASES, "Water/Region": "x < 1 && y < 1", "Water/Volume correction": 0})}
+         "water alone": ("prm/dam_break.prm", {**PHASES, "Water/Region": "x < 1 && y < 1", "Water/Volume correction rate": 0})}
 PICTURES = ["none", "points", "points and grid"]
 OF_WATER, OF_SOIL = "pressure: [a-z]+|grid to water points", "grid to points, stress"  # parts of a step, as the log names them
 

@@ -67,7 +67,7 @@ def collapse(height, young, cells=10):
 
 def submerged(height, young):
     return {**collapse(height, young), "Mesh/Upper corner": f"{4 * height:g}, {1.6 * height:g}", "Water/Region": f"y < {1.2 * height:g}",
-            "Water/Volume correction": 0.05}
+            "Water/Volume correction rate": 0.5 * math.sqrt(GRAVITY / (height / 10))}
 
 
 def loaded(height, young, cells=10):

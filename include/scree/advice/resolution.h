@@ -6,20 +6,25 @@
 #include <scree/grid/background_grid.h>
 #include <scree/scheme/time_step.h>
 
+#include <algorithm>
 #include <string>
 
 namespace scree
 {
-  /// A measured law of convergence: relative error = factor (h/H)^order, down to the resolution that carries motion.
+  /// A measured law of convergence: relative error = factor (h/H)^order, down to the resolution that carries motion and
+  /// the smallest error that was measured.
   struct ErrorLaw
   {
     std::string measure; ///< what the error is of
     double factor;
     double order;
+    std::string gap = ""; ///< why the law does not decide this scene's error; empty: it does
+
+    static constexpr double smallest = 2e-4;
 
     double error(const double cells_over_height) const
     {
-      return factor * std::pow(cells_over_height, -order);
+      return std::max(smallest, factor * std::pow(cells_over_height, -order));
     }
     double cells_over_height(const double error) const
     {
@@ -27,7 +32,8 @@ namespace scree
     }
   };
 
-  /// The law of a scene's kind: run-out of plastic soil, small motion of elastic soil, free water.
+  /// The law of a scene's kind: run-out of plastic soil that flows, elastic soil under a constant load, free water that
+  /// falls. Other scenes have lengths of their own, which the law does not know: it says so.
   ErrorLaw error_law_of(const SceneNumbers &scene);
 
   /// Largest cell size, m, that divides the box and gives at least `cells` (and ten, which the motion needs) over

@@ -32,6 +32,8 @@ namespace scree
     double height = 0; ///< of the soil (without soil: of the water) along gravity; without gravity its longest side, m
     double fall   = 0; ///< what the centre of mass sinks until all lies level in the box, m
 
+    bool has_changing_forces = false; ///< a load that depends on time, or a body force
+
     double initial_speed = 0; ///< largest of a point, m/s
 
     bool has_soil         = false;

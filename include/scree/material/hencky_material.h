@@ -160,9 +160,11 @@ namespace scree
 
     const unsigned int n_substeps = static_cast<unsigned int>(wanted_substeps);
     const double part             = 1. / n_substeps;
+    const auto n_separated        = report.n_separated;
     double dissipation            = 0;
     for (unsigned int k = 0; k < n_substeps; ++k)
       {
+        report.n_separated            = n_separated;         // A point counts once, by its state in the end.
         dealii::Tensor<2, dim> before = (k * part) * change; // F_{k-1}
         for (unsigned int i = 0; i < dim; ++i)
           before[i][i] += 1;

@@ -33,19 +33,19 @@ namespace scree
   /// Subsection Water: where it is, and how it flows through the soil.
   struct WaterParameters
   {
-    std::string region           = "same"; ///< as the soil, or an expression
-    std::string point_sets       = "double";
-    unsigned int points_per_cell = 4;             ///< along each axis
-    double jitter                = 0;             ///< over the points' spacing
-    double density               = 1000;          ///< kg/m^3
-    double conductivity          = 1e-3;          ///< m/s, at the initial porosity
-    std::string conductivity_law = "constant";    ///< constant | Kozeny-Carman
-    double viscosity             = 0;             ///< Pa s
-    double bulk_modulus          = 0;             ///< Pa; 0: incompressible
-    double fluidisation_porosity = 1;             ///< soil looser than this bears no stress
-    double volume_correction     = 0;             ///< of free water
-    std::string initial_pressure = "hydrostatic"; ///< hydrostatic | none
-    std::string initial_velocity = "";            ///< m/s, one expression an axis; empty: at rest
+    std::string region            = "same"; ///< as the soil, or an expression
+    std::string point_sets        = "double";
+    unsigned int points_per_cell  = 4;             ///< along each axis
+    double jitter                 = 0;             ///< over the points' spacing
+    double density                = 1000;          ///< kg/m^3
+    double conductivity           = 1e-3;          ///< m/s, at the initial porosity
+    std::string conductivity_law  = "constant";    ///< constant | Kozeny-Carman
+    double viscosity              = 0;             ///< Pa s
+    double bulk_modulus           = 0;             ///< Pa; 0: incompressible
+    double fluidisation_porosity  = 1;             ///< soil looser than this bears no stress
+    double volume_correction_rate = 0;             ///< of free water, 1/s
+    std::string initial_pressure  = "hydrostatic"; ///< hydrostatic | none
+    std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);

@@ -70,6 +70,12 @@ namespace scree
       return surface;
     }
 
+    /// The corners of a cell of this rank, in deal.II's order.
+    const unsigned int *corners_of(const unsigned int cell) const
+    {
+      return corners.nodes(cell);
+    }
+
     /// Makes room for a number a corner.
     void reinit(CornerVector &vector) const
     {

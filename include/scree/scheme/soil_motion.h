@@ -25,8 +25,12 @@ namespace scree
     /// Fits the nodes to the grid's current partition. Collective.
     void reinit();
 
-    /// Sums mass, momentum and force of this rank's points and loads at the nodes, at the time, s, of the step's start.
+    /// Sums mass, momentum and force of this rank's points at the nodes, at the time, s, of the step's start.
+    /// Collective.
     void to_grid(const double time);
+
+    /// Adds the loads as they are a time, s, after the step's start, before the nodes' sums go over ranks.
+    void add_loads(const double delay);
 
     /// The impulse of the loads in a step, N s, of this rank.
     dealii::Tensor<1, dim> load_impulse(const double time_step) const
@@ -52,11 +56,10 @@ namespace scree
     NodalField<dim> field;
 
   private:
-    const BackgroundGrid<dim> &grid;
     Transfer<dim> transfer;
     std::list<SoilBody<dim>> &bodies;
-    std::list<SurfaceLoad<dim>> &loads;
-    double step_start = 0;       // s
+    std::list<LoadTransfer<dim>> loads;
+    double load_time = 0;        // s; the step's start until add_loads()
     dealii::Tensor<1, dim> load; // sum of the loads of this rank, N
   };
 } // namespace scree

@@ -8,16 +8,17 @@
 namespace scree
 {
   /// Moves points of free water from where they crowd to where they are few: positions only, by a tenth of a cell at
-  /// most.
+  /// most. Inside the water surplus and lack count; beside its surface the surplus alone, since there a corner that is
+  /// not full is no lack of water. Water at rest stays.
   template <int dim>
   class VolumeCorrection
   {
   public:
-    /// @param part of the surplus that a step takes out of each corner, above 0
+    /// @param rate at which the surplus of a corner decays, 1/s, above 0
     VolumeCorrection(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      PorePressure<dim> &pressure,
-                     const double part);
+                     const double rate);
 
     /// Fits what lives on nodes and corners to the grid's current partition. Collective.
     void reinit();
@@ -31,8 +32,12 @@ namespace scree
                StepBalance<dim> &balance);
 
   private:
-    /// A flow that takes `part` of the surplus out of each corner: L chi = part (F - 1) integral psi / dt.
-    void find_potential(const Mixture<dim> &mixture, const double time_step, StepBalance<dim> &balance);
+    /// Finds the corners all of whose cells have unknown pressures only: their volume under psi of such cells.
+    void find_inside(const Mixture<dim> &mixture);
+
+    /// A flow that takes its part of the surplus out of each corner, L chi = (1 - exp(-rate dt)) (F - 1) integral psi /
+    /// dt. Returns whether there is any surplus. Collective.
+    bool find_potential(const Mixture<dim> &mixture, const double time_step, StepBalance<dim> &balance);
 
     /// The way of the nodes, m, that this flow makes of water.
     void find_shifts(const Mixture<dim> &mixture,
@@ -43,8 +48,8 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
     PorePressure<dim> &pressure;
-    const double part;
-    CornerVector source, potential;
+    const double rate; // 1/s
+    CornerVector volume_inside, source, potential;
     NodeValues<dim, 2 * dim> shifts; // of soil, not used, and of water, m
   };
 } // namespace scree

@@ -31,6 +31,9 @@ namespace scree
       return !traction.empty();
     }
 
+    /// Whether the traction speaks of the time.
+    bool changes_with_time() const;
+
     /// The axis along which the patch has no width.
     unsigned int normal_axis(const unsigned int dim) const;
   };
@@ -42,15 +45,25 @@ namespace scree
   public:
     static constexpr unsigned int area = 0; ///< a marker's only property: m^2 (2D: m), as it was at the start
 
-    /// Lays the markers, 4 a cell and axis. A patch on a face between two cells belongs to the one with the lower
-    /// coordinate, so that the load on top of a body finds the body's cells. Collective.
-    SurfaceLoad(const BackgroundGrid<dim> &grid, const SurfaceLoadParameters &parameters);
+    /// Lays the markers. A patch on a face between two cells belongs to the one with the lower coordinate, so that the
+    /// load on top of a body finds the body's cells. Collective.
+    /// @param markers_per_cell along each axis of the patch: as many as the soil has points, whose sums at the nodes of
+    /// a wall differ from those of another number
+    SurfaceLoad(const BackgroundGrid<dim> &grid,
+                const SurfaceLoadParameters &parameters,
+                const unsigned int markers_per_cell);
 
     /// Throws EntryError if a marker's cell holds no soil, whose nodes could not take its load. Collective.
     void require_soil(const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator) const;
 
     /// Force per initial area, Pa, at a place and a time, s.
     dealii::Tensor<1, dim> traction(const dealii::Point<dim> &x, const double time) const;
+
+    /// The axis along which the patch has no width at the start.
+    unsigned int normal_axis() const
+    {
+      return normal;
+    }
 
     PointSet<dim> &points()
     {
@@ -63,6 +76,7 @@ namespace scree
 
   private:
     const std::vector<double> corner; // as the entry says
+    const unsigned int normal;        // axis
     PointSet<dim> markers;
     std::unique_ptr<dealii::FunctionParser<dim>> function;
   };
