@@ -5,7 +5,7 @@
 /usr/bin/python3 doc/render.py results/quickstart --field deviatoric_stress --times 0,0.5,1
 
 Writes points.png, of the soil, water.png, of the water, and statistics.png into the run folder; what is asked for (--field, --times, --limits)
-is part of a picture's name. Needs Debian's python3-vtk9 and python3-matplotlib.
+is part of a picture's name. --probe NAME draws a probe instead. Needs Debian's python3-vtk9 and python3-matplotlib.
 """
 
 import argparse
@@ -101,9 +101,14 @@ def read_points(run, time=None, collection="points"):
 
 
 def read_statistics(run):
-    """The columns of the statistics file: {"Time (s)": values, ...}. A line that is not complete yet is left out."""
+    """The columns of the statistics file, see `read_table`."""
+    return read_table(pathlib.Path(run) / "statistics")
+
+
+def read_table(path):
+    """The columns of a table of a run: {"Time (s)": values, ...}. A line that is not complete yet is left out."""
     names, rows = [], []
-    with open(pathlib.Path(run) / "statistics", encoding="utf-8") as file:
+    with open(path, encoding="utf-8") as file:
         for line in file:
             header = re.match(r"#\s*\d+:\s*(.*\S)", line)
             if header:
@@ -359,6 +364,65 @@ def render_statistics(run, output):
     return True
 
 
+def _by_unit(columns):
+    """{unit: columns} of names such as "Front (m)"."""
+    groups = {}
+    for name in columns:
+        unit = re.search(r"\(([^()]*)\)\s*$", name)
+        groups.setdefault(unit.group(1) if unit else "", []).append(name)
+    return groups
+
+
+def _without_unit(name):
+    return re.sub(r"\s*\([^()]*\)\s*$", "", name)
+
+
+def render_probe(run, name, output):
+    """A probe in one PNG: of a line, each quantity along it, a curve a time; of others, all columns against time."""
+    table = read_table(pathlib.Path(run) / f"probe_{name}")
+    shown = [key for key in table if key not in ("Time (s)", "Distance (m)", "x (m)", "y (m)", "z (m)") and np.any(np.isfinite(table[key]))]
+    if not shown:
+        raise ValueError(f"probe_{name} has no numbers: there was never material.")
+    is_line = "Distance (m)" in table
+    groups = [(key, [key]) for key in shown] if is_line else list(_by_unit(shown).items())
+    columns = 3 if is_line else 1
+    rows = -(-len(groups) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(11 if is_line else 8, 0.6 + 2.3 * rows), squeeze=False, sharex=True,
+                                layout="constrained")
+    for panel in axes.flat[len(groups):]:
+        panel.set_visible(False)
+    times = np.unique(table["Time (s)"])
+    for panel, (title, names) in zip(axes.flat, groups):
+        if is_line:
+            for i, time in enumerate(times):
+                at = table["Time (s)"] == time
+                panel.plot(table["Distance (m)"][at], table[title][at], color=plt.get_cmap("viridis")(i / max(1, len(times) - 1) * 0.9))
+            panel.set_xlabel("distance (m)")
+        else:
+            for key in names:
+                panel.plot(table["Time (s)"], table[key], label=_without_unit(key))
+            panel.legend(fontsize="small", loc="best")
+        panel.set_ylabel(title if is_line else f"({title})")
+        panel.grid(alpha=0.3)
+    if is_line:
+        figure.suptitle(f"{name}, from t = {times[0]:.4g} s (dark) to {times[-1]:.4g} s (bright)", fontsize="medium")
+    else:
+        axes.flat[-1].set_xlabel("time (s)")
+    figure.savefig(output, dpi=150)
+    plt.close(figure)
+
+
+def draw_probes(arguments):
+    """Draws the probes that the command line names. Throws OSError or ValueError."""
+    for name in arguments.probe.split(","):
+        if not (arguments.run / f"probe_{name}").exists():
+            there = sorted(path.name[len("probe_"):] for path in arguments.run.glob("probe_*") if not path.suffix)
+            raise ValueError(f"{arguments.run} has no probe {name}; there are: {', '.join(there) or 'none'}.")
+        output = _output(arguments, f"probe_{name}")
+        render_probe(arguments.run, name, output)
+        print(f"Wrote {output}")
+
+
 def fields_of(run, collection):
     """The names of the arrays of a collection's last picture."""
     return read_points(run, None, collection).arrays
@@ -417,6 +481,7 @@ def draw(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
+    parser.add_argument("--probe", help="names of probes, separated by commas: a picture each of their lines or time series, and nothing else")
     parser.add_argument("--collection", choices=list(DEFAULT_FIELDS), help="points of the soil or of the water; default: both, a picture each")
     parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: mean_effective_stress, pressure of water")
     parser.add_argument("--times", help="times in s, separated by commas; default: first, 1/4, 1/2 and last")
@@ -425,7 +490,10 @@ def main():
     parser.add_argument("--force", action="store_true", help="overwrite the file of --output")
     arguments = parser.parse_args()
     try:
-        draw(arguments)
+        if arguments.probe:
+            draw_probes(arguments)
+        else:
+            draw(arguments)
     except (OSError, KeyError, ValueError) as error:
         sys.exit(f"render.py: {error.args[0] if isinstance(error, KeyError) else error}")
 

@@ -88,7 +88,7 @@ namespace scree
   {
     // The names of the bodies are names of subsections: the declarations need them.
     static const std::set<std::string> taken{ "Mesh",     "Time step", "Transfer", "Stabilisation", "Boundaries",
-                                              "Settling", "Output",    "Water",    "Surface load" };
+                                              "Settling", "Output",    "Water",    "Surface load",  "Probes" };
     const std::string names = file.value("", "Bodies", "Soil");
     if (names == "none")
       return;
@@ -145,6 +145,7 @@ namespace scree
     surface_load.add_parameters(prm);
     settling.add_parameters(prm);
     output.add_parameters(prm);
+    probes.add_parameters(prm);
   }
 
 
@@ -174,6 +175,7 @@ namespace scree
     surface_load.check(grid, dimension);
     body_force.check(dimension);
     settling.check(gravity);
+    probes.check(grid, dimension, !bodies.empty());
     require_entry(transfer.transfer_method() != TransferMethod::apic || grid.basis_kind() == Basis::spline,
                   "Transfer",
                   "Method",

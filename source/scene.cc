@@ -64,7 +64,8 @@ namespace scree
         auto material = make_material<dim>(body.material);
         const PropertyLayout<dim> layout(material->internal_quantities().size(),
                                          affine,
-                                         water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0);
+                                         water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
+                                         parameters.probes.displacement);
         bodies.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -251,6 +252,17 @@ namespace scree
       stop(body.points, body.layout.velocity, body.layout.affine);
     for (auto &part : water)
       stop(part.points(), part.layout.velocity, part.layout.affine);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::mark_start()
+  {
+    for (auto &body : bodies)
+      if (body.layout.has_start)
+        for_each_point(body.points, [&](const auto &point) {
+          std::copy_n(point.location.begin_raw(), dim, point.properties + body.layout.start);
+        });
   }
 
 

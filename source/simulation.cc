@@ -39,6 +39,7 @@ namespace scree
       , graphics(scene.grid, parameters.output, parameters.output_directory)
       , statistics(scene.grid, scene.forcing.gravity(), scene.loads.size())
       , rows(folder.file("statistics"))
+      , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
   {
     if (start == Start::resume)
       resume();
@@ -61,6 +62,7 @@ namespace scree
       folder.log(question);
     if (parameters.settling.maximum_time > 0)
       settle();
+    scene.mark_start();
     scheme->read_points();
   }
 
@@ -107,6 +109,7 @@ namespace scree
   void Simulation<dim>::cut_output()
   {
     graphics.cut();
+    probes.cut();
     if (folder.is_writer())
       if (const std::string missing = rows.cut(); !missing.empty())
         folder.log(missing);
@@ -191,6 +194,7 @@ namespace scree
     folder.require_presence();
     if (folder.is_writer() && !rows.is_complete())
       rows.append(""); // throws if the disk still refuses them
+    probes.complete();
   }
 
 
@@ -361,7 +365,7 @@ namespace scree
     if (row_is_due)
       write_row();
     if (picture_is_due)
-      graphics.write(scene.bodies, scheme->soil_field(), time, scheme->water_view().get());
+      write_picture();
     if (output_times.checkpoint_is_due(time))
       write_checkpoint();
     output_times.begin(time);
@@ -374,6 +378,23 @@ namespace scree
     statistics.collect(scene.bodies, scene.water, totals, clock.time(), clock.step(), last_time_step, last_update);
     folder.try_to_write("statistics",
                         [&] { rows.append((rows.is_empty() ? statistics.head() : "") + statistics.row()); });
+    probes.write_rows(probed_state(scheme->water_view().get()));
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::write_picture()
+  {
+    const std::unique_ptr<WaterView<dim>> view = scheme->water_view();
+    graphics.write(scene.bodies, scheme->soil_field(), clock.time(), view.get());
+    probes.write_lines(probed_state(view.get()));
+  }
+
+
+  template <int dim>
+  ProbedState<dim> Simulation<dim>::probed_state(const WaterView<dim> *view) const
+  {
+    return { scene.bodies, scene.water, totals.balance, clock.time(), view };
   }
 
 
@@ -384,7 +405,7 @@ namespace scree
     double time             = clock.time();
     unsigned long long step = clock.step();
     archive &time &step &speeds.wave &speeds.points &last_time_step;
-    archive &totals &statistics &graphics &rows;
+    archive &totals &statistics &graphics &rows &probes;
     clock.set(time, step);
   }
 
@@ -395,6 +416,7 @@ namespace scree
     const RunTotals<dim> own = totals;
     totals                   = totals.sum_over_ranks(communicator);
     folder.try_to_write("statistics", [&] { rows.sync(); });
+    probes.sync();
     std::string fault;
     try
       {

@@ -10,6 +10,7 @@
 #include <scree/input/input_file.h>
 #include <scree/material/table.h>
 #include <scree/output/output_parameters.h>
+#include <scree/output/probe_parameters.h>
 #include <scree/points/seeding.h>
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
@@ -66,6 +67,7 @@ namespace scree
     SurfaceLoadParameters surface_load;
     SettlingParameters settling;
     OutputParameters output;
+    ProbeParameters probes;
 
     bool has_water = false; ///< whether there is a subsection Water; without it, nothing reads the next three
     WaterParameters water;

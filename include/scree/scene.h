@@ -43,6 +43,9 @@ namespace scree
     /// Stops all points: no velocity, no affine field of velocity.
     void stop();
 
+    /// From here on, displacements count.
+    void mark_start();
+
     /// Adds what left the box through open walls to `totals`, and forgets it. Throws if a point left through a closed
     /// one.
     /// @param time s, for the message

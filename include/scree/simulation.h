@@ -4,6 +4,7 @@
 
 #include <scree/output/graphics.h>
 #include <scree/output/output_times.h>
+#include <scree/output/probes.h>
 #include <scree/output/progress.h>
 #include <scree/output/row_file.h>
 #include <scree/output/statistics.h>
@@ -106,6 +107,8 @@ namespace scree
 
     void report();
     void write_row();
+    void write_picture();
+    ProbedState<dim> probed_state(const WaterView<dim> *view) const;
     void write_checkpoint();
 
     /// Keeps the case with its results and begins the log.
@@ -138,6 +141,7 @@ namespace scree
     Graphics<dim> graphics;
     Statistics<dim> statistics;
     RowFile rows; // of the statistics
+    Probes<dim> probes;
 
     RunTotals<dim> totals;
     double point_updates = 0;                  // points times steps, of this rank

@@ -110,6 +110,17 @@ namespace scree
 
 
   template <int dim>
+  BearingFaces<dim> BoundaryConditions<dim>::bearing_faces(const std::uint8_t faces) const
+  {
+    const auto type = [this](const unsigned int face) { return wall_list[face].type; };
+    return BearingFaces<dim>(
+        faces,
+        [&](const unsigned int face) { return type(face) != WallType::open; },
+        [&](const unsigned int face) { return type(face) == WallType::fixed || type(face) == WallType::friction; });
+  }
+
+
+  template <int dim>
   std::pair<std::string, bool> BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
   {
     const unsigned int face = nearest_face(grid, location);

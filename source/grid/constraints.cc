@@ -30,8 +30,12 @@ namespace scree
     NodeConstraints<dim> result;
     for (const NodeConstraint<dim> &constraint : walls.constraints(faces))
       result.add(constraint);
+    result.soil_faces = walls.bearing_faces(faces);
     if (water_walls)
-      result.water_held = water_walls->held_directions(faces);
+      {
+        result.water_held  = water_walls->held_directions(faces);
+        result.water_faces = water_walls->bearing_faces(faces);
+      }
     return result;
   }
 

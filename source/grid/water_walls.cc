@@ -103,6 +103,16 @@ namespace scree
 
 
   template <int dim>
+  BearingFaces<dim> WaterBoundaryConditions<dim>::bearing_faces(const std::uint8_t faces) const
+  {
+    return BearingFaces<dim>(
+        faces,
+        [&](const unsigned int face) { return !is_drained(face); },
+        [&](const unsigned int face) { return wall_list[face].type == WaterWallType::no_slip; });
+  }
+
+
+  template <int dim>
   bool WaterBoundaryConditions<dim>::prescribes_pressure(const std::uint8_t faces) const
   {
     for (unsigned int f = 0; f < 2 * dim; ++f)

@@ -139,14 +139,21 @@ namespace scree
         output.add_name("pore_pressure");
         output.add_vector("seepage_velocity");
       }
+    output.add_name("id");
+    const bool with_displacement = bodies.front().layout.has_start; // all bodies have it, or none
+    if (with_displacement)
+      output.add_vector("displacement");
     LawFields<dim> law_fields(bodies, output);
 
     unsigned int number = 0;
     for (const auto &body : bodies)
       {
         law_fields.begin(body);
-        for (const auto &cell : body.points.cells())
+        for (unsigned int c = 0; c < body.points.cells().size(); ++c)
           {
+            const auto &cell = body.points.cells()[c];
+            const auto ids   = body.points.ids(c);
+            auto id          = ids.begin();
             std::array<double, (1 << dim)> pressure;
             if (view)
               pressure = view->pressure_of_cell(cell.cell);
@@ -162,6 +169,9 @@ namespace scree
                   rows.put(pressure_at<dim>(x, pressure));
                   rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
                 }
+              rows.put(static_cast<double>(*id++));
+              if (with_displacement)
+                rows.put(point.location - Point<dim>(vector_of<dim>(properties + body.layout.start)));
               law_fields.put(rows, body, properties);
             });
           }

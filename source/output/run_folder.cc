@@ -20,6 +20,13 @@ namespace scree
         if (const auto kind = entry.path().extension(); kind == ".vtu" || kind == ".pvtu" || kind == ".pvd")
           std::filesystem::remove(entry.path());
     }
+
+    void remove_probes(const std::filesystem::path &folder)
+    {
+      for (const auto &entry : std::filesystem::directory_iterator(folder))
+        if (entry.is_regular_file() && entry.path().filename().string().rfind("probe_", 0) == 0)
+          std::filesystem::remove(entry.path());
+    }
   } // namespace
 
 
@@ -55,6 +62,7 @@ namespace scree
         remove_pictures(file("solution"));
         std::filesystem::remove_all(file("checkpoint"));
         std::filesystem::remove(file("statistics"));
+        remove_probes(path);
         log_file.close();
         log_file.open(file("log.txt"), std::ios::trunc);
       }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/output/row_file.h>
 #include <scree/output/statistics.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <iomanip>
-#include <sstream>
 
 namespace scree
 {
@@ -43,6 +43,10 @@ namespace scree
                                     &total.lost_momentum })
       for (unsigned int a = 0; a < dim; ++a)
         values.push_back(&(*vector)[a]);
+    for (WallImpulses<dim> *walls : { &balance.soil_walls, &balance.water_walls })
+      for (Tensor<1, dim> &impulse : walls->of_face)
+        for (unsigned int a = 0; a < dim; ++a)
+          values.push_back(&impulse[a]);
 
     std::vector<double> sums; // one message for all
     for (const double *value : values)
@@ -185,22 +189,20 @@ namespace scree
   template <int dim>
   std::string Statistics<dim>::head() const
   {
-    std::string lines;
-    for (unsigned int i = 0; i < last_row.size(); ++i)
-      lines += "# " + std::to_string(i + 1) + ": " + last_row[i].first + '\n';
-    return lines;
+    std::vector<std::string> columns;
+    for (const auto &[column, value] : last_row)
+      columns.push_back(column);
+    return table_head(columns);
   }
 
 
   template <int dim>
   std::string Statistics<dim>::row() const
   {
-    std::ostringstream line;
-    line << std::scientific << std::setprecision(12);
-    for (const auto &entry : last_row)
-      line << entry.second << ' ';
-    line << '\n';
-    return line.str();
+    std::vector<double> values;
+    for (const auto &[column, value] : last_row)
+      values.push_back(value);
+    return table_row(values);
   }
 
 

@@ -279,6 +279,16 @@ namespace scree
       }
   }
 
+
+  template <int dim>
+  std::vector<types::particle_index> PointSet<dim>::ids(const unsigned int cell) const
+  {
+    std::vector<types::particle_index> result;
+    for (const auto &point : particle_handler.particles_in_cell(filled[cell].iterator))
+      result.push_back(point.get_id());
+    return result;
+  }
+
   template class PointSet<2>;
   template class PointSet<3>;
 } // namespace scree

@@ -47,6 +47,7 @@ namespace scree
             walls->apply(after);
             const Tensor<1, dim> impulse = mass * (after - free);
             balance.wall_impulse += impulse;
+            balance.soil_walls.add(walls->soil_faces, impulse);
             // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
             balance.wall_dissipation -= impulse * (0.5 * (before + after));
           }

@@ -150,6 +150,18 @@ namespace scree
 
 
   template <int dim>
+  void MixtureStep<dim>::count_walls(const unsigned int node,
+                                     const SoilAndWater<dim> &impulses,
+                                     StepBalance<dim> &balance) const
+  {
+    const NodeConstraints<dim> &walls = *constraints.at(node);
+    balance.wall_impulse += impulses.soil + impulses.water;
+    balance.soil_walls.add(walls.soil_faces, impulses.soil);
+    balance.water_walls.add(walls.water_faces, impulses.water);
+  }
+
+
+  template <int dim>
   SoilAndWater<dim> MixtureStep<dim>::stop_at_walls(const MixtureNodes<dim> &nodes,
                                                     const unsigned int node,
                                                     SoilAndWater<dim> &impulses,
@@ -161,14 +173,14 @@ namespace scree
     if (pair.soil_mass > 0. && friction.find_contact(node, after.soil))
       {
         impulses.soil += friction.resist(node, pair_at(nodes, node), impulses);
-        balance.wall_impulse += friction.resistance(node);
+        count_walls(node, { friction.resistance(node), Tensor<1, dim>() }, balance);
         pair  = pair_at(nodes, node);
         after = pair.solve(impulses);
       }
     if (pair.is_held())
       {
         const SoilAndWater<dim> walls = pair.reactions(impulses, after);
-        balance.wall_impulse += walls.soil + walls.water;
+        count_walls(node, walls, balance);
         // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
         balance.wall_dissipation -=
             0.5 * (walls.soil * (before.soil + after.soil) + walls.water * (before.water + after.water));
@@ -234,7 +246,7 @@ namespace scree
                                           StepBalance<dim> &balance) const
   {
     const SoilAndWater<dim> walls = pair.reactions(impulses, change);
-    balance.wall_impulse += walls.soil + walls.water;
+    count_walls(node, walls, balance);
     // Before the correction the nodes were at rest there, so that only the start's velocity counts.
     balance.wall_dissipation -= 0.5 * (walls.soil * before.soil + walls.water * before.water);
     const Tensor<1, dim> soil_after = soil_predicted + change.soil;
@@ -242,7 +254,7 @@ namespace scree
     const SoilAndWater<dim> further = pair.solve({ more, Tensor<1, dim>() });
     change.soil += further.soil;
     change.water += further.water;
-    balance.wall_impulse += more;
+    count_walls(node, { more, Tensor<1, dim>() }, balance);
     balance.wall_dissipation -= 0.5 * (friction.resistance(node) + more) * (before.soil + soil_after + further.soil);
   }
 

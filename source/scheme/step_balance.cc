@@ -7,6 +7,8 @@ namespace scree
   StepBalance<dim> &StepBalance<dim>::operator+=(const StepBalance &other)
   {
     wall_impulse += other.wall_impulse;
+    soil_walls += other.soil_walls;
+    water_walls += other.water_walls;
     body_impulse += other.body_impulse;
     pressure_impulse += other.pressure_impulse;
     load_impulse += other.load_impulse;

@@ -2,6 +2,8 @@
 #ifndef scree_grid_node_constraint_h
 #define scree_grid_node_constraint_h
 
+#include <scree/grid/wall_impulses.h>
+
 #include <deal.II/base/tensor.h>
 
 #include <array>
@@ -112,9 +114,10 @@ namespace scree
   template <int dim>
   struct NodeConstraints
   {
-    std::vector<NodeConstraint<dim>> soil; ///< in the order in which they act on dry soil
-    HeldDirections<dim> soil_held;         ///< by the fixed ones
-    HeldDirections<dim> water_held;        ///< free slip holds the normal, no slip all directions
+    std::vector<NodeConstraint<dim>> soil;     ///< in the order in which they act on dry soil
+    HeldDirections<dim> soil_held;             ///< by the fixed ones
+    HeldDirections<dim> water_held;            ///< free slip holds the normal, no slip all directions
+    BearingFaces<dim> soil_faces, water_faces; ///< which walls these are
 
     void add(const NodeConstraint<dim> &constraint)
     {

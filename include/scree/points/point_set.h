@@ -123,6 +123,10 @@ namespace scree
       return const_cell_list;
     }
 
+    /// The lasting numbers of the points of cells()[cell], in their order: unique in the set over all ranks; a point
+    /// keeps its own from cell to cell, rank to rank and through checkpoints.
+    std::vector<dealii::types::particle_index> ids(const unsigned int cell) const;
+
     /// Number of this rank's points.
     unsigned int n_points() const
     {

@@ -56,6 +56,9 @@ namespace scree
                                   const double time_step,
                                   StepBalance<dim> &balance) const;
 
+    /// Adds what the walls of a node give to the balance.
+    void count_walls(const unsigned int node, const SoilAndWater<dim> &impulses, StepBalance<dim> &balance) const;
+
     /// Velocities from impulses; finds the contacts with walls and adds their friction to the impulses.
     SoilAndWater<dim> stop_at_walls(const MixtureNodes<dim> &nodes,
                                     const unsigned int node,

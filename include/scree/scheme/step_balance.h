@@ -2,6 +2,8 @@
 #ifndef scree_scheme_step_balance_h
 #define scree_scheme_step_balance_h
 
+#include <scree/grid/wall_impulses.h>
+
 #include <deal.II/base/tensor.h>
 
 namespace scree
@@ -11,8 +13,9 @@ namespace scree
   template <int dim>
   struct StepBalance
   {
-    dealii::Tensor<1, dim> wall_impulse; ///< N s
-    dealii::Tensor<1, dim> body_impulse; ///< gravity and body force, N s
+    dealii::Tensor<1, dim> wall_impulse;       ///< N s
+    WallImpulses<dim> soil_walls, water_walls; ///< the same of each face of the box, without what settling damps
+    dealii::Tensor<1, dim> body_impulse;       ///< gravity and body force, N s
     dealii::Tensor<1, dim>
         pressure_impulse;                ///< sum over soil and water of -V grad p: walls and surfaces push back, N s
     dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
@@ -29,6 +32,7 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse;
+      archive &soil_walls &water_walls;
       archive &wall_dissipation &drag_dissipation &load_work;
       archive &n_iterations &n_preconditioners;
     }

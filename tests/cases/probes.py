@@ -1,0 +1,214 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""probes.py SCREE LAUNCHER TEST: what probes write, on one rank and two, and after a resume; drawn by render.py.
+
+Each test is a function below; it works in the current folder. LAUNCHER is "mpirun -np" or alike.
+"""
+
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "doc"))
+import render  # noqa: E402
+
+SCREE, LAUNCHER = sys.argv[1], sys.argv[2].split()
+DRY = (HERE / "probes.prm").read_text(encoding="utf-8")
+WATER = """
+subsection Water
+  set Region                 = x < 0.7 && y < 0.4
+  set Hydraulic conductivity = 5e-3
+  subsection Pressure
+    set Relative tolerance = 1e-12
+  end
+end
+"""
+FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front", "walls")]
+
+
+def run(folder, text, *options, ranks=1):
+    """Runs the case in a folder; returns its run folder."""
+    pathlib.Path(folder).mkdir(exist_ok=True)
+    pathlib.Path(folder, "case.prm").write_text(text, encoding="utf-8")
+    command = [*LAUNCHER, str(ranks)] if ranks > 1 else []
+    subprocess.run([*command, SCREE, "case.prm", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return pathlib.Path(folder, "results")
+
+
+def check(fact, text):
+    if not fact:
+        sys.exit("FAILED: " + text)
+
+
+def compare(first, second, tolerance):
+    """All tables of two run folders agree, to `tolerance` times the largest number of a column; nan stands in the same places."""
+    for name in FILES:
+        one, other = (render.read_table(folder / name) for folder in (first, second))
+        check(list(one) == list(other), f"{name}: other columns")
+        for column in one:
+            a, b = one[column], other[column]
+            check(a.shape == b.shape, f"{name}, {column}: {a.shape} and {b.shape}")
+            check(np.array_equal(np.isnan(a), np.isnan(b)), f"{name}, {column}: nan elsewhere")
+            scale = np.nanmax(np.abs(a), initial=1e-3)
+            difference = np.nanmax(np.abs(a - b), initial=0) / scale
+            check(difference <= tolerance, f"{name}, {column}: differs by {difference}")
+
+
+def dry():
+    """Walls give the momentum that gravity does not; points keep their numbers; places are nan where nothing is; the
+    same on two ranks, and after a resume."""
+    one = run("one", DRY)
+    balance_of_momentum(one)
+    toe, far = render.read_table(one / "probe_toe"), render.read_table(one / "probe_far")
+    check(np.all(toe["Mean effective stress (Pa)"] > 0) and toe["Velocity x (m/s)"][-1] > 0.005, "the toe bears and slides")
+    check(np.all(np.isnan(far["Velocity x (m/s)"])), "nothing is far off")
+    crest, front = render.read_table(one / "probe_crest"), render.read_table(one / "probe_front")
+    check(abs(crest["Surface height (m)"][0] - 0.5) < 1e-9 and crest["Surface height (m)"][-1] < 0.5, "the crest sinks")
+    check(abs(crest["Thickness (m)"][0] - 0.5) < 1e-9, "thickness at the start")
+    check(np.all(front["Rear (m)"] == 0) and front["Front (m)"][-1] > front["Front (m)"][0], "the front advances")
+    base = render.read_table(one / "probe_base")
+    check(len(base["x (m)"]) == 3 * 17 and len(set(base["Time (s)"])) == 3, "17 places in three pictures")
+
+    for name in ("toe", "base", "walls"):
+        render.render_probe(one, name, f"{name}.png")
+        check(pathlib.Path(f"{name}.png").stat().st_size > 10000, f"a picture of {name}")
+    stale = pathlib.Path("two", "results", "probe_stale")
+    stale.parent.mkdir(parents=True, exist_ok=True)
+    stale.write_text("of an earlier run", encoding="utf-8")
+    two = run("two", DRY, ranks=2)
+    check(not stale.exists(), "a fresh run removes the probes of an earlier one")
+    compare(one, two, 1e-6)
+    for folder in (one, two):
+        displacements(folder)
+    before = {name: (one / name).read_bytes() for name in FILES}
+    run("one", DRY, "--resume")
+    check(all((one / name).read_bytes() == before[name] for name in FILES), "a resumed run ends with the same files")
+    displacements(one)
+
+
+def balance_of_momentum(results, axes="xy"):
+    """Change of momentum = weight minus force on the walls, row by row. Nothing else acts in a dry run."""
+    rows, walls = render.read_statistics(results), render.read_table(results / "probe_walls")
+    time, weight = rows["Time (s)"], 9.81 * rows["Mass (kg)"][0]
+    for axis, pull in zip(axes, [0.] * (len(axes) - 1) + [-weight]):
+        force = sum(walls[column] for column in walls if column.endswith(f"soil {axis} (N)"))
+        change = np.diff(rows[f"Momentum {axis} (N s)"]) / np.diff(time)
+        check(np.isnan(force[0]), "no force before time has passed")
+        worst = np.max(np.abs(change - pull + force[1:])) / weight
+        check(worst < 1e-9, f"momentum along {axis}: {worst} of the weight is missing")
+    if axes != "xy":
+        return
+    check(np.all(walls["Bottom soil y (N)"][1:] < 0) and np.all(walls["Left soil x (N)"][1:] < 0), "walls are pushed outwards")
+    friction = walls["Bottom soil x (N)"][1:]
+    check(np.all(friction >= 0) and np.all(friction < 0.6 * -walls["Bottom soil y (N)"][1:]), "Coulomb's bound")
+
+
+def edges():
+    """The balance in 3D, with walls of all kinds that meet at edges and corners."""
+    text = """
+set Dimension        = 3
+set End time         = 0.02
+set Output directory = results
+set Gravity          = 0, 0, -9.81
+subsection Mesh
+  set Lower corner = 0, 0, 0
+  set Upper corner = 0.6, 0.4, 0.6
+end
+subsection Boundaries
+  set Left   = friction 20
+  set Front  = fixed
+  set Bottom = friction 30
+end
+subsection Soil
+  set Region           = x < 0.3 && z < 0.4
+  set Points per cell  = 2
+  set Initial velocity = -0.2; 0.1; 0
+  subsection Initial state
+    set Type = K0
+    set K0   = 0.683
+  end
+end
+subsection Output
+  set Interval = 0.005
+  set Screen   = nothing
+  set Graphics = none
+end
+subsection Probes
+  set Places          = toe: 0.1, 0.1, 0.1
+  set Verticals       = crest: 0.1, 0.2
+  set Front thickness = 0.1
+  set Wall forces     = true
+end
+"""
+    results = run("edges", text)
+    balance_of_momentum(results, "xyz")
+    crest = render.read_table(results / "probe_crest")
+    check(abs(crest["Surface height (m)"][0] - 0.4) < 1e-9 and abs(crest["Thickness (m)"][0] - 0.4) < 1e-9, "height in 3D")
+    check(abs(render.read_table(results / "probe_toe")["Velocity x (m/s)"][0] + 0.2) < 1e-9, "velocity at the start")
+
+
+def displacements(results):
+    """Of each number in each picture, the place now minus the place at the start."""
+    first = render.read_points(results, 0.)
+    start = {number: place for number, place in zip(first.arrays["id"], first.positions)}
+    check(len(start) == len(first.positions), "each point has its own number")
+    for time in render.read_times(results):
+        points = render.read_points(results, time)
+        moved = points.positions - np.array([start[number] for number in points.arrays["id"]])
+        worst = np.max(np.abs(moved - points.arrays["displacement"]))
+        check(worst < 1e-6, f"displacement at {time} s: wrong by {worst} m")  # pictures have single precision
+    check(np.max(np.abs(moved)) > 0.005, "something moves")
+
+
+def water():
+    """Both phases on one rank and two; water at rest: p, level, and forces on the walls."""
+    short = DRY.replace("End time         = 0.12", "End time = 0.06") + WATER
+    one, two = run("one", short), run("two", short, ranks=2)
+    compare(one, two, 1e-5)
+
+    still = run("still", """
+set End time         = 0.02
+set Output directory = results
+set Bodies           = none
+subsection Mesh
+  set Upper corner = 0.4, 0.8
+end
+subsection Time step
+  set Maximum time step = 2e-3
+end
+subsection Transfer
+  set Method = TPIC
+end
+subsection Water
+  set Region = y < 0.5
+end
+subsection Output
+  set Interval = 0.01
+  set Screen   = nothing
+end
+subsection Probes
+  set Places          = gauge: 0.13, 0.2
+  set Lines           = base: 0, 0 to 0, 0.4; mid: 0.2, 0.1 to 0.2, 0.7
+  set Verticals       = crest: 0.1
+  set Front thickness = 0.05
+  set Wall forces     = true
+end
+""")
+    weight = 1000 * 9.81
+    gauge, base, walls = (render.read_table(still / ("probe_" + name)) for name in ("gauge", "base", "walls"))
+    check(np.allclose(gauge["Pore pressure (Pa)"], 0.3 * weight, rtol=1e-6), "p in still water")
+    check(np.allclose(base["Pore pressure (Pa)"], (0.5 - base["y (m)"]) * weight, atol=1e-6 * weight), "p along the wall")
+    crest = render.read_table(still / "probe_crest")["Water level (m)"]
+    check(np.allclose(crest, 0.5, atol=1e-6), f"water level {crest}")
+    mid = render.read_table(still / "probe_mid")
+    check(np.array_equal(np.isnan(mid["Pore pressure (Pa)"]), mid["y (m)"] > 0.54), "nan above the water")
+    for wall, sign, wanted in (("Left", -1, 0.125), ("Right", 1, 0.125), ("Bottom", -1, 0.2)):
+        axis = "y" if wall == "Bottom" else "x"
+        total = walls[f"{wall} pressure {axis} (N)"] + np.nan_to_num(walls[f"{wall} water {axis} (N)"])
+        check(np.allclose(total, sign * wanted * weight, rtol=1e-3), f"{wall}: {total / weight}, not {sign * wanted}")
+
+
+globals()[sys.argv[3]]()
