@@ -308,9 +308,15 @@ def start_on_full_disk(case, n_rows_before):
     return process
 
 
+def rows_are_refused():
+    before = len(content())
+    time.sleep(0.02)  # many rows' time
+    return len(content()) == before
+
+
 def full_disk():
     """Rows that the disk does not take are told of once, and written when there is room; if there never is, the run fails."""
-    write_case("case.prm", ["Interval = 1", "Graphics = none", "End time = 0.4"])
+    write_case("case.prm", ["Interval = 1", "Graphics = none", "End time = 0.8"])
     wanted = whole_run("case.prm")
     code, errors = end(start_on_full_disk("case.prm", 5))
     check(code == 1, f"exit code {code}: {errors}")
@@ -319,7 +325,7 @@ def full_disk():
     check(wanted.startswith(content()) and content().endswith(b"\n"), "a row was cut")
 
     process = start_on_full_disk("case.prm", 5)
-    time.sleep(0.2)
+    wait_for(rows_are_refused, process)
     resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
     code, errors = end(process)
     check(code == 0, f"exit code {code}: {errors}")
