@@ -130,8 +130,6 @@ namespace scree
     const bool found_all = set_places();
     // From the last one on: where a point is taken out, the last one of its cell takes its number.
     std::for_each(leavers.rbegin(), leavers.rend(), [this](const Leaver &leaver) { move(leaver); });
-    if (!leavers.empty())
-      list_cells();
     if (!found_all || n_moved > most_moved * n_points())
       return Disorder::far;
     return emigrants.empty() ? Disorder::none : Disorder::beside_a_border;
@@ -198,11 +196,12 @@ namespace scree
   template <int dim>
   void PointSet<dim>::hand_over(const Disorder disorder)
   {
-    if (disorder == Disorder::none)
-      return;
-    exchange();
+    if (disorder != Disorder::none)
+      exchange();
     if (disorder == Disorder::far)
       sort();
+    else if (disorder == Disorder::beside_a_border || !leavers.empty())
+      list_cells();
   }
 
 
@@ -228,7 +227,6 @@ namespace scree
                                     &requests[messages.size() - 1]);
         AssertThrowMPI(error);
       }
-    bool changed = false;
     for (const unsigned int rank : neighbours)
       {
         MPI_Status status;
@@ -240,16 +238,11 @@ namespace scree
         error = MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
         AssertThrowMPI(error);
         for (const Record &record : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
-          {
-            insert(mesh.create_cell_iterator(CellId(record.cell)), record);
-            changed = true;
-          }
+          insert(mesh.create_cell_iterator(CellId(record.cell)), record);
       }
     const int error = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     AssertThrowMPI(error);
     emigrants.clear();
-    if (changed)
-      list_cells();
   }
 
 
