@@ -208,8 +208,8 @@ namespace scree
   template <int dim>
   void PointSet<dim>::exchange()
   {
-    // Points go to ghost cells only, so that all ranks know who may write to them: a message to and from each neighbour
-    // takes a tenth of the time of deal.II's some_to_some(), which asks first.
+    // Points go to ghost cells only, so that all ranks know who may write to them. deal.II's some_to_some() asks first,
+    // which takes 60 microseconds more a step on two ranks.
     const auto &neighbours      = dynamic_cast<const parallel::TriangulationBase<dim> &>(mesh).ghost_owners();
     const MPI_Comm communicator = mesh.get_communicator();
     constexpr int tag           = 1;
