@@ -27,6 +27,15 @@ namespace scree
       require_memory<dim>(parameters, communicator);
       return parameters.grid;
     }
+
+    /// Of all bodies, along an axis.
+    unsigned int most_points_per_cell(const Parameters &parameters)
+    {
+      unsigned int most = 1;
+      for (const BodyParameters &body : parameters.bodies)
+        most = std::max(most, body.seeding.points_per_cell);
+      return most;
+    }
   } // namespace
 
 
@@ -44,12 +53,7 @@ namespace scree
   {
     make_bodies();
     if (parameters.surface_load.is_set())
-      {
-        unsigned int points_per_cell = 1;
-        for (const auto &body : parameters.bodies)
-          points_per_cell = std::max(points_per_cell, body.seeding.points_per_cell);
-        loads.emplace_back(grid, parameters.surface_load, points_per_cell);
-      }
+      loads.emplace_back(grid, parameters.surface_load, most_points_per_cell(parameters));
   }
 
 
@@ -123,12 +127,7 @@ namespace scree
   {
     const auto soil = parameters.soil_regions();
     if (soil.size() > 1)
-      {
-        unsigned int points_per_cell = 1;
-        for (const BodyParameters &body : parameters.bodies)
-          points_per_cell = std::max(points_per_cell, body.seeding.points_per_cell);
-        require_apart(soil, points_per_cell, grid.triangulation(), grid.cell_size());
-      }
+      require_apart(soil, most_points_per_cell(parameters), grid.triangulation(), grid.cell_size());
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/output/folder_lock.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -16,13 +18,6 @@ namespace scree
 {
   namespace
   {
-    std::string host_name()
-    {
-      char name[256] = "";
-      gethostname(name, sizeof name - 1);
-      return name[0] == '\0' ? "unknown" : name;
-    }
-
     std::string date()
     {
       const std::time_t now = std::time(nullptr);
@@ -40,7 +35,7 @@ namespace scree
 
       static Process myself()
       {
-        return { host_name(), getpid(), start_of(getpid()) };
+        return { dealii::Utilities::System::get_hostname(), getpid(), start_of(getpid()) };
       }
 
       /// 0 if the process is none, or dead and only not yet collected by its parent, or if the system does not tell.
@@ -103,7 +98,7 @@ namespace scree
     std::ifstream in(file);
     const bool is_known       = bool(in >> owner >> begun);
     const std::string process = is_known ? "process " + std::to_string(owner.pid) + " on " + owner.host : "?";
-    if (is_known && owner.host == host_name() && !owner.runs())
+    if (is_known && owner.host == dealii::Utilities::System::get_hostname() && !owner.runs())
       {
         replaced = process + ", begun " + begun;
         std::filesystem::remove(file);

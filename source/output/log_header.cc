@@ -42,9 +42,7 @@ namespace scree
     template <int dim>
     std::string count(const PointSet<dim> &points, const MPI_Comm communicator)
     {
-      unsigned long long n = 0;
-      for (const auto &cell : points.cells())
-        n += cell.n_points;
+      const unsigned long long n = points.n_points();
       return std::to_string(Utilities::MPI::sum(n, communicator));
     }
   } // namespace

@@ -14,18 +14,24 @@ namespace scree
 
   namespace
   {
-    void remove_pictures(const std::filesystem::path &folder)
+    /// Removes the files of a folder whose path `is_old`.
+    template <typename Choice>
+    void remove_files(const std::filesystem::path &folder, const Choice &is_old)
     {
       for (const auto &entry : std::filesystem::directory_iterator(folder))
-        if (const auto kind = entry.path().extension(); kind == ".vtu" || kind == ".pvtu" || kind == ".pvd")
+        if (entry.is_regular_file() && is_old(entry.path()))
           std::filesystem::remove(entry.path());
     }
 
-    void remove_probes(const std::filesystem::path &folder)
+    bool is_picture(const std::filesystem::path &file)
     {
-      for (const auto &entry : std::filesystem::directory_iterator(folder))
-        if (entry.is_regular_file() && entry.path().filename().string().rfind("probe_", 0) == 0)
-          std::filesystem::remove(entry.path());
+      const auto kind = file.extension();
+      return kind == ".vtu" || kind == ".pvtu" || kind == ".pvd";
+    }
+
+    bool is_probe(const std::filesystem::path &file)
+    {
+      return file.filename().string().rfind("probe_", 0) == 0;
     }
   } // namespace
 
@@ -59,10 +65,10 @@ namespace scree
   {
     if (writer)
       {
-        remove_pictures(file("solution"));
+        remove_files(file("solution"), is_picture);
         std::filesystem::remove_all(file("checkpoint"));
         std::filesystem::remove(file("statistics"));
-        remove_probes(path);
+        remove_files(path, is_probe);
         log_file.close();
         log_file.open(file("log.txt"), std::ios::trunc);
       }

@@ -2,6 +2,8 @@
 
 // The measures of the statistics on fields made by hand, on one rank and on two.
 
+#include "expect.h"
+
 #include <scree/material/table.h>
 #include <scree/output/measures.h>
 #include <scree/tensor/invariants.h>
@@ -188,13 +190,6 @@ void test_invariants(std::ostream &out)
   AssertThrow(std::abs(mean_effective_stress(stress) - 1.) < 1e-15, ExcMessage("P is wrong."));
   AssertThrow(std::abs(deviatoric_stress<dim>(stress) - std::sqrt(57.)) < 1e-14, ExcMessage("q is wrong."));
   out << dim << "D invariants: OK" << std::endl;
-}
-
-void expect(const double value, const double expected, const double tolerance, const std::string &what)
-{
-  AssertThrow(
-      std::abs(value - expected) <= tolerance,
-      ExcMessage(what + " is " + Utilities::to_string(value) + " instead of " + Utilities::to_string(expected)));
 }
 
 /// Soil in 0 < x < 0.4, which is all grains, and water that reaches from its middle to x = 0.6.

@@ -3,6 +3,8 @@
 // Values at places, columns above the ground, the front and the lasting numbers of points, of fields made by hand, on
 // one rank and on two.
 
+#include "expect.h"
+
 #include <scree/material/table.h>
 #include <scree/output/columns.h>
 #include <scree/output/place_values.h>
@@ -16,12 +18,6 @@
 
 using namespace dealii;
 using namespace scree;
-
-void expect(const double value, const double wanted, const double tolerance, const std::string &what)
-{
-  AssertThrow(std::abs(value - wanted) <= tolerance,
-              ExcMessage(what + " is " + std::to_string(value) + " and not " + std::to_string(wanted)));
-}
 
 /// A block of soil in a box from -0.3 m to 0.9 m with cells of 0.1 m, full of water.
 template <int dim>

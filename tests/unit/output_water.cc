@@ -3,6 +3,8 @@
 // Pictures and statistics of soil and water, on one rank and on two: which columns there are, and fields that move
 // with known velocities.
 
+#include "expect.h"
+
 #include <scree/material/table.h>
 #include <scree/output/graphics.h>
 #include <scree/output/statistics.h>
@@ -18,13 +20,6 @@
 
 using namespace dealii;
 using namespace scree;
-
-void expect(const double value, const double expected, const double tolerance, const std::string &what)
-{
-  AssertThrow(
-      std::abs(value - expected) <= tolerance,
-      ExcMessage(what + " is " + Utilities::to_string(value) + " instead of " + Utilities::to_string(expected)));
-}
 
 /// Soil on the left that carries water at p = 100 Pa, single-point; 8 x 8 (x 8) cells.
 template <int dim>
