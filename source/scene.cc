@@ -8,6 +8,7 @@
 #include <scree/scheme/coupled_scheme.h>
 #include <scree/scheme/dry_scheme.h>
 #include <scree/tensor/invariants.h>
+#include <scree/tensor/principal.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -181,8 +182,11 @@ namespace scree
     };
     for (const auto &body : bodies)
       for_each_point(body.points, [&](const auto &point) {
-        const double pressure = mean_effective_stress(point.properties + body.layout.stress);
-        largest.include_wave(body.wave_speed(body.material->initial_bulk_modulus(pressure)));
+        const double *stress            = point.properties + body.layout.stress;
+        const PrincipalValues principal = PrincipalFrame<dim>(stress).values();
+        const double compression        = std::max(0., -*std::min_element(principal.begin(), principal.end()));
+        largest.include_wave(
+            body.wave_speed(body.material->initial_bulk_modulus(mean_effective_stress(stress)), compression));
         include_point(point.properties + body.layout.velocity);
       });
     for (const auto &part : water)
@@ -216,8 +220,8 @@ namespace scree
     const std::string c = number_text(by_waves ? speeds.wave : speeds.points) + " m/s: ";
     const auto stiffest = [](const auto &a, const auto &b) {
       constexpr double pressure = 1e5; // Pa, of a few metres of soil
-      return a.wave_speed(a.material->initial_bulk_modulus(pressure)) <
-             b.wave_speed(b.material->initial_bulk_modulus(pressure));
+      return a.wave_speed(a.material->initial_bulk_modulus(pressure), pressure) <
+             b.wave_speed(b.material->initial_bulk_modulus(pressure), pressure);
     };
     if (by_waves)
       {

@@ -9,7 +9,7 @@ namespace scree
   void UpdateReport::add(const UpdateReport &other)
   {
     largest_bulk_modulus = std::max(largest_bulk_modulus, other.largest_bulk_modulus);
-    largest_pressure     = std::max(largest_pressure, other.largest_pressure);
+    largest_compression  = std::max(largest_compression, other.largest_compression);
     plastic_dissipation += other.plastic_dissipation;
     n_updates += other.n_updates;
     n_substeps += other.n_substeps;

@@ -332,7 +332,6 @@ namespace scree
       }
     internal_variables[0] = std::exp(returned.log_pressure - returned.log_ratio);
     internal_variables[1] += (trial.deviator - returned.deviator) / (3 * parameters.shear_modulus);
-    report.largest_pressure     = std::max(report.largest_pressure, pressure);
     report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, pressure * inverse_swelling_index);
     return Response::plastic;
   }

@@ -57,7 +57,8 @@ namespace scree
     for (auto &body : bodies)
       {
         const MotionReport motion = transfer.to_points(body, field, time_step);
-        report.speeds.include_wave(body.wave_speed(motion.material.largest_bulk_modulus));
+        report.speeds.include_wave(
+            body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
         report.speeds.include_point(motion.largest_speed);
         report.material.add(motion.material);
         report.n_updates += motion.material.n_updates;

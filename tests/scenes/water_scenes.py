@@ -283,22 +283,23 @@ def surface_load(scree):
     """The load's face crosses cells: stress of each point of the top cell within 3 % of the load, at rest and on the way.
 
     With markers that hand force on by their shape functions alone: -0.6 to 2.3 times the load at .1 M, runs that stop at .4 M.
+    The last variant has steps near their limit: waves run 1.18 times as fast in soil that is compressed so much.
     """
-    for cells in (20, 40):
-        for load in (0.01, 0.1, 0.4):
-            for f_bar in ("none", "modified"):
-                name = "dry_%d_%g_%s" % (cells, load, f_bar)
-                _, traction = loaded_column(scree, name, cells, load, f_bar, {"End time": "2", "Output/Interval": "0.25"}, wet=False)
-                ratios = []
-                for time in render.read_times(name, "points")[2:]:
-                    part = 1 if time >= 1.5 else (1 - math.cos(math.pi * time / 1.5)) / 2
-                    stress, surface = top_cell(name, time, cells)
-                    ratios += list(stress / (part * traction))
-                label = "load of %g M, %d cells, F-bar %s: " % (load, cells, f_bar)
-                check(label + "smallest stress of a point in the top cell over the load", min(ratios), 0.97, 1.03)
-                check(label + "largest", max(ratios), 0.97, 1.03)
-                exact = 1 - float(closed_forms.volume_ratio_of_stress(load, 1.))
-                check(label + "settlement over the exact one", (1 - surface) / exact, 0.99, 1.01)
+    variants = [(cells, load, f_bar, 0.6) for cells in (20, 40) for load in (0.01, 0.1, 0.4) for f_bar in ("none", "modified")]
+    for cells, load, f_bar, courant in variants + [(20, 0.6, "none", 0.9)]:
+        name = "dry_%d_%g_%s" % (cells, load, f_bar)
+        _, traction = loaded_column(scree, name, cells, load, f_bar, {
+            "End time": "2", "Output/Interval": "0.25", "Time step/Courant number": repr(courant)}, wet=False)
+        ratios = []
+        for time in render.read_times(name, "points")[2:]:
+            part = 1 if time >= 1.5 else (1 - math.cos(math.pi * time / 1.5)) / 2
+            stress, surface = top_cell(name, time, cells)
+            ratios += list(stress / (part * traction))
+        label = "load of %g M, %d cells, F-bar %s: " % (load, cells, f_bar)
+        check(label + "smallest stress of a point in the top cell over the load", min(ratios), 0.97, 1.03)
+        check(label + "largest", max(ratios), 0.97, 1.03)
+        exact = 1 - float(closed_forms.volume_ratio_of_stress(load, 1.))
+        check(label + "settlement over the exact one", (1 - surface) / exact, 0.99, 1.01)
 
 
 def surface_load_wet(scree):

@@ -111,6 +111,8 @@ namespace scree
           dissipation += kirchhoff_stress[i] * (trial_strain[i] - strain[i]);
       }
 
+    report.largest_compression =
+        std::max({ report.largest_compression, -kirchhoff_stress[0], -kirchhoff_stress[1], -kirchhoff_stress[2] });
     if (stress != nullptr)
       {
         const double factor = 1 / volume_ratio;

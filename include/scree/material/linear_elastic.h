@@ -93,7 +93,6 @@ namespace scree
     for (unsigned int i = 0; i < 3; ++i)
       stress[i] = volume_part + 2 * shear * strain[i];
     report.largest_bulk_modulus = bulk;
-    report.largest_pressure     = std::max(report.largest_pressure, -bulk * volume_strain);
     return Response::elastic;
   }
 } // namespace scree

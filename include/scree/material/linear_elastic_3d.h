@@ -45,7 +45,11 @@ namespace scree
           const double volume_part = (bulk - 2. / 3. * shear) * volume_strain * inverse_J;
           for (unsigned int c = 0; c < 6; ++c)
             stress[c] = shear_part * log_b[c] + (c < 3 ? volume_part : 0.);
-          own.largest_pressure = std::max(own.largest_pressure, -bulk * volume_strain);
+
+          // Gershgorin's bound of the principal values: exact along the axes.
+          const double xy = std::abs(stress[3]), xz = std::abs(stress[4]), yz = std::abs(stress[5]);
+          const double least      = std::min({ stress[0] - xy - xz, stress[1] - xy - yz, stress[2] - xz - yz });
+          own.largest_compression = std::max(own.largest_compression, -least * motion.volume_ratio[p]);
         }
       own.n_updates = points.n_points;
       report.add(own);

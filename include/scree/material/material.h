@@ -53,7 +53,7 @@ namespace scree
   struct UpdateReport
   {
     double largest_bulk_modulus = 0; ///< Tangent of the elastic law, Pa
-    double largest_pressure     = 0; ///< Mean compressive Kirchhoff stress, Pa
+    double largest_compression  = 0; ///< Compressive principal Kirchhoff stress, or a bound on it, Pa
     double plastic_dissipation  = 0; ///< Sum of V_0 tau : (trial - returned elastic strain), J
 
     unsigned long long n_updates    = 0; ///< Points

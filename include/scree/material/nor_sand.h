@@ -226,7 +226,6 @@ namespace scree
 
     for (unsigned int i = 0; i < 3; ++i)
       stress[i] = -pressure + 2 * parameters.shear_modulus * (strain[i] - mean);
-    report.largest_pressure     = std::max(report.largest_pressure, pressure);
     report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, pressure * inverse_swelling_index);
     return Response::elastic;
   }

@@ -39,10 +39,14 @@ namespace scree
     {
     }
 
-    /// Speed of pressure waves, m/s, at a bulk modulus, Pa; 0 where there is no stiffness.
-    double wave_speed(const double bulk_modulus) const
+    /// Speed c of pressure waves in space, m/s; 0 where there is no stiffness. With the stretch lambda along an axis
+    /// and tau = M ln(lambda), c^2 = lambda^2/rho_0 d(tau/lambda)/d(lambda) = (M - tau)/rho_0: compression makes it
+    /// faster.
+    /// @param bulk_modulus Pa
+    /// @param compression largest compressive principal Kirchhoff stress, Pa
+    double wave_speed(const double bulk_modulus, const double compression) const
     {
-      return std::sqrt((bulk_modulus + 4. / 3. * material->shear_modulus()) / density);
+      return std::sqrt((bulk_modulus + 4. / 3. * material->shear_modulus() + compression) / density);
     }
 
     /// Volume of a point's pores, m^3 (2D: per m): not positive where grains overlap.
