@@ -68,7 +68,7 @@ namespace scree
     for (const auto &body : soil.all_bodies())
       transfer.soil_to_grid(body, mixture, pores);
     for (const auto &part : water)
-      transfer.to_grid(part, mixture, water_field);
+      transfer.to_grid(part, mixture, water_field, pores);
     mixture.finish();
   }
 
@@ -192,7 +192,11 @@ namespace scree
     for (auto &one : water)
       {
         report.speeds.include_point(transfer.to_points(
-            one, water_field, [this](const unsigned int cell) { return pressure.pressure_of(cell); }, time_step));
+            one,
+            { soil.field, water_field, pores },
+            mixture,
+            [this](const unsigned int cell) { return pressure.pressure_of(cell); },
+            time_step));
         if (volume_correction)
           volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
         if (const PointSet<dim> *own = one.own_points())

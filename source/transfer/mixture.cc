@@ -30,6 +30,7 @@ namespace scree
     records.clear();
     grains.clear();
     water.clear();
+    porosities.clear();
   }
 
 
@@ -49,14 +50,21 @@ namespace scree
 
 
   template <int dim>
+  void Mixture<dim>::find_porosities(const unsigned int record)
+  {
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    MixtureCell<dim> &cell   = records[record];
+    cell.find_fill(cell_volume);
+    porosities[record].find(std::min(cell.fill, 1.) * cell_volume);
+  }
+
+
+  template <int dim>
   void Mixture<dim>::finish()
   {
     const double volume = Utilities::fixed_power<dim>(grid.cell_size());
     for (MixtureCell<dim> &cell : records)
-      {
-        cell.effective_saturation = effective_saturation_of(cell.water_volume, cell.pore_volume);
-        cell.fill                 = (cell.water_volume + cell.effective_saturation * cell.grain_volume) / volume;
-      }
+      cell.find_fill(volume);
   }
 
   template class Mixture<2>;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/transfer/velocity_transfer.h>
+#include <scree/transfer/pore_velocity.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <cmath>
+#include <optional>
 
 namespace scree
 {
@@ -53,6 +54,27 @@ namespace scree
           for (unsigned int m = 0; m < Mixture<dim>::n_moments; ++m)
             *moments++ += volume_of_row * powers[m];
         }
+    }
+
+    /// Adds a point's number, shared by the shape functions, to rows of nodes.
+    template <int dim, int n, unsigned long n_rows>
+    void add_row_sums(const PointShape<dim, n> &shape, const double number, NodeRow (&sums)[n_rows])
+    {
+      const NodeRow number_x = shape.value_x * number;
+      for (unsigned int r = 0; r < n_rows; ++r)
+        sums[r] += number_x * shape.rows.value[r];
+    }
+
+    /// Adds rows of nodes to a component of the pores.
+    template <int dim, int n, unsigned long n_rows>
+    void scatter(const NodeRow (&sums)[n_rows],
+                 const unsigned int *nodes,
+                 const unsigned int component,
+                 PoreField<dim> &pores)
+    {
+      for (unsigned int r = 0; r < n_rows; ++r)
+        for (unsigned int i = 0; i < n; ++i)
+          pores[nodes[r * n + i]][component] += sums[r][i];
     }
 
     /// Adds volume and pressure of a point of water to the corners of its cell.
@@ -135,6 +157,7 @@ namespace scree
       , conductivity_law(water.conductivity_law_kind())
       , viscosity(water.viscosity)
       , pressure_slope(pressure_slope)
+      , point_sets(water.point_sets_kind())
   {
   }
 
@@ -162,6 +185,7 @@ namespace scree
         const unsigned int record = mixture.record(cell.cell);
         NodeRow *moments          = mixture.grain_moments(record);
         MixtureCell<dim> sums     = mixture.cells()[record];
+        auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
         NodeRow pore_sums[n_rows] = {}, drag_sums[n_rows] = {};
 
         for_each_point(cell, [&](const auto &point) {
@@ -175,12 +199,10 @@ namespace scree
           const double drag = pores_of_point * porosity * unit_weight / conductivity(porosity, initial_porosity);
 
           add_moments(shape, grains, moments);
-          const NodeRow pore_x = shape.value_x * pores_of_point, drag_x = shape.value_x * drag;
-          for (unsigned int r = 0; r < n_rows; ++r)
-            {
-              pore_sums[r] += pore_x * shape.rows.value[r];
-              drag_sums[r] += drag_x * shape.rows.value[r];
-            }
+          add_row_sums(shape, pores_of_point, pore_sums);
+          add_row_sums(shape, drag, drag_sums);
+          if (parts != nullptr)
+            parts->add_soil(shape.x, grains, volume);
           const auto corners = corner_values(shape.x);
           for (unsigned int v = 0; v < corners.size(); ++v)
             sums.grains_at_corner[v] += grains * corners[v];
@@ -191,21 +213,18 @@ namespace scree
         });
         mixture.cells()[record] = sums;
         pores.activate_cell(cell.cell);
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              double *node = pores[nodes[r * n + i]];
-              node[PoreField<dim>::pore_volume] += pore_sums[r][i];
-              node[PoreField<dim>::drag] += drag_sums[r][i];
-            }
+        scatter<dim, n>(pore_sums, grid.nodes(cell.cell), PoreField<dim>::pore_volume, pores);
+        scatter<dim, n>(drag_sums, grid.nodes(cell.cell), PoreField<dim>::drag, pores);
       }
   }
 
 
   template <int dim>
   template <int n, TransferMethod method>
-  void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const
+  void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water,
+                                     Mixture<dim> &mixture,
+                                     NodalField<dim> &field,
+                                     PoreField<dim> &pores) const
   {
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const double width            = grid.cell_size();
@@ -215,11 +234,17 @@ namespace scree
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
         NodeRow *moments          = mixture.water_moments(record);
-        MixtureCell<dim> totals   = mixture.cells()[record];
+        for_each_point(
+            cell, [&](const auto &point) { mixture.cells()[record].water_volume += point.properties[layout.volume]; });
+        const PorosityOfParts<dim> *porosity = mixture.porosity_of_parts(cell.cell);
+        if (porosity != nullptr)
+          mixture.find_porosities(record);
+        MixtureCell<dim> totals = mixture.cells()[record];
         CellSums<dim, n> sums(width);
         NodeRow volume_before[n_rows]; // of water that rides on another body's points in this cell
         for (unsigned int r = 0; r < n_rows; ++r)
           volume_before[r] = moments[r * Mixture<dim>::n_moments];
+        NodeRow grains_about[n_rows] = {};
 
         for_each_point(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
@@ -229,13 +254,14 @@ namespace scree
           if (method == TransferMethod::tpic && viscosity > 0)
             sums.add(shape, sums.force_part(shape, volume, viscous_stress<dim>(viscosity, affine)));
           add_moments(shape, volume, moments);
+          if (porosity != nullptr)
+            add_row_sums(shape, volume * (porosity->inverse_at(shape.x) - 1.), grains_about);
 
           std::array<double, dim> rise;
           for (unsigned int a = 0; a < dim; ++a)
             rise[a] = pressure_slope * width * properties[layout.pressure_gradient + a];
           add_to_corners<dim>(shape.x, volume, properties[layout.pressure], rise, totals);
           totals.water_mass += mass;
-          totals.water_volume += volume;
         });
         mixture.cells()[record] = totals;
 
@@ -244,6 +270,8 @@ namespace scree
           sums.mass(r) = water.density * (moments[r * Mixture<dim>::n_moments] - volume_before[r]);
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
+        if (porosity != nullptr)
+          scatter<dim, n>(grains_about, grid.nodes(cell.cell), PoreField<dim>::grains_about_water, pores);
       }
   }
 
@@ -251,7 +279,8 @@ namespace scree
   template <int dim>
   template <int n, TransferMethod method>
   double WaterTransfer<dim>::move_water(WaterPhase<dim> &water,
-                                        const NodalField<dim> &field,
+                                        const MixtureNodes<dim> &nodes,
+                                        const Mixture<dim> &mixture,
                                         const PressureOfCell<dim> &corner_pressure,
                                         const double time_step) const
   {
@@ -264,20 +293,28 @@ namespace scree
     costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
-        const OpenKnots open = grid.open_knots(cell.cell);
-        const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());
-        const Multilinear<dim> pressure = multilinear_of<dim>(corner_pressure(cell.cell));
+        const OpenKnots open    = grid.open_knots(cell.cell);
+        const unsigned int *ids = grid.nodes(cell.cell);
+        const CellVelocity<dim, n> velocity(ids, nodes.water, grid.cell_size());
+        std::optional<PoreVelocity<dim, n>> by_place;
+        if (soil == nullptr && PoreVelocity<dim, n>::differs(ids, nodes.pores))
+          by_place.emplace(ids, velocity, nodes, water.density, grid.cell_size());
+        const PorosityOfParts<dim> *porosity = mixture.porosity_of_parts(cell.cell);
+        const Multilinear<dim> pressure      = multilinear_of<dim>(corner_pressure(cell.cell));
 
         for_each_point(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
-          double *properties  = point.properties;
-          const double square = nodes.template move<method>(shape,
-                                                            { properties + layout.velocity,
-                                                              properties + layout.affine,
-                                                              soil == nullptr ? &point.location : nullptr,
-                                                              nullptr },
-                                                            keep,
-                                                            time_step);
+          double *properties = point.properties;
+          const PointMotion<dim> motion{ properties + layout.velocity,
+                                         properties + layout.affine,
+                                         soil == nullptr ? &point.location : nullptr,
+                                         nullptr };
+          double square;
+          if (by_place)
+            square = by_place->template at<method>(porosity != nullptr ? porosity->inverse_at(shape.x) : 1.)
+                         .template move<method>(shape, motion, keep, time_step);
+          else
+            square = velocity.template move<method>(shape, motion, keep, time_step);
           if (!(square <= largest_square)) // keeps a NaN
             largest_square = square;
           set_pressure(
@@ -305,17 +342,20 @@ namespace scree
 
 
   template <int dim>
-  void WaterTransfer<dim>::to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const
+  void WaterTransfer<dim>::to_grid(const WaterPhase<dim> &water,
+                                   Mixture<dim> &mixture,
+                                   NodalField<dim> &field,
+                                   PoreField<dim> &pores) const
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::apic:
-          return add_water<n, TransferMethod::apic>(water, mixture, field);
+          return add_water<n, TransferMethod::apic>(water, mixture, field, pores);
         case TransferMethod::tpic:
-          return add_water<n, TransferMethod::tpic>(water, mixture, field);
+          return add_water<n, TransferMethod::tpic>(water, mixture, field, pores);
         default: // FLIP and PIC differ on the way back only.
-          return add_water<n, TransferMethod::flip>(water, mixture, field);
+          return add_water<n, TransferMethod::flip>(water, mixture, field, pores);
         }
     };
     if (grid.n_nodes_1d() == 2)
@@ -327,7 +367,8 @@ namespace scree
 
   template <int dim>
   double WaterTransfer<dim>::to_points(WaterPhase<dim> &water,
-                                       const NodalField<dim> &field,
+                                       const MixtureNodes<dim> &nodes,
+                                       const Mixture<dim> &mixture,
                                        const PressureOfCell<dim> &pressure,
                                        const double time_step) const
   {
@@ -335,13 +376,13 @@ namespace scree
       switch (method)
         {
         case TransferMethod::flip:
-          return move_water<n, TransferMethod::flip>(water, field, pressure, time_step);
+          return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, time_step);
         case TransferMethod::pic:
-          return move_water<n, TransferMethod::pic>(water, field, pressure, time_step);
+          return move_water<n, TransferMethod::pic>(water, nodes, mixture, pressure, time_step);
         case TransferMethod::apic:
-          return move_water<n, TransferMethod::apic>(water, field, pressure, time_step);
+          return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, time_step);
         default:
-          return move_water<n, TransferMethod::tpic>(water, field, pressure, time_step);
+          return move_water<n, TransferMethod::tpic>(water, nodes, mixture, pressure, time_step);
         }
     };
     if (grid.n_nodes_1d() == 2)

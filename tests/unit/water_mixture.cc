@@ -101,7 +101,7 @@ void test(const std::string &basis, std::ostream &out)
   PoreField<dim> pores(grid);
   NodalField<dim> soil_field(grid), water_field(grid);
   transfer.soil_to_grid(soil, mixture, pores);
-  transfer.to_grid(water, mixture, water_field);
+  transfer.to_grid(water, mixture, water_field, pores);
   mixture.finish();
 
   // 1. A multilinear pressure in every cell: moments against points.

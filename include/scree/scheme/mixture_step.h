@@ -8,14 +8,6 @@
 
 namespace scree
 {
-  /// Soil, water and pores at the nodes of the velocity, of one step.
-  template <int dim>
-  struct MixtureNodes
-  {
-    NodalField<dim> &soil, &water;
-    PoreField<dim> &pores;
-  };
-
   /// Soil and water at the nodes, tied by drag and stopped by walls: the predictor and the corrector of a fractional
   /// step.
   template <int dim>

@@ -4,6 +4,7 @@
 
 #include <scree/grid/nodal_field.h>
 #include <scree/transfer/node_rows.h>
+#include <scree/transfer/porosity_of_parts.h>
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,13 @@ namespace scree
     explicit MixtureCell(const unsigned int cell)
         : cell(cell)
     {
+    }
+
+    /// Effective saturation and fill from the volumes, in a cell of `volume`, m^3.
+    void find_fill(const double volume)
+    {
+      effective_saturation = effective_saturation_of(water_volume, pore_volume);
+      fill                 = (water_volume + effective_saturation * grain_volume) / volume;
     }
   };
 
@@ -122,6 +130,24 @@ namespace scree
       return &water[std::size_t(record) * moments_per_cell];
     }
 
+    /// Soil in the parts of a cell: room for it is made. Records of cells with soil have to come before the others.
+    PorosityOfParts<dim> &soil_parts(const unsigned int record)
+    {
+      if (record >= porosities.size())
+        porosities.resize(record + 1);
+      return porosities[record];
+    }
+
+    /// Finds the porosities of a cell's parts, when all soil and water of the cell is in its record.
+    void find_porosities(const unsigned int record);
+
+    /// The porosities of a cell's parts; null if nothing has been put into soil_parts() there.
+    const PorosityOfParts<dim> *porosity_of_parts(const unsigned int cell) const
+    {
+      const unsigned int record = record_of_cell[cell];
+      return record < porosities.size() ? &porosities[record] : nullptr;
+    }
+
     /// Adds `factor` sum S V_grains phi_i grad p and `factor` sum V_water phi_i grad p to `dim` components each of the
     /// nodes of a cell, from `first_soil` of `soil_nodes` and `first_water` of `water_nodes` on (N at factor 1).
     template <typename SoilNodes, typename WaterNodes>
@@ -146,6 +172,7 @@ namespace scree
     std::vector<MixtureCell<dim>> records;
     std::vector<unsigned int> record_of_cell; // by active cell index
     std::vector<NodeRow> grains, water;
+    std::vector<PorosityOfParts<dim>> porosities; // of the first records, which have soil
   };
 
 

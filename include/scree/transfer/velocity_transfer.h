@@ -133,6 +133,8 @@ namespace scree
   template <int dim, int n>
   class CellVelocity
   {
+    static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+
   public:
     /// @param nodes of the cell
     /// @param width of the cell, m
@@ -157,6 +159,34 @@ namespace scree
               change[c][r]   = make_row(dv);
             }
         }
+    }
+
+    /// This velocity less another one, times a weight of each node.
+    CellVelocity weighted_difference(const std::array<NodeRow, n_rows> &weight, const CellVelocity &other) const
+    {
+      CellVelocity difference(width);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int r = 0; r < n_rows; ++r)
+          {
+            difference.velocity[c][r] = weight[r] * (velocity[c][r] - other.velocity[c][r]);
+            difference.change[c][r]   = weight[r] * (change[c][r] - other.change[c][r]);
+          }
+      return difference;
+    }
+
+    /// This velocity and `factor` times another one; its change is set only where move<method>() reads it.
+    template <TransferMethod method>
+    CellVelocity plus(const double factor, const CellVelocity &other) const
+    {
+      CellVelocity sum(width);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int r = 0; r < n_rows; ++r)
+          {
+            sum.velocity[c][r] = velocity[c][r] + factor * other.velocity[c][r];
+            if constexpr (method == TransferMethod::flip)
+              sum.change[c][r] = change[c][r] + factor * other.change[c][r];
+          }
+      return sum;
     }
 
     /// Gives a point its velocity, affine field and place at the end of a step of `time_step` s; returns the square of
@@ -205,9 +235,14 @@ namespace scree
     }
 
   private:
-    static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    /// To be filled.
+    explicit CellVelocity(const double width)
+        : width(width)
+        , inverse_width(1. / width)
+    {
+    }
 
-    const double width, inverse_width;
+    double width, inverse_width;
     NodeRow velocity[dim][n_rows];
     NodeRow change[dim][n_rows];
   };

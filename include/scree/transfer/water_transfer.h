@@ -11,7 +11,7 @@ namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
   template <int dim>
-  class PoreField : public NodeValues<dim, 3>
+  class PoreField : public NodeValues<dim, 4>
   {
   public:
     static constexpr unsigned int pore_volume    = 0; ///< sum n V phi_i of the soil, m^3
@@ -19,10 +19,21 @@ namespace scree
     static constexpr unsigned int grain_volume   = 2; ///< sum S V_grains phi_i, m^3
     static constexpr unsigned int grain_fraction = 2; ///< then: volume of grains over that of grains and water
 
+    /// sum V_w (1/n_p - 1) phi_i, n_p the porosity about a point of water, m^3
+    static constexpr unsigned int grains_about_water = 3;
+
     explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 3>(grid.numbering())
+        : NodeValues<dim, 4>(grid.numbering())
     {
     }
+  };
+
+  /// Soil, water and pores at the nodes of the velocity, of one step.
+  template <int dim>
+  struct MixtureNodes
+  {
+    NodalField<dim> &soil, &water;
+    PoreField<dim> &pores;
   };
 
   /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
@@ -39,14 +50,20 @@ namespace scree
     /// Adds pores, drag and grains of a body's points to the mixture and to `pores`.
     void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
 
-    /// Adds mass, momentum and viscous force of the water's points to `field`, and volume and pressure to the mixture.
-    void to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const;
+    /// Adds mass, momentum and viscous force of the water's points to `field`, volume and pressure to the mixture, and
+    /// the grains about points of the water's own to `pores`. All soil has to be in.
+    void
+    to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field, PoreField<dim> &pores) const;
 
     /// One pass over the water's points at the end of a step: velocity, pressure with its gradient, and place, if they
-    /// are the water's own; else the volume of the pores. Returns the largest speed, m/s; not a number if any point's
-    /// is not.
+    /// are the water's own; else the volume of the pores. Points of the water's own take the velocity of PoreVelocity.
+    /// Returns the largest speed, m/s; not a number if any point's is not.
+    ///
+    /// @param nodes velocities of both phases; masses and pores as to_grid() has left them, summed over ranks
+    /// @param mixture as to_grid() has left it
     double to_points(WaterPhase<dim> &water,
-                     const NodalField<dim> &field,
+                     const MixtureNodes<dim> &nodes,
+                     const Mixture<dim> &mixture,
                      const PressureOfCell<dim> &pressure,
                      const double time_step) const;
 
@@ -58,11 +75,13 @@ namespace scree
     void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
 
     template <int n, TransferMethod method>
-    void add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field) const;
+    void
+    add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field, PoreField<dim> &pores) const;
 
     template <int n, TransferMethod method>
     double move_water(WaterPhase<dim> &water,
-                      const NodalField<dim> &field,
+                      const MixtureNodes<dim> &nodes,
+                      const Mixture<dim> &mixture,
                       const PressureOfCell<dim> &pressure,
                       const double time_step) const;
 
@@ -74,6 +93,7 @@ namespace scree
     const ConductivityLaw conductivity_law;
     const double viscosity;
     const double pressure_slope;
+    const PointSets point_sets;
   };
 } // namespace scree
 

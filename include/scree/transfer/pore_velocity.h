@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_pore_velocity_h
+#define scree_transfer_pore_velocity_h
+
+#include <scree/transfer/velocity_transfer.h>
+#include <scree/transfer/water_transfer.h>
+
+namespace scree
+{
+  /// Velocity of a cell's nodes as points of water take it: v_s + (n_i/n_p) (v_w - v_s), n_p the porosity about the
+  /// point, 1/n_i the mean of 1/n_p over the water of a node. A flux U that does not change where soil begins moves the
+  /// points by U/n_p on either side, instead of by the mean over the node's surroundings; and since
+  /// sum m_p phi_i n_i/n_p is the node's mass, their momentum is that of the nodes, whatever n_p is.
+  template <int dim, int n>
+  class PoreVelocity
+  {
+  public:
+    /// Whether water of any of the nodes has soil about it; else points take v_w.
+    static bool differs(const unsigned int *nodes, const PoreField<dim> &pores)
+    {
+      bool any = false;
+      for (unsigned int i = 0; i < n_rows * n; ++i)
+        any |= pores[nodes[i]][PoreField<dim>::grains_about_water] > 0.;
+      return any;
+    }
+
+    /// @param ids of the cell's nodes
+    /// @param water its velocity at them
+    /// @param water_density kg/m^3
+    /// @param width of the cell, m
+    PoreVelocity(const unsigned int *ids,
+                 const CellVelocity<dim, n> &water,
+                 const MixtureNodes<dim> &nodes,
+                 const double water_density,
+                 const double width)
+        : soil(ids, nodes.soil, width)
+        , flux(water.weighted_difference(porosities(ids, nodes, water_density), soil))
+    {
+    }
+
+    /// What a point takes that has 1 over this porosity about it.
+    template <TransferMethod method>
+    CellVelocity<dim, n> at(const double inverse_porosity) const
+    {
+      return soil.template plus<method>(inverse_porosity, flux);
+    }
+
+  private:
+    static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+
+    /// n_i
+    static std::array<NodeRow, n_rows>
+    porosities(const unsigned int *ids, const MixtureNodes<dim> &nodes, const double water_density)
+    {
+      std::array<NodeRow, n_rows> rows{};
+      for (unsigned int r = 0; r < n_rows; ++r)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int node = ids[r * n + i];
+            const double volume     = nodes.water[node][NodalField<dim>::mass] / water_density;
+            const double grains     = nodes.pores[node][PoreField<dim>::grains_about_water];
+            rows[r][i]              = grains > 0. ? volume / (volume + grains) : 1.;
+          }
+      return rows;
+    }
+
+    const CellVelocity<dim, n> soil; // v_s
+    const CellVelocity<dim, n> flux; // n_i (v_w - v_s)
+  };
+} // namespace scree
+
+#endif
