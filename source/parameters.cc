@@ -4,6 +4,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -41,6 +43,14 @@ namespace scree
   }
 
 
+  double BodyParameters::wave_speed() const
+  {
+    const auto law       = make_material<2>(material);
+    const double tangent = law->initial_bulk_modulus(initial_state.pressure) + 4. / 3. * law->shear_modulus();
+    return std::sqrt(tangent / bulk_density());
+  }
+
+
   Parameters::Parameters()
   {
     name_bodies();
@@ -72,6 +82,7 @@ namespace scree
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
         check();
+        transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
     catch (const EntryError &error)
       {
@@ -197,13 +208,14 @@ namespace scree
     water.check(gravity, bodies.size());
     pressure.check(bodies.size());
     water_boundaries.check(dimension);
-    require_entry(water.viscosity == 0 || transfer.transfer_method() == TransferMethod::tpic,
-                  "Water",
-                  "Viscosity",
-                  water.viscosity,
-                  "viscous stress needs the velocity gradient that only TPIC carries, but subsection Transfer has "
-                  "\"Method = " +
-                      transfer.method + "\". Write \"Method = TPIC\" there, or remove the entry.");
+    require_entry(
+        water.viscosity == 0 || carries_gradient(transfer.transfer_method()),
+        "Water",
+        "Viscosity",
+        water.viscosity,
+        "viscous stress needs the velocity gradient that only TPIC and AFLIP carry, but subsection Transfer has "
+        "\"Method = " +
+            transfer.method + "\". Write \"Method = AFLIP\" there, or remove the entry.");
     for (const SoilRegion &body : soil_regions())
       {
         if (water.is_where_soil_is())
@@ -253,6 +265,24 @@ namespace scree
     for (const auto &body : bodies)
       regions.push_back({ body.name, body.seeding.region, body.initial_porosity(), body.bulk_density() });
     return regions;
+  }
+
+
+  double Parameters::size_of_gravity() const
+  {
+    double square = 0;
+    for (const double component : gravity)
+      square += component * component;
+    return std::sqrt(square);
+  }
+
+
+  double Parameters::wave_speed() const
+  {
+    double fastest = 0;
+    for (const auto &body : bodies)
+      fastest = std::max(fastest, body.wave_speed());
+    return fastest;
   }
 
 

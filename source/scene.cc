@@ -136,6 +136,30 @@ namespace scree
       seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
     for (const auto &load : loads)
       load.require_soil(bodies, communicator);
+    // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.
+    if (parameters.transfer.transfer_method() == TransferMethod::aflip)
+      set_velocity_gradients();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::set_velocity_gradients()
+  {
+    const auto set = [&](PointSet<dim> &points, const std::string &velocity, const unsigned int slot) {
+      if (!velocity.empty())
+        set_velocity_gradient(points, velocity, slot, grid.cell_size());
+    };
+    auto part    = water.begin();
+    auto entries = parameters.bodies.begin();
+    for (auto &body : bodies)
+      {
+        const std::string &velocity = (entries++)->seeding.initial_velocity;
+        set(body.points, velocity, body.layout.affine);
+        if (part != water.end() && part->carrier() != nullptr)
+          set(body.points, velocity, (part++)->layout.affine);
+      }
+    if (part != water.end())
+      set(part->points(), parameters.water.initial_velocity, part->layout.affine);
   }
 
 

@@ -57,7 +57,7 @@ namespace scree
     scene.require_steps(stable_step(), speeds);
     folder.remove_old_results(); // not before the input has proved good
     record_case();
-    log_size(folder, scene.grid, scene.bodies, scene.water);
+    log_case();
     for (const std::string &question : unusual_units(parameters))
       folder.log(question);
     if (parameters.settling.maximum_time > 0)
@@ -85,7 +85,7 @@ namespace scree
     reinit();
     output_times.begin(clock.time());
     record_case();
-    log_size(folder, scene.grid, scene.bodies, scene.water);
+    log_case();
     cut_output();
     folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) +
                ", from " + checkpoint.folder + " of " + checkpoint.manifest.program + '.');
@@ -102,6 +102,14 @@ namespace scree
     parameters.print(all_entries);
     folder.write("parameters.prm", all_entries.str());
     log_program(folder, communicator);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::log_case()
+  {
+    log_size(folder, scene.grid, scene.bodies, scene.water);
+    folder.log("Transfer: " + parameters.transfer.text());
   }
 
 

@@ -42,7 +42,7 @@ def axis(label, entry, values):
 
 def transfer(method):
     """The entries of a method other than FLIP: none reads the PIC rate that a case of FLIP may set, and the program refuses it."""
-    return {"Transfer/Method": method, "Transfer/PIC rate": 1}  # the default
+    return {"Transfer/Method": method, "Transfer/PIC rate": "auto"}
 
 
 def product(*axes):

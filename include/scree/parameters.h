@@ -40,6 +40,9 @@ namespace scree
 
     /// Density of the dry body, kg/m^3: grains times (1 - porosity).
     double bulk_density() const;
+
+    /// Of pressure waves in the dry body at the entry of its pressure, m/s; 0 without stiffness.
+    double wave_speed() const;
   };
 
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
@@ -97,6 +100,9 @@ namespace scree
     void check_water() const;
     void check_dry() const;
     void check_without_soil() const;
+
+    double size_of_gravity() const; // m/s^2
+    double wave_speed() const;      // of the stiffest body, m/s; 0 without bodies
 
     /// The remedy for a subsection that is not declared but looks like that of a body; empty if it does not.
     std::string unlisted_body(const std::string &subsection) const;

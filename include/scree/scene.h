@@ -69,6 +69,7 @@ namespace scree
   private:
     void make_bodies();
     void fill_with_points();
+    void set_velocity_gradients();
     void set_initial_state();
 
     /// Adds one that left the box through the face of this name.

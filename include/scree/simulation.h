@@ -114,6 +114,9 @@ namespace scree
     /// Keeps the case with its results and begins the log.
     void record_case();
 
+    /// What has been made of the case: size and transfer.
+    void log_case();
+
     /// After a checkpoint has been read: drops from lists and rows what was written after it.
     void cut_output();
 

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
+
 namespace scree
 {
   using namespace dealii;
@@ -155,10 +157,38 @@ namespace scree
         });
   }
 
+  template <int dim>
+  void set_velocity_gradient(PointSet<dim> &points,
+                             const std::string &expressions,
+                             const unsigned int slot,
+                             const double width)
+  {
+    const auto expression = parse_expression<dim>("", expressions, dim);
+    // Beside the body it need not be a number.
+    const auto velocity = [&](const Point<dim> &x, const unsigned int c) {
+      return expression->FunctionParser<dim>::value(x, c);
+    };
+    for_each_point(points, [&](const auto &point) {
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          Point<dim> ahead = point.location, behind = point.location;
+          ahead[a] += 0.5 * width;
+          behind[a] -= 0.5 * width;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double slope                   = (velocity(ahead, c) - velocity(behind, c)) / width;
+              point.properties[slot + c * dim + a] = std::isfinite(slope) ? slope : 0.;
+            }
+        }
+    });
+  }
+
   template void
   require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<2> &, const double);
   template void
   require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<3> &, const double);
   template void seed(SoilBody<2> &, const SeedingParameters &, const Triangulation<2> &, const double);
   template void seed(SoilBody<3> &, const SeedingParameters &, const Triangulation<3> &, const double);
+  template void set_velocity_gradient(PointSet<2> &, const std::string &, const unsigned int, const double);
+  template void set_velocity_gradient(PointSet<3> &, const std::string &, const unsigned int, const double);
 } // namespace scree

@@ -92,6 +92,8 @@ namespace scree
           return move_points<n, TransferMethod::pic>(body, field, time_step);
         case TransferMethod::apic:
           return move_points<n, TransferMethod::apic>(body, field, time_step);
+        case TransferMethod::aflip:
+          return move_points<n, TransferMethod::aflip>(body, field, time_step);
         default:
           return move_points<n, TransferMethod::tpic>(body, field, time_step);
         }

@@ -42,6 +42,7 @@ namespace scree
         case TransferMethod::apic:
           return add_points<n, TransferMethod::apic>(body, field);
         case TransferMethod::tpic:
+        case TransferMethod::aflip: // They differ on the way back only.
           return add_points<n, TransferMethod::tpic>(body, field);
         default: // FLIP and PIC differ on the way back only.
           return add_points<n, TransferMethod::flip>(body, field);

@@ -2,35 +2,78 @@
 #include <scree/input/input_error.h>
 #include <scree/transfer/transfer_parameters.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <map>
 
 namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// NaN if the text is no number.
+    double number_of(const std::string &text)
+    {
+      char *end           = nullptr;
+      const double number = std::strtod(text.c_str(), &end);
+      return text.empty() || *end != 0 ? std::numeric_limits<double>::quiet_NaN() : number;
+    }
+  } // namespace
+
+
   void TransferParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Transfer");
     prm.add_parameter("Method",
                       method,
-                      "How velocity travels between points and nodes: FLIP, PIC, APIC or TPIC.",
-                      Patterns::Selection("FLIP|PIC|APIC|TPIC"));
+                      "How velocity travels between points and nodes: FLIP, PIC, APIC, TPIC or AFLIP.",
+                      Patterns::Selection("FLIP|PIC|APIC|TPIC|AFLIP"));
     prm.add_parameter("PIC rate",
-                      pic_rate,
-                      "Rate at which FLIP forgets the points' own velocity, 1/s: per step it keeps exp(-rate dt).",
-                      Patterns::Double(0));
+                      rate,
+                      "Rate at which FLIP and AFLIP forget the points' own velocity, 1/s: per step they keep exp(-rate "
+                      "dt). auto: FLIP 1 1/s, AFLIP 5 sqrt(g/h), without gravity c/h.",
+                      Patterns::Anything());
     prm.leave_subsection();
   }
 
 
   void TransferParameters::check() const
   {
-    require_entry(transfer_method() == TransferMethod::flip || pic_rate == TransferParameters().pic_rate,
+    if (rate == "auto")
+      return;
+    const double number = number_of(rate);
+    require_entry(std::isfinite(number) && number >= 0,
                   "Transfer",
                   "PIC rate",
-                  pic_rate,
+                  rate,
+                  "write auto, or a number from 0 on, in 1/s.");
+    require_entry(keeps_velocity(transfer_method()),
+                  "Transfer",
+                  "PIC rate",
+                  rate,
                   "nothing reads it, as \"Method = " + method +
-                      "\" has no such rate. Remove it, or write \"Method = FLIP\".");
+                      "\" has no such rate. Remove it, or write \"Method = FLIP\" or \"Method = AFLIP\".");
+  }
+
+
+  void TransferParameters::choose_rate(const double gravity, const double wave_speed, const double cell_size)
+  {
+    if (rate != "auto")
+      pic_rate = number_of(rate);
+    else if (transfer_method() == TransferMethod::aflip)
+      pic_rate = gravity > 0 ? 5 * std::sqrt(gravity / cell_size) : wave_speed / cell_size;
+    else
+      pic_rate = 1;
+  }
+
+
+  std::string TransferParameters::text() const
+  {
+    if (!keeps_velocity(transfer_method()))
+      return method;
+    return method + " with a PIC rate of " + number_text(pic_rate) + " 1/s" + (rate == "auto" ? " (auto)" : "");
   }
 
 
@@ -39,14 +82,15 @@ namespace scree
     static const std::map<std::string, TransferMethod> table{ { "FLIP", TransferMethod::flip },
                                                               { "PIC", TransferMethod::pic },
                                                               { "APIC", TransferMethod::apic },
-                                                              { "TPIC", TransferMethod::tpic } };
+                                                              { "TPIC", TransferMethod::tpic },
+                                                              { "AFLIP", TransferMethod::aflip } };
     return table.at(method);
   }
 
 
   bool TransferParameters::carries_affine_field() const
   {
-    return transfer_method() == TransferMethod::apic || transfer_method() == TransferMethod::tpic;
+    return carries_affine(transfer_method());
   }
 
 

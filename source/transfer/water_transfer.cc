@@ -251,7 +251,7 @@ namespace scree
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.add(shape, sums.template momentum_part<method>(shape, mass, properties + layout.velocity, affine));
-          if (method == TransferMethod::tpic && viscosity > 0)
+          if (carries_gradient(method) && viscosity > 0)
             sums.add(shape, sums.force_part(shape, volume, viscous_stress<dim>(viscosity, affine)));
           add_moments(shape, volume, moments);
           if (porosity != nullptr)
@@ -353,6 +353,7 @@ namespace scree
         case TransferMethod::apic:
           return add_water<n, TransferMethod::apic>(water, mixture, field, pores);
         case TransferMethod::tpic:
+        case TransferMethod::aflip: // They differ on the way back only.
           return add_water<n, TransferMethod::tpic>(water, mixture, field, pores);
         default: // FLIP and PIC differ on the way back only.
           return add_water<n, TransferMethod::flip>(water, mixture, field, pores);
@@ -381,6 +382,8 @@ namespace scree
           return move_water<n, TransferMethod::pic>(water, nodes, mixture, pressure, time_step);
         case TransferMethod::apic:
           return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, time_step);
+        case TransferMethod::aflip:
+          return move_water<n, TransferMethod::aflip>(water, nodes, mixture, pressure, time_step);
         default:
           return move_water<n, TransferMethod::tpic>(water, nodes, mixture, pressure, time_step);
         }

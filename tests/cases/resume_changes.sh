@@ -84,8 +84,9 @@ refused "$(in_subsection Boundaries 'Bottom = free slip')" 'subsection Boundarie
 refused "$(in_subsection Water 'Region = same')" "subsection Water: $of_run"
 refused "$(in_subsection Stabilisation 'F-bar = none')" 'subsection Stabilisation, entry "F-bar" = none'
 # APIC reads no PIC rate.
-refused "$(in_subsection Transfer 'PIC rate = 1')
+refused "$(in_subsection Transfer 'PIC rate = auto')
 $(in_subsection Transfer 'Method = APIC')" 'subsection Transfer, entry "Method" = APIC'
+refused "$(in_subsection Transfer 'Method = AFLIP')" 'subsection Transfer, entry "Method" = AFLIP'
 refused "set End time = 0.004" 'entry "End time" = 0.004: the checkpoint results/checkpoint/step-'
 goes_on "" ""
 goes_on "set End time = 1.5e-2
@@ -97,6 +98,8 @@ goes_on "$(in_subsection Transfer 'PIC rate = 2')" \
   'Changed from here on: subsection Transfer, entry "PIC rate" = 2, before 5.'
 base water_short
 refused "$(in_subsection Water 'Density = 1020')" 'subsection Water, entry "Density" = 1020'
+goes_on "$(in_subsection Transfer 'Method = AFLIP')" \
+  'Changed from here on: subsection Transfer, entry "Method" = AFLIP, before TPIC.'
 goes_on "subsection Water
 $(in_subsection Pressure 'Relative tolerance = 1e-9')
 end" 'Changed from here on: subsection Water/Pressure, entry "Relative tolerance" = 1e-9, before 1e-12.'

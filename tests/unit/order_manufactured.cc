@@ -55,7 +55,7 @@ int main(int argc, char *argv[])
                     body_force("y") + "\nsubsection Mesh\n set Cell size = " + number(1. / n) +
                     "\nend\nsubsection Time step\n set Courant number = " + number(6.4 / n) +
                     "\nend\nsubsection Transfer\n set Method = " + method +
-                    "\n set PIC rate = " + (method == "FLIP" ? "0" : "1") +
+                    "\n set PIC rate = " + (method == "FLIP" ? "0" : "auto") +
                     "\nend\nsubsection Stabilisation\n set F-bar = none\nend\n"
                     "subsection Boundaries\n set Bottom = free slip\n set Top = free slip\nend\n"
                     "subsection Soil\n set Region = 1\n set Points per cell = " +

@@ -10,7 +10,7 @@ int main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   const double V = 1e-3, E = 1e4, rho = 1e3, c = std::sqrt(E / rho), time = 2.25 / c, pi = dealii::numbers::PI;
-  for (const std::string method : { "FLIP", "APIC", "TPIC" })
+  for (const std::string method : { "FLIP", "APIC", "TPIC", "AFLIP" })
     {
       std::vector<double> velocity_errors, stress_errors;
       for (const unsigned int n : { 8, 16, 32, 64 })
@@ -22,7 +22,7 @@ int main(int argc, char *argv[])
                   number(1. / n) + "\n set Cell size = " + number(1. / n) +
                   "\nend\nsubsection Time step\n set Courant number = " + number(2. / n) +
                   "\nend\nsubsection Transfer\n set Method = " + method +
-                  "\n set PIC rate = " + (method == "FLIP" ? "0" : "1") +
+                  "\n set PIC rate = " + (method == "FLIP" ? "0" : "auto") +
                   "\nend\nsubsection Stabilisation\n set F-bar = none\nend\n"
                   "subsection Boundaries\n set Left = fixed\n set Right = fixed\n set Bottom = free slip\n"
                   " set Top = free slip\nend\n"

@@ -10,9 +10,9 @@
 // point moves along its new v.
 //
 // The others do not keep it; what they lose of this motion is compared with what they lost before, not with rounding.
-// TPIC carries the gradient G: its spin is that of G D (with splines D is a quarter of the squared cell size), which is
-// B only where the nodes' motion is linear. PIC and FLIP carry no spin at all, and PIC loses what it cannot carry at
-// each step.
+// TPIC and AFLIP carry the gradient G: its spin is that of G D (with splines D is a quarter of the squared cell size),
+// which is B only where the nodes' motion is linear. PIC and FLIP carry no spin at all, and PIC loses what it cannot
+// carry at each step.
 
 #include <scree/simulation.h>
 
@@ -103,8 +103,8 @@ std::pair<double, double> fly(const std::string &method, const std::string &basi
         "2 - 12 * (y - 0.6) + x - 0.7; 2 + 12 * (x - 0.7) - 5 * (z - 0.6); 0.7 + 5 * (y - 0.6)";
 
   Simulation<dim> simulation(parameters, Start::fresh, MPI_COMM_WORLD);
-  const double cell_size   = parameters.grid.cell_size;
-  const double spin        = method == "APIC" ? 1. : method == "TPIC" ? 0.25 * cell_size * cell_size : 0.;
+  const double cell_size = parameters.grid.cell_size;
+  const double spin = method == "APIC" ? 1. : method == "TPIC" || method == "AFLIP" ? 0.25 * cell_size * cell_size : 0.;
   const Momenta<dim> start = momenta(simulation, spin);
   double linear = 0, angular = 0;
   for (unsigned int step = 0; step < n_steps; ++step)
@@ -121,7 +121,7 @@ template <int dim>
 void test(std::ostream &out)
 {
   for (const std::string basis : { "spline", "quadratic", "linear" })
-    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC" })
+    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC", "AFLIP" })
       {
         if (basis != "spline" && (method != "APIC" || dim == 3))
           continue;

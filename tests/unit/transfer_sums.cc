@@ -103,7 +103,7 @@ int main(int argc, char *argv[])
   std::ostream silent(nullptr);
   std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
   for (const std::string basis : { "spline", "quadratic", "linear" })
-    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC" })
+    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC", "AFLIP" })
       {
         test<2>(basis, method, out);
         test<3>(basis, method, out);

@@ -55,6 +55,17 @@ namespace scree
             const SeedingParameters &parameters,
             const dealii::Triangulation<dim> &triangulation,
             const double cell_size);
+
+  /// Sets the gradient of an initial velocity at the points, 1/s, by differences over a cell: what the nodes see of it.
+  ///
+  /// @param expressions of the velocity, m/s, one an axis
+  /// @param slot of the points' properties, the first of dim x dim: row c is grad v_c
+  /// @param width of a cell, m
+  template <int dim>
+  void set_velocity_gradient(PointSet<dim> &points,
+                             const std::string &expressions,
+                             const unsigned int slot,
+                             const double width);
 } // namespace scree
 
 #endif

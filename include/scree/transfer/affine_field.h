@@ -13,7 +13,7 @@ namespace scree
   /// of line, points to nodes take up to a third more (2D, TPIC).
   ///
   /// @param width of the cell, m
-  /// @param affine the point's slots: the velocity gradient (TPIC), or sum phi v (x_i - x)^T (APIC)
+  /// @param affine the point's slots: the velocity gradient (TPIC, AFLIP), or sum phi v (x_i - x)^T (APIC)
   /// @param momentum of the row of nodes, still to be multiplied with the factors of the other axes; is added to
   /// @param add_to_row called with (row, component, momentum) for what depends on the row
   template <TransferMethod method, int dim, int n, typename Function>

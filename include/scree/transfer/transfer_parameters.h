@@ -14,8 +14,27 @@ namespace scree
     flip, ///< points keep their velocity and take the nodes' change; blended with PIC at a rate in 1/s
     pic,  ///< points take the nodes' velocity
     apic, ///< as PIC, with an affine field per point that keeps angular momentum (Jiang et al. 2015)
-    tpic  ///< as PIC, with the velocity gradient per point (Taylor expansion)
+    tpic, ///< as PIC, with the velocity gradient per point (Taylor expansion)
+    aflip ///< as FLIP, and what travels to the nodes has the nodes' last velocity gradient, as in TPIC
   };
+
+  /// Whether points keep a velocity of their own, which they forget at a rate.
+  constexpr bool keeps_velocity(const TransferMethod method)
+  {
+    return method == TransferMethod::flip || method == TransferMethod::aflip;
+  }
+
+  /// Whether points carry the nodes' velocity gradient.
+  constexpr bool carries_gradient(const TransferMethod method)
+  {
+    return method == TransferMethod::tpic || method == TransferMethod::aflip;
+  }
+
+  /// Whether points carry an affine velocity field, in whatever form.
+  constexpr bool carries_affine(const TransferMethod method)
+  {
+    return method == TransferMethod::apic || carries_gradient(method);
+  }
 
   /// Treatment of volumetric locking and stress oscillation.
   enum class FBar
@@ -29,12 +48,23 @@ namespace scree
   struct TransferParameters
   {
     std::string method = "FLIP";
-    double pic_rate    = 1; ///< 1/s
+    std::string rate   = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
+    double pic_rate    = 1;      ///< 1/s, what choose_rate() has made of the entry
 
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError at an entry that the method does not read.
+    /// Throws EntryError at a rate that is none, or that the method does not read.
     void check() const;
+
+    /// Sets the PIC rate. `auto` is 1 1/s with FLIP; with AFLIP 5 sqrt(g/h), without gravity c/h.
+    ///
+    /// @param gravity g, m/s^2
+    /// @param wave_speed c of the stiffest soil, m/s
+    /// @param cell_size h, m
+    void choose_rate(const double gravity, const double wave_speed, const double cell_size);
+
+    /// The method, and its rate if it has one, as the log tells it.
+    std::string text() const;
 
     TransferMethod transfer_method() const;
     bool carries_affine_field() const;

@@ -54,7 +54,7 @@ namespace scree
       NodeRow momentum[dim];
       for (unsigned int c = 0; c < dim; ++c)
         momentum[c] = shape.value_x * (mass * velocity[c]);
-      if constexpr (method == TransferMethod::apic || method == TransferMethod::tpic)
+      if constexpr (carries_affine(method))
         add_affine_momentum<method>(shape,
                                     width,
                                     mass,
@@ -122,7 +122,7 @@ namespace scree
   struct PointMotion
   {
     double *velocity;                 ///< slots, m/s: changed
-    double *affine;                   ///< slots of APIC and TPIC; else not touched
+    double *affine;                   ///< slots of APIC, TPIC and AFLIP; else not touched
     dealii::Point<dim> *location;     ///< m: moved, unless null
     dealii::Tensor<2, dim> *gradient; ///< of the velocity, 1/s: set, unless null
   };
@@ -205,7 +205,7 @@ namespace scree
           const NodeRow along       = contract(shape.rows.value, velocity[c]);
           const double new_velocity = sum(along * shape.value_x);
           double &own               = point.velocity[c];
-          if constexpr (method == TransferMethod::flip)
+          if constexpr (keeps_velocity(method))
             own =
                 keep * (own + sum(contract(shape.rows.value, change[c]) * shape.value_x)) + (1. - keep) * new_velocity;
           else
@@ -216,7 +216,7 @@ namespace scree
 
           if constexpr (method == TransferMethod::apic)
             affine_moment<dim, n>(shape, width, velocity[c], point.affine + c * dim);
-          if (method == TransferMethod::tpic || point.gradient != nullptr)
+          if (carries_gradient(method) || point.gradient != nullptr)
             {
               double slope[dim];
               slope[0] = inverse_width * sum(along * shape.derivative_x);
@@ -224,7 +224,7 @@ namespace scree
                 slope[a] = inverse_width * sum(contract(shape.rows.derivative[a - 1], velocity[c]) * shape.value_x);
               for (unsigned int a = 0; a < dim; ++a)
                 {
-                  if constexpr (method == TransferMethod::tpic)
+                  if constexpr (carries_gradient(method))
                     point.affine[c * dim + a] = slope[a];
                   if (point.gradient != nullptr)
                     (*point.gradient)[c][a] = slope[a];
@@ -248,10 +248,10 @@ namespace scree
   };
 
 
-  /// The part of their own velocity that points keep over a step: all but what PIC damps at `pic_rate`, 1/s, with FLIP.
+  /// The part of their own velocity that points keep over a step: all but what PIC damps at `pic_rate`, 1/s.
   inline double kept_velocity(const TransferMethod method, const double pic_rate, const double time_step)
   {
-    return method == TransferMethod::flip ? std::exp(-pic_rate * time_step) : 0.;
+    return keeps_velocity(method) ? std::exp(-pic_rate * time_step) : 0.;
   }
 } // namespace scree
 
