@@ -5,6 +5,7 @@
 #include <scree/grid/nodal_field.h>
 #include <scree/transfer/affine_field.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <cmath>
@@ -128,6 +129,28 @@ namespace scree
   };
 
 
+  /// From the velocity gradient L over the places of a step's start, 1/s, to that over the places of its end,
+  /// L (I + dt L)^-1, if it is smaller: so a lone point, to which no node says anything new, does not stretch for ever
+  /// at the same rate, and one that is compressed does not shrink to nothing in a finite time.
+  template <int dim>
+  void carry_along(double *gradient, const double time_step)
+  {
+    dealii::Tensor<2, dim> L;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int a = 0; a < dim; ++a)
+        L[c][a] = gradient[c * dim + a];
+    const dealii::Tensor<2, dim> stretch = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) + time_step * L;
+    if (!(determinant(stretch) > 0))
+      return;
+    const dealii::Tensor<2, dim> carried = L * invert(stretch);
+    if (!(carried.norm_square() < L.norm_square()))
+      return;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int a = 0; a < dim; ++a)
+        gradient[c * dim + a] = carried[c][a];
+  }
+
+
   /// End-of-step velocity and its change at a cell's nodes, and what they do to its points: one kernel for points of
   /// soil and of water.
   template <int dim, int n>
@@ -231,6 +254,8 @@ namespace scree
                 }
             }
         }
+      if constexpr (method == TransferMethod::aflip)
+        carry_along<dim>(point.affine, time_step);
       return square;
     }
 
