@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Velocities of water points with the porosity of their own place, for every transfer, on one rank and on two:
-// - soil and water lie anyhow and nodes move at random: the points' momentum (FLIP: its change) is that of the nodes;
+// - soil and water lie anyhow and nodes move at random: the points' momentum is that of the nodes (FLIP, AFLIP:
+//   its change);
 // - a flux U that is the same in free water and in soil with a sharp face: points that move with U/n_p come from the
 //   nodes as they went there, and without gradient;
 // - uniform porosity gives the velocity of the nodes to rounding, water without soil gives it to the last digit.
@@ -262,10 +263,10 @@ namespace
   template <int dim>
   void test(std::ostream &out)
   {
-    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC" })
+    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC", "AFLIP" })
       {
         out << dim << "D " << method << ": momentum " << bounded(momentum_error<dim>("spline", method), 1e-14);
-        if (method != "FLIP") // keeps the points' own velocity
+        if (method != "FLIP" && method != "AFLIP") // keep the points' own velocity
           out << ", flux through a face " << bounded(flux_error<dim>(method), 1e-13);
         out << ", uniform soil " << bounded(plain_error<dim>(method, "x < 1"), 1e-14) << ", no soil "
             << bounded(plain_error<dim>(method, "none"), 0.) << std::endl;

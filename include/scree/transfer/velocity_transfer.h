@@ -206,7 +206,7 @@ namespace scree
         for (unsigned int r = 0; r < n_rows; ++r)
           {
             sum.velocity[c][r] = velocity[c][r] + factor * other.velocity[c][r];
-            if constexpr (method == TransferMethod::flip)
+            if constexpr (keeps_velocity(method))
               sum.change[c][r] = change[c][r] + factor * other.change[c][r];
           }
       return sum;
