@@ -7,7 +7,7 @@
 - consolidation at small strain: Terzaghi 1943; the same with the inertia of soil and water
 - consolidation at large strain of soil that is elastic in logarithmic strain: exact end state, course in time by
   finite differences
-- hydrostatic pressure; discharge through a dam with vertical faces
+- hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
 
 Needs numpy.
 """
@@ -288,6 +288,20 @@ def hydrostatic_pressure(height, surface, density=1000, gravity=GRAVITY):
     return density * gravity * np.maximum(surface - np.asarray(height, dtype=float), 0)
 
 
+def ergun_gradient(velocity, diameter, porosity, viscosity, density=1000):
+    """Gradient of the pressure, Pa/m, of the superficial velocity U, m/s, through a bed of grains of diameter d (Ergun 1952):
+    150 mu (1-n)^2/(n^3 d^2) U + 1.75 rho (1-n)/(n^3 d) U^2."""
+    slow = 150 * viscosity * (1 - porosity)**2 / (porosity**3 * diameter**2)
+    return (slow + 1.75 * density * (1 - porosity) / (porosity**3 * diameter) * velocity) * velocity
+
+
+def ergun_velocity(gravity, diameter, porosity, viscosity, density=1000):
+    """Superficial velocity, m/s, at the gradient rho g of the water's own weight."""
+    slow = 150 * viscosity * (1 - porosity)**2 / (porosity**3 * diameter**2)
+    fast = 1.75 * density * (1 - porosity) / (porosity**3 * diameter)
+    return 2 * density * gravity / (slow + math.sqrt(slow**2 + 4 * fast * density * gravity))
+
+
 def dupuit_discharge(conductivity, upstream, downstream, length):
     """k (h_1^2 - h_2^2)/(2 L): discharge through a dam with vertical faces, mean over its length, m^2/s.
 
@@ -393,6 +407,15 @@ def _self_test():
     discharge = -1e-2 * surface * np.gradient(surface, x)
     _check(failures, "Dupuit: discharge of the parabola is k (h_1^2 - h_2^2)/(2 L) everywhere",
            np.max(np.abs(discharge[1:-1] / dupuit_discharge(1e-2, 1., .4, 1.) - 1)), 1e-6)
+    for viscosity in (1, 1e-2, 1e-3, 1e-6):
+        velocity = ergun_velocity(GRAVITY, 5e-3, .4, viscosity)
+        _check(failures, f"Ergun, mu = {viscosity} Pa s: gradient at the velocity of water's own weight",
+               abs(ergun_gradient(velocity, 5e-3, .4, viscosity) / (1000 * GRAVITY) - 1), 1e-9)
+        # Ergun's own form: friction factor 150/Re + 1.75.
+        reynolds = 1000 * velocity * 5e-3 / (viscosity * .6)
+        friction = 1000 * GRAVITY * 5e-3 * .4**3 / (1000 * velocity**2 * .6)
+        _check(failures, f"Ergun, mu = {viscosity} Pa s: friction factor", abs(friction / (150 / reynolds + 1.75) - 1), 1e-9)
+
     _check(failures, "hydrostatics: 1 m of water", abs(float(hydrostatic_pressure(0.25, 1.25)) - 9810), 1e-9)
 
     print(f"\nprm/large_strain_consolidation.prm: final settlement {settlement:.6f} m, "

@@ -88,6 +88,7 @@ namespace scree
         const WaterParameters &water = parameters.water;
         questions.ask("Water", "Density", water.density, 500, 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
         questions.ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1, "m/s (1 m/d = 1.16e-5 m/s)");
+        questions.ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3, "m (1 mm = 1e-3 m)");
         questions.ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
         questions.ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, pascal);
       }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/survey.h>
+#include <scree/points/drag_law.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
@@ -97,7 +98,6 @@ namespace scree
         scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;
         scene.water_fills_soil = parameters.water.is_where_soil_is();
         scene.water_density    = parameters.water.density;
-        scene.conductivity     = parameters.water.conductivity;
       }
 
       /// m, against gravity, above the lowest wall of the box.
@@ -203,6 +203,8 @@ namespace scree
             };
             scene.grain_density = soil_mass / grain_volume;
             scene.porosity      = 1. - grain_volume / soil_volume;
+            if (scene.has_water && scene.porosity > 0)
+              scene.conductivity = DragLaw(parameters.water, scene.porosity).conductivity(scene.porosity);
           }
         // The rank with the fastest wave tells its soil.
         const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);

@@ -76,11 +76,12 @@ namespace scree
     values.update_ghost_values();
   }
 
-  template class NodeValues<2, 3>; // pores; surroundings of a corner beside the water's surface
+  template class NodeValues<2, 3>; // surroundings of a corner beside the water's surface
   template class NodeValues<3, 3>;
   template class NodeValues<2, 4>; // fill of the corners; pressure forces on soil and water
   template class NodeValues<3, 4>;
   template class NodeValues<3, 6>;
-  template class NodeValues<2, 5>; // NodalField
+  template class NodeValues<2, 5>; // NodalField in 2D; pores
+  template class NodeValues<3, 5>;
   template class NodeValues<3, 7>;
 } // namespace scree

@@ -40,6 +40,13 @@ namespace scree
                       conductivity_law,
                       "constant; Kozeny-Carman: in proportion to n^3/(1-n)^2 of the porosity n.",
                       Patterns::Selection("constant|Kozeny-Carman"));
+    prm.add_parameter(
+        "Grain diameter",
+        grain_diameter,
+        "Diameter of the grains, m: the drag is that of Ergun 1952, which follows from diameter, porosity, "
+        "\"Density\" and \"Viscosity\", also where the flow is not slow; 0: \"Hydraulic conductivity\" "
+        "tells the drag.",
+        Patterns::Double(0));
     prm.add_parameter("Viscosity", viscosity, "Dynamic viscosity of the water, Pa s; 0: none.", Patterns::Double(0));
     prm.add_parameter(
         "Bulk modulus", bulk_modulus, "Bulk modulus of the water, Pa; 0: incompressible.", Patterns::Double(0));
@@ -69,7 +76,6 @@ namespace scree
   void WaterParameters::check(const std::vector<double> &gravity, const unsigned int n_bodies) const
   {
     const std::size_t dim = gravity.size();
-    const WaterParameters defaults;
     require_entry(
         !is_where_soil_is() || n_bodies > 0,
         "Water",
@@ -90,17 +96,9 @@ namespace scree
     if (point_sets_kind() == PointSets::single_point)
       check_single_point();
     if (n_bodies == 0)
-      {
-        const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
-        require_entry(conductivity == defaults.conductivity, "Water", "Hydraulic conductivity", conductivity, remedy);
-        require_entry(
-            conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
-        require_entry(fluidisation_porosity == defaults.fluidisation_porosity,
-                      "Water",
-                      "Fluidisation porosity",
-                      fluidisation_porosity,
-                      remedy);
-      }
+      check_without_soil();
+    if (grain_diameter > 0)
+      check_grain_diameter();
     // Gravity 0 is no fault: the pressure starts at 0.
     require_entry(initial_pressure_kind() == InitialPressure::none ||
                       std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
@@ -109,6 +107,37 @@ namespace scree
                   initial_pressure,
                   "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
                       number_text(gravity) + ". Change it, or write \"Initial pressure = none\".");
+  }
+
+
+  void WaterParameters::check_without_soil() const
+  {
+    const WaterParameters defaults;
+    const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
+    require_entry(conductivity == defaults.conductivity, "Water", "Hydraulic conductivity", conductivity, remedy);
+    require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
+    require_entry(grain_diameter == defaults.grain_diameter, "Water", "Grain diameter", grain_diameter, remedy);
+    require_entry(fluidisation_porosity == defaults.fluidisation_porosity,
+                  "Water",
+                  "Fluidisation porosity",
+                  fluidisation_porosity,
+                  remedy);
+  }
+
+
+  void WaterParameters::check_grain_diameter() const
+  {
+    const WaterParameters defaults;
+    const std::string remedy =
+        "the drag follows from \"Grain diameter\" = " + number_text(grain_diameter) + ". Remove one of the two.";
+    require_entry(conductivity == defaults.conductivity, "Water", "Hydraulic conductivity", conductivity, remedy);
+    require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
+    require_entry(viscosity > 0,
+                  "Water",
+                  "Viscosity",
+                  viscosity,
+                  "the drag of grains of \"Grain diameter\" = " + number_text(grain_diameter) +
+                      " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
   }
 
 

@@ -88,9 +88,14 @@ namespace scree
         const unsigned int *nodes = grid.nodes(cell.cell);
         const unsigned int n      = grid.n_nodes_1d();
         const NodeRow *moments    = mixture.grain_moments(record);
+        const double inertial     = cell.inertial / cell.grain_volume;
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          pores[nodes[i]][PoreField<dim>::grain_volume] +=
-              cell.effective_saturation * moments[(i / n) * Mixture<dim>::n_moments][i % n];
+          {
+            const double grains = moments[(i / n) * Mixture<dim>::n_moments][i % n];
+            double *pore        = pores[nodes[i]];
+            pore[PoreField<dim>::grain_volume] += cell.effective_saturation * grains;
+            pore[PoreField<dim>::inertial_drag] += inertial * grains;
+          }
       }
   }
 

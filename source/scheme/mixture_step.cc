@@ -116,8 +116,9 @@ namespace scree
     const double water_mass  = nodes.water[node][Field<dim>::mass];
     const double volume      = water_mass / water_density;
     const double pore_volume = pore[PoreField<dim>::pore_volume];
-    pore[PoreField<dim>::drag] *=
-        soil_mass <= 0. || water_mass <= 0. ? 0. : time_step * drag_share(volume, pore_volume);
+    const double share       = soil_mass <= 0. || water_mass <= 0. ? 0. : time_step * drag_share(volume, pore_volume);
+    pore[PoreField<dim>::drag] *= share;
+    pore[PoreField<dim>::inertial_drag] *= share;
     const double grains                  = pore[PoreField<dim>::grain_volume];
     pore[PoreField<dim>::grain_fraction] = grains > 0. ? grains / (grains + volume) : 0.;
   }
@@ -168,6 +169,10 @@ namespace scree
                                                     const SoilAndWater<dim> &before,
                                                     StepBalance<dim> &balance)
   {
+    const double inertial = nodes.pores[node][PoreField<dim>::inertial_drag];
+    double &drag          = nodes.pores[node][PoreField<dim>::drag];
+    const double slow     = drag;
+    drag += inertial * (before.water - before.soil).norm(); // Contacts are found with the drag of the start.
     DragPair<dim> pair      = pair_at(nodes, node);
     SoilAndWater<dim> after = pair.solve(impulses);
     if (pair.soil_mass > 0. && friction.find_contact(node, after.soil))
@@ -176,6 +181,12 @@ namespace scree
         count_walls(node, { friction.resistance(node), Tensor<1, dim>() }, balance);
         pair  = pair_at(nodes, node);
         after = pair.solve(impulses);
+      }
+    if (inertial > 0.)
+      {
+        pair.drag = slow;
+        pair.drag = drag = slow + inertial * pair.slip_speed(impulses, inertial);
+        after            = pair.solve(impulses);
       }
     if (pair.is_held())
       {

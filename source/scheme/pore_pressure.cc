@@ -2,10 +2,40 @@
 #include <scree/scheme/pore_pressure.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Speed at which water and the grains of a cell pass each other, m/s: mean over the grains.
+    template <int dim>
+    double mean_slip(const BackgroundGrid<dim> &grid,
+                     const Mixture<dim> &mixture,
+                     const unsigned int record,
+                     const NodalField<dim> &soil,
+                     const NodalField<dim> &water)
+    {
+      const MixtureCell<dim> &cell = mixture.cells()[record];
+      const unsigned int *nodes    = grid.nodes(cell.cell);
+      const unsigned int n         = grid.n_nodes_1d();
+      const NodeRow *moments       = mixture.grain_moments(record);
+      double sum                   = 0;
+      for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+        {
+          const double *of_soil  = soil[nodes[i]] + NodalField<dim>::velocity;
+          const double *of_water = water[nodes[i]] + NodalField<dim>::velocity;
+          double square          = 0;
+          for (unsigned int c = 0; c < dim; ++c)
+            square += (of_water[c] - of_soil[c]) * (of_water[c] - of_soil[c]);
+          sum += moments[(i / n) * Mixture<dim>::n_moments][i % n] * std::sqrt(square);
+        }
+      return sum / cell.grain_volume;
+    }
+  } // namespace
+
 
   template <int dim>
   PorePressure<dim>::PorePressure(const BackgroundGrid<dim> &grid,
@@ -85,12 +115,17 @@ namespace scree
 
 
   template <int dim>
-  void PorePressure<dim>::set_mobilities(Mixture<dim> &mixture, const double time_step) const
+  void PorePressure<dim>::set_mobilities(Mixture<dim> &mixture,
+                                         const NodalField<dim> &soil,
+                                         const NodalField<dim> &water,
+                                         const double time_step) const
   {
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
-    for (MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0)
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      if (MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
         {
+          if (cell.inertial > 0)
+            cell.drag += cell.inertial * mean_slip(grid, mixture, record, soil, water);
           const double V_s = cell.effective_saturation * cell.grain_volume, V_w = cell.water_volume;
           const double a = cell.soil_mass, b = cell.water_mass;
           double mobility = V_w * V_w / b;
@@ -132,7 +167,7 @@ namespace scree
     {
       const TimedPart part(timer, StepPart::pressure_system);
       divergence.integrate(mixture, soil, water, pores, source);
-      set_mobilities(mixture, time_step);
+      set_mobilities(mixture, soil, water, time_step);
       assemble(mixture, time_step, shear_modulus);
     }
     const TimedPart part(timer, StepPart::pressure_solve);

@@ -11,7 +11,6 @@ namespace scree
 
   namespace
   {
-    constexpr double standard_gravity  = 9.81; // m/s^2
     constexpr double smallest_porosity = 1e-3; // keeps the drag finite where grains overlap
 
     /// The linear functions of a cell's corners at one of its points.
@@ -152,23 +151,10 @@ namespace scree
       : grid(grid)
       , method(transfer.transfer_method())
       , pic_rate(transfer.pic_rate)
-      , unit_weight(water.density * standard_gravity)
-      , reference_conductivity(water.conductivity)
-      , conductivity_law(water.conductivity_law_kind())
-      , viscosity(water.viscosity)
+      , parameters(water)
       , pressure_slope(pressure_slope)
       , point_sets(water.point_sets_kind())
   {
-  }
-
-
-  template <int dim>
-  double WaterTransfer<dim>::conductivity(const double porosity, const double initial_porosity) const
-  {
-    if (conductivity_law == ConductivityLaw::constant)
-      return reference_conductivity;
-    const auto kozeny = [](const double n) { return n * n * n / ((1. - n) * (1. - n)); };
-    return reference_conductivity * kozeny(porosity) / kozeny(initial_porosity);
   }
 
 
@@ -178,14 +164,15 @@ namespace scree
   {
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const auto &layout            = soil.layout;
-    const double initial_porosity = std::max(1. - soil.density / soil.grain_density, smallest_porosity);
+    const DragLaw law(parameters, std::max(1. - soil.density / soil.grain_density, smallest_porosity));
     for (const auto &cell : soil.points.cells())
       {
-        const OpenKnots open      = grid.open_knots(cell.cell);
-        const unsigned int record = mixture.record(cell.cell);
-        NodeRow *moments          = mixture.grain_moments(record);
-        MixtureCell<dim> sums     = mixture.cells()[record];
-        auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
+        const OpenKnots open          = grid.open_knots(cell.cell);
+        const unsigned int record     = mixture.record(cell.cell);
+        NodeRow *moments              = mixture.grain_moments(record);
+        MixtureCell<dim> sums         = mixture.cells()[record];
+        auto *parts                   = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
+        const double grains_of_others = sums.grain_volume;
         NodeRow pore_sums[n_rows] = {}, drag_sums[n_rows] = {};
 
         for_each_point(cell, [&](const auto &point) {
@@ -196,7 +183,7 @@ namespace scree
           const double grains         = mass / soil.grain_density;
           const double porosity       = std::max(1. - grains / volume, smallest_porosity);
           const double pores_of_point = porosity * volume;
-          const double drag = pores_of_point * porosity * unit_weight / conductivity(porosity, initial_porosity);
+          const double drag           = volume * law.linear(porosity);
 
           add_moments(shape, grains, moments);
           add_row_sums(shape, pores_of_point, pore_sums);
@@ -211,6 +198,7 @@ namespace scree
           sums.pore_volume += pores_of_point;
           sums.drag += drag;
         });
+        sums.inertial += (sums.grain_volume - grains_of_others) * law.inertial();
         mixture.cells()[record] = sums;
         pores.activate_cell(cell.cell);
         scatter<dim, n>(pore_sums, grid.nodes(cell.cell), PoreField<dim>::pore_volume, pores);
@@ -251,8 +239,8 @@ namespace scree
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.add(shape, sums.template momentum_part<method>(shape, mass, properties + layout.velocity, affine));
-          if (carries_gradient(method) && viscosity > 0)
-            sums.add(shape, sums.force_part(shape, volume, viscous_stress<dim>(viscosity, affine)));
+          if (carries_gradient(method) && parameters.viscosity > 0)
+            sums.add(shape, sums.force_part(shape, volume, viscous_stress<dim>(parameters.viscosity, affine)));
           add_moments(shape, volume, moments);
           if (porosity != nullptr)
             add_row_sums(shape, volume * (porosity->inverse_at(shape.x) - 1.), grains_about);

@@ -40,6 +40,7 @@ namespace scree
     double density                = 1000;          ///< kg/m^3
     double conductivity           = 1e-3;          ///< m/s, at the initial porosity
     std::string conductivity_law  = "constant";    ///< constant | Kozeny-Carman
+    double grain_diameter         = 0;             ///< m; 0: the conductivity says what the drag is
     double viscosity              = 0;             ///< Pa s
     double bulk_modulus           = 0;             ///< Pa; 0: incompressible
     double fluidisation_porosity  = 1;             ///< soil looser than this bears no stress
@@ -63,6 +64,8 @@ namespace scree
 
   private:
     void check_single_point() const;
+    void check_without_soil() const;
+    void check_grain_diameter() const;
   };
 } // namespace scree
 

@@ -4,6 +4,8 @@
 
 #include <scree/grid/node_constraint.h>
 
+#include <cmath>
+
 namespace scree
 {
   /// A vector of the soil and one of the water at a node.
@@ -55,6 +57,26 @@ namespace scree
       else if (water_mass > 0)
         velocity.water = water / (water_mass + drag);
       return velocity;
+    }
+
+    /// Speed at which soil and water pass each other, m/s, if the drag is C + `inertial` times this speed: exact where
+    /// walls hold all or nothing of a phase, or the flow is along or across them.
+    /// @param inertial kg s/m
+    double slip_speed(const SoilAndWater<dim> &impulses, const double inertial) const
+    {
+      if (soil_mass <= 0 || water_mass <= 0)
+        return 0.;
+      const dealii::Tensor<1, dim> slip =
+          held_water.free_part(impulses.water) / water_mass - held_soil.free_part(impulses.soil) / soil_mass;
+      const double speed = slip.norm(); // without drag
+      if (speed == 0.)
+        return 0.;
+      // What an impulse of 1 N s between soil and water changes: w + compliance (C + inertial w) w = speed.
+      const dealii::Tensor<1, dim> along = slip / speed;
+      const double compliance =
+          held_soil.free_part(along).norm_square() / soil_mass + held_water.free_part(along).norm_square() / water_mass;
+      const double slowed = 1. + compliance * drag;
+      return 2. * speed / (slowed + std::sqrt(slowed * slowed + 4. * compliance * inertial * speed));
     }
 
     /// The impulses of the walls, N s: what the held directions need for the velocity there to stay 0.

@@ -51,7 +51,8 @@ namespace scree
     /// Adds what the walls of a node give to the balance.
     void count_walls(const unsigned int node, const SoilAndWater<dim> &impulses, StepBalance<dim> &balance) const;
 
-    /// Velocities from impulses; finds the contacts with walls and adds their friction to the impulses.
+    /// Velocities from impulses; finds the contacts with walls and adds their friction to the impulses. The drag at the
+    /// node's pores becomes that of the flow.
     SoilAndWater<dim> stop_at_walls(const MixtureNodes<dim> &nodes,
                                     const unsigned int node,
                                     SoilAndWater<dim> &impulses,

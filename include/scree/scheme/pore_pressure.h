@@ -34,7 +34,7 @@ namespace scree
 
     /// Solves for the change of the pressure over a step from the predicted velocities, whose ghosts hold values.
     /// Collective.
-    /// @param mixture gets the mobilities of its cells
+    /// @param mixture gets the drag of the predicted flow and the mobilities of its cells
     /// @param shear_modulus of the soil, Pa: scales the pressure projection
     void solve(Mixture<dim> &mixture,
                const NodalField<dim> &soil,
@@ -85,7 +85,10 @@ namespace scree
   private:
     static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
     void reinit_vectors();
-    void set_mobilities(Mixture<dim> &mixture, const double time_step) const;
+    void set_mobilities(Mixture<dim> &mixture,
+                        const NodalField<dim> &soil,
+                        const NodalField<dim> &water,
+                        const double time_step) const;
     void assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus);
 
     /// Adds a solve to the counts of the run.

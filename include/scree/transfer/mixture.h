@@ -45,7 +45,8 @@ namespace scree
     double soil_mass = 0, water_mass = 0;      ///< kg
     double grain_volume = 0, water_volume = 0; ///< m^3
     double pore_volume = 0;                    ///< of the soil, m^3
-    double drag        = 0;                    ///< of saturated soil: sum V n^2 rho_w g/k, N s/m
+    double drag        = 0;                    ///< of saturated soil in slow flow: sum V Q, N s/m
+    double inertial    = 0;                    ///< what drag grows by with the slip: sum V_grains b, N s^2/m^2
 
     // Sums weighted with the linear functions of the corners.
     AtCorners grains_at_corner{}, water_at_corner{}; ///< volume, m^3
@@ -122,6 +123,10 @@ namespace scree
 
     /// Moments of a cell's grains or water: rows of nodes of n_moments each.
     NodeRow *grain_moments(const unsigned int record)
+    {
+      return &grains[std::size_t(record) * moments_per_cell];
+    }
+    const NodeRow *grain_moments(const unsigned int record) const
     {
       return &grains[std::size_t(record) * moments_per_cell];
     }

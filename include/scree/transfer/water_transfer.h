@@ -2,7 +2,7 @@
 #ifndef scree_transfer_water_transfer_h
 #define scree_transfer_water_transfer_h
 
-#include <scree/points/water_parameters.h>
+#include <scree/points/drag_law.h>
 #include <scree/points/water_phase.h>
 #include <scree/transfer/mixture.h>
 #include <scree/transfer/transfer.h>
@@ -11,19 +11,20 @@ namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
   template <int dim>
-  class PoreField : public NodeValues<dim, 4>
+  class PoreField : public NodeValues<dim, 5>
   {
   public:
     static constexpr unsigned int pore_volume    = 0; ///< sum n V phi_i of the soil, m^3
-    static constexpr unsigned int drag           = 1; ///< sum V n^2 rho_w g/k phi_i, N s/m; then times the step, kg
+    static constexpr unsigned int drag           = 1; ///< sum V Q phi_i of slow flow, N s/m; then of the step's, kg
     static constexpr unsigned int grain_volume   = 2; ///< sum S V_grains phi_i, m^3
     static constexpr unsigned int grain_fraction = 2; ///< then: volume of grains over that of grains and water
+    static constexpr unsigned int inertial_drag  = 4; ///< sum V_grains b phi_i, N s^2/m^2; then times the step, kg s/m
 
     /// sum V_w (1/n_p - 1) phi_i, n_p the porosity about a point of water, m^3
     static constexpr unsigned int grains_about_water = 3;
 
     explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 4>(grid.numbering())
+        : NodeValues<dim, 5>(grid.numbering())
     {
     }
   };
@@ -67,9 +68,6 @@ namespace scree
                      const PressureOfCell<dim> &pressure,
                      const double time_step) const;
 
-    /// Hydraulic conductivity, m/s, of soil at a porosity.
-    double conductivity(const double porosity, const double initial_porosity) const;
-
   private:
     template <int n>
     void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
@@ -88,10 +86,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
     const double pic_rate;
-    const double unit_weight; ///< of water, N/m^3, at standard gravity: what defines the conductivity
-    const double reference_conductivity;
-    const ConductivityLaw conductivity_law;
-    const double viscosity;
+    const WaterParameters parameters;
     const double pressure_slope;
     const PointSets point_sets;
   };

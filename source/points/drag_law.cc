@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/drag_law.h>
+
+namespace scree
+{
+  namespace
+  {
+    constexpr double standard_gravity = 9.81; // m/s^2
+
+    double kozeny_carman(const double n)
+    {
+      return n * n * n / ((1. - n) * (1. - n));
+    }
+  } // namespace
+
+
+  DragLaw::DragLaw(const WaterParameters &water, const double initial_porosity)
+      : unit_weight(water.density * standard_gravity)
+      , is_constant(water.grain_diameter == 0 && water.conductivity_law_kind() == ConductivityLaw::constant)
+      , per_grains(water.grain_diameter > 0 ? 1.75 * water.density / water.grain_diameter : 0.)
+  {
+    if (water.grain_diameter > 0)
+      factor = unit_weight * water.grain_diameter * water.grain_diameter / (150. * water.viscosity);
+    else
+      factor = is_constant ? water.conductivity : water.conductivity / kozeny_carman(initial_porosity);
+  }
+
+
+  double DragLaw::conductivity(const double porosity) const
+  {
+    return is_constant ? factor : factor * kozeny_carman(porosity);
+  }
+
+
+  double DragLaw::linear(const double porosity) const
+  {
+    return porosity * porosity * unit_weight / conductivity(porosity);
+  }
+} // namespace scree
