@@ -17,17 +17,42 @@ namespace scree
   {
     prm.enter_subsection(name);
     seeding.add_parameters(prm);
+    seepage.add_parameters(prm);
     material.add_parameters(prm);
     initial_state.add_parameters(prm);
     prm.leave_subsection();
   }
 
 
-  void BodyParameters::check(const std::vector<double> &gravity) const
+  void BodyParameters::check(const std::vector<double> &gravity, const WaterParameters *water) const
   {
     seeding.check(name, gravity.size());
+    seepage.check(name, water);
     material.check(name);
     initial_state.check(name, gravity);
+    if (is_rigid())
+      check_rigid();
+  }
+
+
+  void BodyParameters::check_rigid() const
+  {
+    require_entry(seeding.initial_velocity.empty(),
+                  name,
+                  "Initial velocity",
+                  seeding.initial_velocity,
+                  "\"Material = rigid\" does not move. Remove one of the two.");
+    require_entry(initial_state.stress_kind() == InitialStress::none,
+                  name + "/Initial state",
+                  "Type",
+                  initial_state.type,
+                  "the stress of \"Material = rigid\" is not known. Remove the entry.");
+  }
+
+
+  bool BodyParameters::is_rigid() const
+  {
+    return material.law_kind() == LawKind::rigid;
   }
 
 
@@ -195,7 +220,7 @@ namespace scree
                       "\" its affine field grows without bound, as the inertia of the nodes around a point vanishes at "
                       "cell faces. Write \"Basis = spline\", or another method.");
     for (const auto &body : bodies)
-      body.check(gravity);
+      body.check(gravity, has_water ? &water : nullptr);
     if (has_water)
       check_water();
     if (bodies.empty())

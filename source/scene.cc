@@ -78,6 +78,8 @@ namespace scree
                             layout,
                             grid.triangulation(),
                             grid.mapping());
+        bodies.back().is_rigid = body.is_rigid();
+        bodies.back().seepage  = body.seepage;
         if (water_rides)
           water.emplace_back(parameters.water.density, affine, bodies.back());
       }
@@ -111,7 +113,29 @@ namespace scree
   void Scene<dim>::reinit()
   {
     grid.distribute_nodes();
-    constraints.reinit();
+    constraints.hold_soil(rigid_nodes());
+  }
+
+
+  template <int dim>
+  std::vector<char> Scene<dim>::rigid_nodes() const
+  {
+    if (std::none_of(bodies.begin(), bodies.end(), [](const auto &body) { return body.is_rigid; }))
+      return {};
+    NodalField<dim> field(grid); // sums over ranks: the points around a node may be another's
+    for (const auto &body : bodies)
+      if (body.is_rigid)
+        for (const auto &cell : body.points.cells())
+          {
+            field.activate_cell(cell.cell);
+            for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+              field[grid.nodes(cell.cell)[i]][NodalField<dim>::mass] = 1.;
+          }
+    field.add_contributions();
+    std::vector<char> is_rigid(grid.n_owned_nodes());
+    for (unsigned int node = 0; node < is_rigid.size(); ++node)
+      is_rigid[node] = field[node][NodalField<dim>::mass] > 0.;
+    return is_rigid;
   }
 
 
@@ -119,6 +143,7 @@ namespace scree
   void Scene<dim>::fill()
   {
     fill_with_points();
+    constraints.hold_soil(rigid_nodes());
     set_initial_state();
   }
 

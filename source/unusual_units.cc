@@ -30,8 +30,10 @@ namespace scree
     };
 
 
-    constexpr char degrees[] = "degrees (1 rad = 57.3 degrees)";
-    constexpr char pascal[]  = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)";
+    constexpr char degrees[]           = "degrees (1 rad = 57.3 degrees)";
+    constexpr char pascal[]            = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)";
+    constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
+    constexpr char diameter_unit[]     = "m (1 mm = 1e-3 m)";
 
 
     void ask_of_law(const MaterialParameters &material, const std::string &body, Questions &questions)
@@ -74,6 +76,8 @@ namespace scree
             body.name, "Grain density", body.seeding.grain_density, 500, 2e4, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
         questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, pascal);
         ask_of_law(body.material, body.name, questions);
+        questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
+        questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
       }
     const auto walls = parameters.boundaries.walls(3);
     for (unsigned int face = 0; face < walls.size(); ++face)
@@ -87,8 +91,8 @@ namespace scree
       {
         const WaterParameters &water = parameters.water;
         questions.ask("Water", "Density", water.density, 500, 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
-        questions.ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1, "m/s (1 m/d = 1.16e-5 m/s)");
-        questions.ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3, "m (1 mm = 1e-3 m)");
+        questions.ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1, conductivity_unit);
+        questions.ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3, diameter_unit);
         questions.ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
         questions.ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, pascal);
       }

@@ -12,6 +12,7 @@
 #include <scree/output/output_parameters.h>
 #include <scree/output/probe_parameters.h>
 #include <scree/points/seeding.h>
+#include <scree/points/seepage_parameters.h>
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
 #include <scree/scheme/explicit_step.h>
@@ -27,13 +28,18 @@ namespace scree
   {
     std::string name;
     SeedingParameters seeding;
+    SeepageParameters seepage;
     MaterialParameters material;
     InitialStateParameters initial_state;
 
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations of entries.
-    void check(const std::vector<double> &gravity) const;
+    /// @param water null in a dry scene
+    void check(const std::vector<double> &gravity, const WaterParameters *water) const;
+
+    /// Whether the body keeps its place.
+    bool is_rigid() const;
 
     /// Volume of pores over total volume, as the entry or the law says.
     double initial_porosity() const;
@@ -43,6 +49,9 @@ namespace scree
 
     /// Of pressure waves in the dry body at the entry of its pressure, m/s; 0 without stiffness.
     double wave_speed() const;
+
+  private:
+    void check_rigid() const;
   };
 
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.

@@ -72,6 +72,9 @@ namespace scree
     void set_velocity_gradients();
     void set_initial_state();
 
+    /// Whether points of rigid bodies act on the owned nodes; empty without such bodies. Collective.
+    std::vector<char> rigid_nodes() const;
+
     /// Adds one that left the box through the face of this name.
     void lose(const std::string &name,
               const LostPoint<dim> &point,

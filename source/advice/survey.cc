@@ -6,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace scree
@@ -72,7 +73,8 @@ namespace scree
         read_entries();
         find_height();
         for (const auto &body : simulation.bodies())
-          look_at_soil(body);
+          if (!body.is_rigid)
+            look_at_soil(body);
         for (const auto &part : simulation.water_phases())
           look_at_water(part);
         finish();
@@ -86,9 +88,10 @@ namespace scree
         scene.end_time = parameters.end_time;
         scene.gravity =
             Tensor<1, dim>(make_array_view(parameters.gravity.data(), parameters.gravity.data() + dim)).norm();
-        scene.cell_size  = grid.cell_size();
-        scene.n_cells    = grid.triangulation().n_global_active_cells();
-        scene.has_soil   = !parameters.bodies.empty();
+        scene.cell_size = grid.cell_size();
+        scene.n_cells   = grid.triangulation().n_global_active_cells();
+        scene.has_soil  = std::any_of(
+            parameters.bodies.begin(), parameters.bodies.end(), [](const auto &body) { return !body.is_rigid(); });
         scene.is_elastic = scene.has_soil;
         scene.has_water  = parameters.has_water;
         scene.has_changing_forces =
@@ -164,6 +167,17 @@ namespace scree
         occupy(part.points());
       }
 
+      /// Of the bodies that move, at the start, m/s.
+      double smallest_conductivity() const
+      {
+        double smallest = std::numeric_limits<double>::infinity();
+        for (const BodyParameters &body : parameters.bodies)
+          if (const double porosity = body.initial_porosity(); porosity > 0 && !body.is_rigid())
+            smallest = std::min(smallest,
+                                DragLaw(body.seepage.in_place_of(parameters.water), porosity).conductivity(porosity));
+        return std::isfinite(smallest) ? smallest : parameters.water.conductivity;
+      }
+
       void keep_speed(const double *velocity)
       {
         scene.initial_speed =
@@ -203,8 +217,8 @@ namespace scree
             };
             scene.grain_density = soil_mass / grain_volume;
             scene.porosity      = 1. - grain_volume / soil_volume;
-            if (scene.has_water && scene.porosity > 0)
-              scene.conductivity = DragLaw(parameters.water, scene.porosity).conductivity(scene.porosity);
+            if (scene.has_water)
+              scene.conductivity = smallest_conductivity();
           }
         // The rank with the fastest wave tells its soil.
         const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);

@@ -25,12 +25,19 @@ namespace scree
 
 
   template <int dim>
-  NodeConstraints<dim> Constraints<dim>::of_faces(const std::uint8_t faces) const
+  NodeConstraints<dim> Constraints<dim>::of_faces(const std::uint8_t faces, const bool is_rigid) const
   {
     NodeConstraints<dim> result;
-    for (const NodeConstraint<dim> &constraint : walls.constraints(faces))
-      result.add(constraint);
-    result.soil_faces = walls.bearing_faces(faces);
+    result.is_rigid = is_rigid;
+    if (is_rigid) // holds the soil in place of the walls
+      for (unsigned int a = 0; a < dim; ++a)
+        result.add({ Point<dim>::unit_vector(a) });
+    else
+      {
+        for (const NodeConstraint<dim> &constraint : walls.constraints(faces))
+          result.add(constraint);
+        result.soil_faces = walls.bearing_faces(faces);
+      }
     if (water_walls)
       {
         result.water_held  = water_walls->held_directions(faces);
@@ -41,24 +48,35 @@ namespace scree
 
 
   template <int dim>
+  void Constraints<dim>::hold_soil(const std::vector<char> &is_rigid)
+  {
+    rigid = is_rigid;
+    reinit();
+  }
+
+
+  template <int dim>
   void Constraints<dim>::reinit()
   {
     set_of_node.assign(grid.n_owned_nodes(), free);
     sets.clear();
     // Nodes on the same faces share a set.
-    std::map<std::uint8_t, unsigned int> set_of_faces;
+    std::map<std::pair<std::uint8_t, bool>, unsigned int> set_of_kind;
     for (unsigned int node = 0; node < set_of_node.size(); ++node)
-      if (const std::uint8_t faces = grid.node_faces(node); faces != 0)
-        {
-          const auto [entry, is_new] = set_of_faces.emplace(faces, free);
-          if (is_new)
-            if (const NodeConstraints<dim> constraints = of_faces(faces); constraints.any())
-              {
-                entry->second = sets.size();
-                sets.push_back(constraints);
-              }
-          set_of_node[node] = entry->second;
-        }
+      {
+        const std::uint8_t faces = grid.node_faces(node);
+        const bool is_rigid      = !rigid.empty() && rigid[node];
+        if (faces == 0 && !is_rigid)
+          continue;
+        const auto [entry, is_new] = set_of_kind.emplace(std::make_pair(faces, is_rigid), free);
+        if (is_new)
+          if (const NodeConstraints<dim> constraints = of_faces(faces, is_rigid); constraints.any())
+            {
+              entry->second = sets.size();
+              sets.push_back(constraints);
+            }
+        set_of_node[node] = entry->second;
+      }
     if (!gate)
       return;
     NodeConstraints<dim> held;

@@ -3,6 +3,7 @@
 #include <scree/input/input_error.h>
 #include <scree/material/hencky_material.h>
 #include <scree/material/linear_elastic_3d.h>
+#include <scree/material/rigid.h>
 #include <scree/material/table.h>
 
 using namespace dealii;
@@ -14,6 +15,7 @@ namespace scree
     const char linear_elastic_name[] = "linear elastic";
     const char mohr_coulomb_name[]   = "Mohr-Coulomb";
     const char nor_sand_name[]       = "Nor-Sand";
+    const char rigid_name[]          = "rigid";
 
     const char linear_elastic_subsection[] = "Linear elastic";
   } // namespace
@@ -24,8 +26,10 @@ namespace scree
     prm.add_parameter(
         "Material",
         law,
-        "Constitutive law; its entries are in the subsection of its name.",
-        Patterns::Selection(std::string(linear_elastic_name) + "|" + mohr_coulomb_name + "|" + nor_sand_name));
+        "Constitutive law; its entries are in the subsection of its name. rigid: the body does not move, whatever acts "
+        "on it, and costs no stress; water flows through its pores.",
+        Patterns::Selection(std::string(linear_elastic_name) + "|" + mohr_coulomb_name + "|" + nor_sand_name + "|" +
+                            rigid_name));
     prm.enter_subsection(linear_elastic_subsection);
     linear_elastic.add_parameters(prm);
     prm.leave_subsection();
@@ -51,6 +55,8 @@ namespace scree
       case LawKind::nor_sand:
         nor_sand.check(subsection_path(subsection, nor_sand_name));
         break;
+      case LawKind::rigid:
+        break;
       }
   }
 
@@ -61,6 +67,8 @@ namespace scree
       return LawKind::linear_elastic;
     if (law == mohr_coulomb_name)
       return LawKind::mohr_coulomb;
+    if (law == rigid_name)
+      return LawKind::rigid;
     AssertThrow(law == nor_sand_name, ExcMessage("There is no material \"" + law + "\"."));
     return LawKind::nor_sand;
   }
@@ -95,6 +103,8 @@ namespace scree
           return std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
       case LawKind::mohr_coulomb:
         return std::make_unique<HenckyMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
+      case LawKind::rigid:
+        return std::make_unique<Rigid<dim>>();
       default:
         return std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(parameters.nor_sand));
       }

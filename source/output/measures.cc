@@ -209,7 +209,8 @@ namespace scree
   {
     Views<dim> masses;
     for (const auto &body : bodies)
-      masses.push_back({ body.points, body.layout.mass });
+      if (!body.is_rigid)
+        masses.push_back({ body.points, body.layout.mass });
     return percentiles(masses, grid, axis, fractions);
   }
 
@@ -232,7 +233,8 @@ namespace scree
   {
     Views<dim> stresses;
     for (const auto &body : bodies)
-      stresses.push_back({ body.points, body.layout.stress });
+      if (!body.is_rigid)
+        stresses.push_back({ body.points, body.layout.stress });
     return oscillation(stresses, grid, [](const double *stress) { return mean_effective_stress(stress); });
   }
 

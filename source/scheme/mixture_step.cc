@@ -108,6 +108,15 @@ namespace scree
 
 
   template <int dim>
+  void MixtureStep<dim>::stand_in_for_rigid(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  {
+    const NodeConstraints<dim> *walls = constraints.at(node);
+    if (walls != nullptr && walls->is_rigid && nodes.soil[node][Field<dim>::mass] <= 0.)
+      nodes.soil[node][Field<dim>::mass] = nodes.water[node][Field<dim>::mass];
+  }
+
+
+  template <int dim>
   void
   MixtureStep<dim>::finish_pores(const MixtureNodes<dim> &nodes, const unsigned int node, const double time_step) const
   {
@@ -209,6 +218,7 @@ namespace scree
       {
         if (is_empty(nodes, node))
           continue;
+        stand_in_for_rigid(nodes, node);
         finish_pores(nodes, node, time_step);
         SoilAndWater<dim> before{ velocity_of_sums<dim>(nodes.soil[node]), velocity_of_sums<dim>(nodes.water[node]) };
         SoilAndWater<dim> impulses    = impulses_at(nodes, node, time_step, balance);

@@ -134,7 +134,9 @@ namespace scree
               const double C = splitting == Splitting::classical
                                    ? 0.
                                    : drag_share(cell.water_volume, cell.pore_volume) * cell.drag * time_step;
-              mobility       = (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));
+              mobility       = cell.is_rigid
+                                   ? V_w * V_w / (b + C) // an endless mass a
+                                   : (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));
             }
           cell.mobility = mobility / (cell_volume * std::min(cell.fill, 1.));
         }

@@ -35,7 +35,8 @@ namespace scree
     load_time = time;
     field.clear();
     for (const auto &body : bodies)
-      transfer.to_grid(body, field);
+      if (!body.is_rigid)
+        transfer.to_grid(body, field);
     for (auto &one : loads)
       one.find_areas(bodies);
   }
@@ -55,14 +56,15 @@ namespace scree
   void SoilMotion<dim>::to_points(const double time_step, StepReport<dim> &report)
   {
     for (auto &body : bodies)
-      {
-        const MotionReport motion = transfer.to_points(body, field, time_step);
-        report.speeds.include_wave(
-            body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
-        report.speeds.include_point(motion.largest_speed);
-        report.material.add(motion.material);
-        report.n_updates += motion.material.n_updates;
-      }
+      if (!body.is_rigid)
+        {
+          const MotionReport motion = transfer.to_points(body, field, time_step);
+          report.speeds.include_wave(
+              body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
+          report.speeds.include_point(motion.largest_speed);
+          report.material.add(motion.material);
+          report.n_updates += motion.material.n_updates;
+        }
     for (auto &one : loads)
       report.balance.load_work += one.move(field, load_time, time_step);
   }

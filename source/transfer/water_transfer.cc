@@ -164,7 +164,8 @@ namespace scree
   {
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const auto &layout            = soil.layout;
-    const DragLaw law(parameters, std::max(1. - soil.density / soil.grain_density, smallest_porosity));
+    const DragLaw law(soil.seepage.in_place_of(parameters),
+                      std::max(1. - soil.density / soil.grain_density, smallest_porosity));
     for (const auto &cell : soil.points.cells())
       {
         const OpenKnots open          = grid.open_knots(cell.cell);
@@ -198,6 +199,7 @@ namespace scree
           sums.pore_volume += pores_of_point;
           sums.drag += drag;
         });
+        sums.is_rigid = sums.is_rigid || soil.is_rigid;
         sums.inertial += (sums.grain_volume - grains_of_others) * law.inertial();
         mixture.cells()[record] = sums;
         pores.activate_cell(cell.cell);

@@ -11,7 +11,8 @@
 
 namespace scree
 {
-  /// The constraints of the nodes of this rank: of the walls of the box and, while it stands, of a gate.
+  /// The constraints of the nodes of this rank: of the walls of the box, of rigid bodies and, while it stands, of a
+  /// gate.
   template <int dim>
   class Constraints
   {
@@ -23,6 +24,10 @@ namespace scree
 
     /// Fits the constraints to the grid's current nodes.
     void reinit();
+
+    /// The same, with nodes at which soil does not move from here on.
+    /// @param is_rigid of the owned nodes; empty: none
+    void hold_soil(const std::vector<char> &is_rigid);
 
     /// Soil and water do not move at the nodes in this region until the gate is opened.
     void close_gate(std::unique_ptr<Region<dim>> region);
@@ -44,13 +49,14 @@ namespace scree
   private:
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
-    NodeConstraints<dim> of_faces(const std::uint8_t faces) const;
+    NodeConstraints<dim> of_faces(const std::uint8_t faces, const bool is_rigid) const;
 
     const BackgroundGrid<dim> &grid;
     const BoundaryConditions<dim> &walls;
     const WaterBoundaryConditions<dim> *water_walls;
     const bool is_unilateral;
     std::unique_ptr<Region<dim>> gate;
+    std::vector<char> rigid; // by owned node; empty: none
 
     std::vector<unsigned int> set_of_node; // by owned node
     std::vector<NodeConstraints<dim>> sets;

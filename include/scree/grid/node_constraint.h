@@ -118,6 +118,7 @@ namespace scree
     HeldDirections<dim> soil_held;             ///< by the fixed ones
     HeldDirections<dim> water_held;            ///< free slip holds the normal, no slip all directions
     BearingFaces<dim> soil_faces, water_faces; ///< which walls these are
+    bool is_rigid = false;                     ///< whether rigid soil stands here, which brings no mass to the node
 
     void add(const NodeConstraint<dim> &constraint)
     {

@@ -17,7 +17,8 @@ namespace scree
   {
     linear_elastic,
     mohr_coulomb,
-    nor_sand
+    nor_sand,
+    rigid
   };
 
   /// Entry "Material" and the subsections of all laws; those of laws that are not chosen are read but not used.

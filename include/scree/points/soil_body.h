@@ -5,6 +5,7 @@
 #include <scree/material/material.h>
 #include <scree/points/point_set.h>
 #include <scree/points/property_layout.h>
+#include <scree/points/seepage_parameters.h>
 
 #include <cmath>
 #include <memory>
@@ -22,6 +23,8 @@ namespace scree
     std::unique_ptr<Material<dim>> material;
     PropertyLayout<dim> layout;
     PointSet<dim> points;
+    bool is_rigid = false; ///< its points keep their place and bear any stress
+    SeepageParameters seepage;
 
     SoilBody(const std::string &name,
              const double density,

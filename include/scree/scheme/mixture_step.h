@@ -39,6 +39,9 @@ namespace scree
   private:
     DragPair<dim> pair_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 
+    /// Any mass for rigid soil, so that it takes part in drag: as it is held, the mass does not matter.
+    void stand_in_for_rigid(const MixtureNodes<dim> &nodes, const unsigned int node) const;
+
     /// Turns the sums at a node's pores into drag times step and the fraction of grains.
     void finish_pores(const MixtureNodes<dim> &nodes, const unsigned int node, const double time_step) const;
 

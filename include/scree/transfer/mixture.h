@@ -45,6 +45,7 @@ namespace scree
     double soil_mass = 0, water_mass = 0;      ///< kg
     double grain_volume = 0, water_volume = 0; ///< m^3
     double pore_volume = 0;                    ///< of the soil, m^3
+    bool is_rigid      = false;                ///< whether the soil is held at its place
     double drag        = 0;                    ///< of saturated soil in slow flow: sum V Q, N s/m
     double inertial    = 0;                    ///< what drag grows by with the slip: sum V_grains b, N s^2/m^2
 
