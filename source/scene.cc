@@ -37,6 +37,14 @@ namespace scree
         most = std::max(most, body.seeding.points_per_cell);
       return most;
     }
+
+    unsigned int fewest_points_per_cell(const Parameters &parameters)
+    {
+      unsigned int fewest = numbers::invalid_unsigned_int;
+      for (const BodyParameters &body : parameters.bodies)
+        fewest = std::min(fewest, body.seeding.points_per_cell);
+      return fewest;
+    }
   } // namespace
 
 
@@ -103,6 +111,7 @@ namespace scree
                                                 parameters.water,
                                                 parameters.pressure,
                                                 bodies,
+                                                fewest_points_per_cell(parameters),
                                                 water,
                                                 loads,
                                                 timer);

@@ -17,6 +17,7 @@ namespace scree
                                     const WaterParameters &water_parameters,
                                     const PressureParameters &pressure_parameters,
                                     std::list<SoilBody<dim>> &bodies,
+                                    const unsigned int soil_points,
                                     std::list<WaterPhase<dim>> &water,
                                     std::list<SurfaceLoad<dim>> &loads,
                                     TimerOutput &timer)
@@ -31,7 +32,7 @@ namespace scree
                  transfer_parameters,
                  water_parameters,
                  pressure_parameters.previous_pressure_kind() == PreviousPressure::average ? 0. : 1.)
-      , mixture(grid)
+      , mixture(grid, soil_points)
       , pores(grid)
       , water_field(grid)
       , pressure(grid, water_walls, pressure_parameters, water_parameters.bulk_modulus, timer)

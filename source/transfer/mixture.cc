@@ -6,8 +6,9 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  Mixture<dim>::Mixture(const BackgroundGrid<dim> &grid)
+  Mixture<dim>::Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points)
       : grid(grid)
+      , soil_points(soil_points)
       , moments_per_cell(Utilities::pow(grid.n_nodes_1d(), dim - 1) * n_moments)
   {
     reinit();

@@ -97,7 +97,7 @@ void test(const std::string &basis, std::ostream &out)
 
   TransferParameters transfer_parameters;
   const WaterTransfer<dim> transfer(grid, transfer_parameters, water_parameters, 1.);
-  Mixture<dim> mixture(grid);
+  Mixture<dim> mixture(grid, seeding.points_per_cell);
   PoreField<dim> pores(grid);
   NodalField<dim> soil_field(grid), water_field(grid);
   transfer.soil_to_grid(soil, mixture, pores);

@@ -60,7 +60,7 @@ namespace
                grid.triangulation(),
                grid.mapping())
         , water(1000., true, grid.triangulation(), grid.mapping())
-        , mixture(grid)
+        , mixture(grid, points_of_soil)
         , pores(grid)
         , soil_field(grid)
         , water_field(grid)
@@ -69,7 +69,7 @@ namespace
         {
           SeedingParameters seeding;
           seeding.region           = soil_region;
-          seeding.points_per_cell  = dim == 2 ? 4 : 2;
+          seeding.points_per_cell  = points_of_soil;
           seeding.initial_porosity = 0.4;
           seed(soil, seeding, grid.triangulation(), grid.cell_size());
         }
@@ -126,6 +126,8 @@ namespace
           [](const unsigned int) { return std::array<double, (1 << dim)>(); },
           time_step);
     }
+
+    static constexpr unsigned int points_of_soil = dim == 2 ? 4 : 2; // of a cell, along each axis
 
     using Field = NodalField<dim>;
     const BackgroundGrid<dim> grid;

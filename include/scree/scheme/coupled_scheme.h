@@ -21,6 +21,7 @@ namespace scree
   class CoupledScheme : public Scheme<dim>
   {
   public:
+    /// @param soil_points see Mixture
     CoupledScheme(const BackgroundGrid<dim> &grid,
                   const Constraints<dim> &constraints,
                   const WaterBoundaryConditions<dim> &water_walls,
@@ -30,6 +31,7 @@ namespace scree
                   const WaterParameters &water_parameters,
                   const PressureParameters &pressure_parameters,
                   std::list<SoilBody<dim>> &bodies,
+                  const unsigned int soil_points,
                   std::list<WaterPhase<dim>> &water,
                   std::list<SurfaceLoad<dim>> &loads,
                   dealii::TimerOutput &timer);

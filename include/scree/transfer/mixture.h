@@ -99,7 +99,8 @@ namespace scree
     /// Monomials in a pressure's gradient: all products of coordinates but the one of all axes.
     static constexpr unsigned int n_moments = (1 << dim) - 1;
 
-    explicit Mixture(const BackgroundGrid<dim> &grid);
+    /// @param soil_points of a cell along each axis at the start; of the body that has fewest
+    Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points);
 
     /// Fits the mixture to the grid's current cells.
     void reinit();
@@ -140,7 +141,7 @@ namespace scree
     PorosityOfParts<dim> &soil_parts(const unsigned int record)
     {
       if (record >= porosities.size())
-        porosities.resize(record + 1);
+        porosities.resize(record + 1, PorosityOfParts<dim>(soil_points));
       return porosities[record];
     }
 
@@ -174,7 +175,7 @@ namespace scree
                       const unsigned int first) const;
 
     const BackgroundGrid<dim> &grid;
-    const unsigned int moments_per_cell;
+    const unsigned int soil_points, moments_per_cell;
     std::vector<MixtureCell<dim>> records;
     std::vector<unsigned int> record_of_cell; // by active cell index
     std::vector<NodeRow> grains, water;

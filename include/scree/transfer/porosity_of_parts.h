@@ -3,18 +3,25 @@
 #define scree_transfer_porosity_of_parts_h
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <array>
 
 namespace scree
 {
-  /// The porosity about points of water: of the soil in the part of their cell that holds them. A cell is cut in half
-  /// along each axis: a face of soil shows within half a cell, and the soil's points may lie anyhow.
+  /// The porosity about points of water: of the soil in the part of their cell that holds them. The parts are those
+  /// that a point of soil has at the start, but for no finer than a quarter (3D: half) of a cell along each axis.
   template <int dim>
   class PorosityOfParts
   {
   public:
+    /// @param soil_points in a cell along each axis, at the start
+    explicit PorosityOfParts(const unsigned int soil_points)
+        : n_1d(std::min(soil_points, most_1d))
+    {
+    }
+
     /// Adds a point of soil.
     ///
     /// @param x its place in the cell
@@ -29,12 +36,15 @@ namespace scree
 
     /// Finds the porosities, when all soil is in. Soil that does not fill its part shares it with free water.
     ///
-    /// @param volume of water and wet grains in the cell, at most that of the cell, m^3
-    void find(const double volume)
+    /// @param filled volume of water and wet grains in the cell, at most that of the cell, m^3
+    void find(const double filled)
     {
-      for (Part &part : parts)
-        part.inverse_porosity =
-            1. / std::max(smallest, 1. - part.grains / std::max({ part.volume, volume / n_parts, tiny }));
+      // Less than `whole` is no scatter of points: to take it for that lends water at a face the grains of its
+      // neighbourhood, and consolidating mud blows up.
+      const double whole = filled / dealii::Utilities::fixed_power<dim>(n_1d);
+      for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
+        if (parts[p].volume > 0.)
+          parts[p].inverse_porosity = 1. / std::max(smallest, 1. - parts[p].grains / std::max(parts[p].volume, whole));
     }
 
     /// 1 over the porosity about a place of the cell, -; 1 without soil.
@@ -50,19 +60,19 @@ namespace scree
       double inverse_porosity = 1;
     };
 
-    static unsigned int part_of(const dealii::Point<dim> &x)
+    unsigned int part_of(const dealii::Point<dim> &x) const
     {
       unsigned int part = 0;
       for (unsigned int a = 0; a < dim; ++a)
-        part |= (x[a] > 0.5) << a;
+        part = part * n_1d + std::min(n_1d - 1, static_cast<unsigned int>(std::max(0., x[a] * n_1d)));
       return part;
     }
 
-    static constexpr unsigned int n_parts = 1 << dim;
-    static constexpr double smallest      = 0.1;   // where grains crowd water shall not race
-    static constexpr double tiny          = 1e-99; // m^3
+    static constexpr unsigned int most_1d = dim == 2 ? 4 : 2;
+    static constexpr double smallest      = 0.1; // where grains crowd water shall not race
 
-    std::array<Part, n_parts> parts;
+    unsigned int n_1d; // parts along an axis
+    std::array<Part, dealii::Utilities::pow(most_1d, dim)> parts;
   };
 } // namespace scree
 
