@@ -52,6 +52,8 @@ def measure(run):
     pressures, heights = [], []
     for state in reference():
         soil, water = run.points(state.time), run.points(state.time, "water")
+        if soil.positions.shape[0] % n_rows:  # the run has lost soil
+            return {"ended": False, "error": math.nan, "error of p": math.nan, "error of heights": math.nan}
         rows = np.sort(soil.positions[:, 1]).reshape(n_rows, -1).mean(axis=1)  # points of a row stay side by side
         material_height = (np.arange(n_rows) + 0.5) / n_rows
         exact = np.interp(material_height, [0, *state.material_height, 1], [0, *state.height, 1 - state.settlement])
@@ -70,22 +72,22 @@ def verdict(rows):
     rejected = {basis: failed(rows, basis) for basis in ("linear", "quadratic")}
     best = at_finest(rows, DEFAULTS)
     return [
-        Claim(f"Where points cross cells, only splines serve: with linear functions the run stops at h = {', '.join(f'{h:.2g}' for h in rejected['linear'])} m.",
+        Claim(f"Where points cross cells, only splines serve: with linear functions the run stops or loses soil at h = {', '.join(f'{h:.2g}' for h in rejected['linear'])} m.",
               len(rejected["linear"]) > 0 and not failed(rows, DEFAULTS)),
         Claim(f"So it does with quadratic elements at h = {', '.join(f'{h:.2g}' for h in rejected['quadratic'])} m.", len(rejected["quadratic"]) == 3, quick=False),
-        Claim(f"Points count here, as they cross cells and water leaves the soil: 2 x 2 make {ratio(rows, '2 x 2 points'):.2g} times the error of 4 x 4; "
-              f"3 x 3 are enough: {ratio(rows, '3 x 3 points'):.2g} times.",
-              ratio(rows, "2 x 2 points") > 2 and ratio(rows, "3 x 3 points") < 1.2),
-        Claim(f"6 x 6 points make {at_finest(rows, '6 x 6 points') / best:.2g} times the error on the finest mesh for "
-              f"{at_finest(rows, '6 x 6 points', 'core-seconds') / at_finest(rows, DEFAULTS, 'core-seconds'):.2g} times the time.",
-              at_finest(rows, "6 x 6 points") < 0.8 * best, quick=False),
+        Claim(f"Points count here, as they cross cells and water leaves the soil: 3 x 3 make {ratio(rows, '3 x 3 points'):.2g} times the error of 4 x 4, 2 x 2 "
+              f"{ratio(rows, '2 x 2 points'):.2g} times, and neither falls as it should with the mesh. The default is right.",
+              ratio(rows, "3 x 3 points") > 1.2 and ratio(rows, "2 x 2 points") > 2),
+        Claim(f"6 x 6 points do not pay: on the finest mesh they make {at_finest(rows, '6 x 6 points') / best:.2g} times the error for "
+              f"{at_finest(rows, '6 x 6 points', 'core-seconds') / at_finest(rows, DEFAULTS, 'core-seconds'):.2g} times the time, on the others less.",
+              at_finest(rows, "6 x 6 points") > best, quick=False),
         Claim(f"F-bar is not needed and does little harm: {ratio(rows, 'modified F-bar'):.2g} times the error with the modified one.",
               0.8 < ratio(rows, "modified F-bar") < 1.4),
         Claim(f"The transfer hardly matters (APIC {ratio(rows, 'APIC'):.2g}, FLIP {ratio(rows, 'FLIP'):.2g} times the error of TPIC), nor does the step: Courant number 0.2 "
               f"{ratio(rows, 'Courant number 0.2'):.2g}, 0.9 {ratio(rows, 'Courant number 0.9'):.2g} times.",
               0.8 < ratio(rows, "APIC") < 1.1 and 0.8 < ratio(rows, "FLIP") < 1.4 and ratio(rows, "Courant number 0.9") < 1.1, quick=False),
         Claim(f"Core-seconds for the same error, over those of the defaults (order {order(rows):.2g} only, so that these numbers are rough): " + listed(costs(rows))
-              + ".", costs(rows)["2 x 2 points"] > 2, quick=False),
+              + ".", costs(rows)["3 x 3 points"] > 1.1, quick=False),
     ]
 
 
