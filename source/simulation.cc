@@ -37,7 +37,10 @@ namespace scree
       , clock(parameters.time_step)
       , output_times(parameters.output, parameters.end_time)
       , graphics(scene.grid, parameters.output, parameters.output_directory)
-      , statistics(scene.grid, scene.forcing.gravity(), scene.loads.size())
+      , statistics(scene.grid,
+                   scene.forcing.gravity(),
+                   scene.loads.size(),
+                   parameters.water.volume_correction_rate > 0.)
       , rows(folder.file("statistics"))
       , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
   {

@@ -28,14 +28,12 @@ namespace scree
   {
     RunTotals total           = *this;
     StepBalance<dim> &balance = total.balance;
-    std::vector<double *> values{ &balance.wall_dissipation,  &balance.drag_dissipation,
-                                  &balance.load_work,         &balance.n_iterations,
-                                  &balance.n_preconditioners, &total.lost_mass,
-                                  &total.lost_water_mass,     &total.lost_energy,
-                                  &total.plastic_dissipation, &total.n_lost,
-                                  &total.n_updates,           &total.n_substeps,
-                                  &total.n_fallbacks,         &total.n_vertices,
-                                  &total.n_unresolved };
+    std::vector<double *> values{
+      &balance.wall_dissipation, &balance.drag_dissipation,  &balance.load_work, &balance.correction_work,
+      &balance.n_iterations,     &balance.n_preconditioners, &total.lost_mass,   &total.lost_water_mass,
+      &total.lost_energy,        &total.plastic_dissipation, &total.n_lost,      &total.n_updates,
+      &total.n_substeps,         &total.n_fallbacks,         &total.n_vertices,  &total.n_unresolved
+    };
     for (Tensor<1, dim> *vector : { &balance.wall_impulse,
                                     &balance.body_impulse,
                                     &balance.pressure_impulse,
@@ -61,10 +59,12 @@ namespace scree
   template <int dim>
   Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid,
                               const Tensor<1, dim> &gravity,
-                              const unsigned int n_loads)
+                              const unsigned int n_loads,
+                              const bool corrects_volume)
       : grid(grid)
       , gravity(gravity)
       , n_loads(n_loads)
+      , corrects_volume(corrects_volume)
   {
   }
 
@@ -117,7 +117,7 @@ namespace scree
     add("Wall dissipation (J)", balance.wall_dissipation);
     add("Numerical dissipation (J)",
         start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.drag_dissipation -
-            totals.lost_energy + balance.load_work);
+            totals.lost_energy + balance.load_work + balance.correction_work);
     if (!bodies.empty())
       add_soil_columns(bodies, now, totals, last_step);
     add("Points lost", totals.n_lost);
@@ -126,6 +126,8 @@ namespace scree
       add_water_columns(bodies, water, now, totals, step);
     if (n_loads > 0)
       add("Load work (J)", balance.load_work);
+    if (corrects_volume)
+      add("Volume correction work (J)", balance.correction_work);
     last_row_step = step;
   }
 

@@ -41,8 +41,8 @@ namespace scree
     for (const auto &body : bodies)
       shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
     if (water_parameters.volume_correction_rate > 0)
-      volume_correction =
-          std::make_unique<VolumeCorrection<dim>>(grid, constraints, pressure, water_parameters.volume_correction_rate);
+      volume_correction = std::make_unique<VolumeCorrection<dim>>(
+          grid, constraints, pressure, forcing.gravity(), water_parameters.volume_correction_rate);
   }
 
 

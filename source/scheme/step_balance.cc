@@ -15,6 +15,7 @@ namespace scree
     wall_dissipation += other.wall_dissipation;
     drag_dissipation += other.drag_dissipation;
     load_work += other.load_work;
+    correction_work += other.correction_work;
     n_iterations += other.n_iterations;
     n_preconditioners += other.n_preconditioners;
     return *this;

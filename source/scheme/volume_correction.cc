@@ -19,10 +19,12 @@ namespace scree
   VolumeCorrection<dim>::VolumeCorrection(const BackgroundGrid<dim> &grid,
                                           const Constraints<dim> &constraints,
                                           PorePressure<dim> &pressure,
+                                          const Tensor<1, dim> &gravity,
                                           const double rate)
       : grid(grid)
       , constraints(constraints)
       , pressure(pressure)
+      , gravity(gravity)
       , rate(rate)
       , shifts(grid.numbering())
   {
@@ -142,6 +144,7 @@ namespace scree
           shift[c] += shape * shifts[node][dim + c];
       });
       point.location += shift;
+      balance.correction_work -= point.properties[water.layout.mass] * (gravity * shift);
       // The pressure stays where it is; the point reads it at its new place.
       for (unsigned int c = 0; c < dim; ++c)
         point.properties[water.layout.pressure] += point.properties[water.layout.pressure_gradient + c] * shift[c];

@@ -209,7 +209,7 @@ std::vector<Damage> damage_to_folders(const std::string &folder)
                fs::create_directory(newer);
              } },
            { "newer one of another format",
-             [=] { set_content(newer + "/manifest", "Scree checkpoint, format 2\nchecksum: 7acf702665f86ddd\n"); } },
+             [=] { set_content(newer + "/manifest", "Scree checkpoint, format 1\nchecksum: 87f4fa9080897eca\n"); } },
            { "the older one under the newer name",
              [=] {
                fs::remove_all(newer);

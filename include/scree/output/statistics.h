@@ -48,8 +48,11 @@ namespace scree
   class Statistics
   {
   public:
-    /// With loads, there is a column of their work.
-    Statistics(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const unsigned int n_loads);
+    /// With loads, there is a column of their work; with a volume correction, of its.
+    Statistics(const BackgroundGrid<dim> &grid,
+               const dealii::Tensor<1, dim> &gravity,
+               const unsigned int n_loads,
+               const bool corrects_volume);
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
@@ -97,6 +100,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
     const unsigned int n_loads;
+    const bool corrects_volume;
     bool has_start = false;
     dealii::Tensor<1, dim> start_momentum;
     double start_energy              = 0;

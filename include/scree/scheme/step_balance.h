@@ -22,6 +22,7 @@ namespace scree
     double wall_dissipation = 0;         ///< energy that walls took, J
     double drag_dissipation = 0;         ///< between soil and water, J
     double load_work        = 0;         ///< of the surface load, J
+    double correction_work  = 0;         ///< of the volume correction against gravity, J
 
     // Counts, on the writing rank only; doubles hold them exactly and travel like the rest.
     double n_iterations = 0, n_preconditioners = 0;
@@ -33,7 +34,7 @@ namespace scree
     {
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse;
       archive &soil_walls &water_walls;
-      archive &wall_dissipation &drag_dissipation &load_work;
+      archive &wall_dissipation &drag_dissipation &load_work &correction_work;
       archive &n_iterations &n_preconditioners;
     }
   };

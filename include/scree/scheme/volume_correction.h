@@ -18,6 +18,7 @@ namespace scree
     VolumeCorrection(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      PorePressure<dim> &pressure,
+                     const dealii::Tensor<1, dim> &gravity,
                      const double rate);
 
     /// Fits what lives on nodes and corners to the grid's current partition. Collective.
@@ -48,6 +49,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
     PorePressure<dim> &pressure;
+    const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s
     CornerVector volume_inside, source, potential;
     NodeValues<dim, 2 * dim> shifts; // of soil, not used, and of water, m
