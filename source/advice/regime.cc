@@ -53,7 +53,7 @@ namespace scree
       case Regime::dry:
         return "the case has no water";
       case Regime::free_water:
-        return "the case has no soil";
+        return "the case has no soil that moves";
       case Regime::drained:
         return ratio + ", below " + rounded(thresholds::drained_below) +
                ": soil alone serves, of the saturated density and under water with its buoyant weight";

@@ -374,7 +374,7 @@ def sloshing(scree):
     table = run(scree, "dam_break", "sloshing", entries)
     kinetic, wave = table["Kinetic energy (J)"], 1000 * closed_forms.GRAVITY * 0.05**2 / 4
     of_amplitude = wave * (1 - max(kinetic[-41:]) / max(kinetic[:41]))
-    lost = table["Numerical dissipation (J)"][-1]
+    lost = table["Numerical dissipation (J)"][-1] - table["Volume correction work (J)"][-1]
     check("sloshing: energy lost beyond what the amplitude tells, over the wave's", (lost - of_amplitude) / wave, -0.05, 0.05)
     lifts = []
     for step in ("4e-3", "1e-3"):

@@ -99,7 +99,7 @@ def _at(rows, method, h):
 
 STUDY = Study(
     title="Dry slope of dense sand: error over cost", base="prm/slope_dense.prm",
-    entries={"Transfer/PIC rate": 1, "End time": 1.5, "Mesh/Upper corner": "8, 2.4", "Output/Interval": 1.5, "Output/Statistics interval": 0.1, "Output/Graphics": "none"},
+    entries={"Transfer/PIC rate": "auto", "End time": 1.5, "Mesh/Upper corner": "8, 2.4", "Output/Interval": 1.5, "Output/Statistics interval": 0.1, "Output/Graphics": "none"},
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15, 1 / 10]))
     + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 15])),
     reference={"Mesh/Cell size": REFERENCE}, quick_reference={"Mesh/Cell size": 0.1, "Soil/Points per cell": 3}, default={"method": DEFAULTS},

@@ -5,7 +5,7 @@ A column of width L0 and height H0 = a L0 collapses on a rough base. Lube et al.
 (L - L0)/L0 and height H/L0 as functions of a alone (`doc/studies/reference/lube_lajeunesse_2005.csv`; between a = 1.8 and 2.8 Lube et al.
 give none). Their grains had friction angles of 22 to 31 degrees: both ends of that range are run. Cells are a part of the
 column's smaller side, which is 1 m; Young's modulus grows with H0, so that the strain under the own weight is the same. L is the front
-that holds 99.5 % of the mass after 6 sqrt(H0/g), H the largest height of a point then. The walls of the laboratories' channels rub, and the
+that holds 99.5 % of the mass after 8 sqrt(H0/g), H the largest height of a point then. The walls of the laboratories' channels rub, and the
 law knows neither rolling nor a friction that depends on the speed: agreement within the band of the two laws is what can be asked for.
 """
 import csv
@@ -45,7 +45,7 @@ def column(aspect):
     return {"Mesh/Upper corner": f"{math.ceil(reach):g}, {math.ceil(height + 0.1):g}",
             "Soil/Region": f"x < {width:g} && y < {height:g}",
             "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * height:g}",
-            "End time": f"{6 * math.sqrt(height / GRAVITY):.3f}",
+            "End time": f"{8 * math.sqrt(height / GRAVITY):.3f}",
             "Output/Interval": f"{math.sqrt(height / GRAVITY):.3f}"}
 
 

@@ -96,7 +96,7 @@ STUDY = Study(
     entries={"End time": TIME, "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points",
              "Mesh/Upper corner": "1, 1", "Body force": f"{body_force('x')}; {body_force('y')}",
              "Soil/Initial velocity": "0.1*pi*sin(pi*x); 0.1*pi*sin(pi*y)",
-             "Boundaries/Left": "free slip", "Boundaries/Right": "free slip", "Transfer/PIC rate": 1, "Time step/Maximum time step": 1},
+             "Boundaries/Left": "free slip", "Boundaries/Right": "free slip", "Transfer/PIC rate": "auto", "Time step/Maximum time step": 1},
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 8, 1 / 16, 1 / 32, 1 / 64]))
     + product(axis("method", DENSER.__getitem__, DENSER), axis("h", denser_points, [1 / 8, 1 / 16, 1 / 32])),
     default={"method": DEFAULTS},
