@@ -233,6 +233,13 @@ namespace scree
     water.check(gravity, bodies.size());
     pressure.check(bodies.size());
     water_boundaries.check(dimension);
+    for (const WaterWall &wall : water_boundaries.walls(dimension))
+      require_entry(wall.type != WaterWallType::drained || wall.pressure >= pressure.cavitation_pressure,
+                    "Water/Pressure",
+                    "Cavitation pressure",
+                    pressure.cavitation_pressure,
+                    "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
+                        " Pa. Water tears there. Write a lower number, or a higher pressure at the wall.");
     require_entry(
         water.viscosity == 0 || carries_gradient(transfer.transfer_method()),
         "Water",

@@ -28,12 +28,12 @@ namespace scree
   {
     RunTotals total           = *this;
     StepBalance<dim> &balance = total.balance;
-    std::vector<double *> values{
-      &balance.wall_dissipation, &balance.drag_dissipation,  &balance.load_work, &balance.correction_work,
-      &balance.n_iterations,     &balance.n_preconditioners, &total.lost_mass,   &total.lost_water_mass,
-      &total.lost_energy,        &total.plastic_dissipation, &total.n_lost,      &total.n_updates,
-      &total.n_substeps,         &total.n_fallbacks,         &total.n_vertices,  &total.n_unresolved
-    };
+    std::vector<double *> values{ &balance.wall_dissipation, &balance.drag_dissipation,  &balance.load_work,
+                                  &balance.correction_work,  &balance.n_iterations,      &balance.n_preconditioners,
+                                  &balance.n_cavitating,     &total.lost_mass,           &total.lost_water_mass,
+                                  &total.lost_energy,        &total.plastic_dissipation, &total.n_lost,
+                                  &total.n_updates,          &total.n_substeps,          &total.n_fallbacks,
+                                  &total.n_vertices,         &total.n_unresolved };
     for (Tensor<1, dim> *vector : { &balance.wall_impulse,
                                     &balance.body_impulse,
                                     &balance.pressure_impulse,
@@ -180,11 +180,14 @@ namespace scree
       add("Largest porosity (-)", now.largest_porosity);
     add("Drag dissipation (J)", totals.balance.drag_dissipation);
 
-    const double iterations = totals.balance.n_iterations;
-    add("CG iterations per step",
-        step > last_row_step ? (iterations - iterations_at_last_row) / (step - last_row_step) : 0.);
+    const auto mean_of_steps = [&](const double now_in_all, double &at_last_row) {
+      const double mean = step > last_row_step ? (now_in_all - at_last_row) / (step - last_row_step) : 0.;
+      at_last_row       = now_in_all;
+      return mean;
+    };
+    add("Cavitating corners", mean_of_steps(totals.balance.n_cavitating, cavitating_at_last_row));
+    add("CG iterations per step", mean_of_steps(totals.balance.n_iterations, iterations_at_last_row));
     add("Preconditioners built", totals.balance.n_preconditioners);
-    iterations_at_last_row = iterations;
   }
 
 

@@ -48,6 +48,7 @@ namespace scree
       , previous_pressure(parameters.previous_pressure_kind())
       , projection(parameters.projection)
       , bulk_modulus(bulk_modulus)
+      , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
       , corners(numbered(grid))
       , surface(grid, corners, walls, parameters.free_surface_kind())
@@ -176,6 +177,9 @@ namespace scree
     const SolveReport report = solver.solve(source, pressure, change);
     solver.judge_preconditioner(report);
     count(report, balance);
+    const auto [more, n_cavitating] = solver.keep_above(cavitation_pressure, pressure, change);
+    count(more, balance);
+    balance.n_cavitating += n_cavitating;
     change.update_ghost_values();
     surface.extrapolate(mixture, change);
   }

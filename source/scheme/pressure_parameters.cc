@@ -45,6 +45,10 @@ namespace scree
                       projection,
                       "Pressure projection tau, in units of 1/(2 G) of the soil's shear modulus G; 0: none.",
                       Patterns::Double(0));
+    prm.add_parameter("Cavitation pressure",
+                      cavitation_pressure,
+                      "Water tears at this pressure, Pa: p does not fall below it. p = 0 is the atmosphere's.",
+                      Patterns::Double(-1e15, 0));
     prm.leave_subsection();
   }
 

@@ -317,24 +317,20 @@ namespace scree
 
 
   template <int dim>
-  SolveReport PressureSolver<dim>::solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change)
+  void PressureSolver<dim>::take(const CornerVector &from, CornerVector &to) const
   {
-    const auto take = [&](const CornerVector &from, CornerVector &to) {
-      to = 0.;
-      for (unsigned int i = 0; i < diagonal.size(); ++i)
-        if (is_unknown[i])
-          to.local_element(i) = from.local_element(corner_of_number[i]);
-    };
-    const Operator system{ *this };
-    take(pressure, solution);
-    system.vmult(scratch, solution);
-    const double rounding = 1e-12 * scratch.l2_norm();
-    take(rhs, source);
-    take(change, solution);
+    to = 0.;
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      if (is_unknown[i])
+        to.local_element(i) = from.local_element(corner_of_number[i]);
+  }
 
-    SolveReport report;
-    const double tolerance = std::max(rounding, relative_tolerance * source.l2_norm());
-    const auto iterate     = [&](const unsigned int most) {
+
+  template <int dim>
+  void PressureSolver<dim>::converge(SolveReport &report)
+  {
+    const Operator system{ *this };
+    const auto iterate = [&](const unsigned int most) {
       SolverControl control(most, tolerance);
       try
         {
@@ -364,11 +360,97 @@ namespace scree
         iterations_when_new = control.last_step();
         surplus_iterations  = 0;
       }
+  }
 
+
+  template <int dim>
+  SolveReport PressureSolver<dim>::solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change)
+  {
+    take(pressure, solution);
+    Operator{ *this }.vmult(scratch, solution);
+    const double rounding = 1e-12 * scratch.l2_norm();
+    take(rhs, source);
+    take(change, solution);
+    tolerance = std::max(rounding, relative_tolerance * source.l2_norm());
+    SolveReport report;
+    converge(report);
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       change.local_element(corner_of_number[i]) = is_unknown[i] ? solution.local_element(i) : 0.;
     return report;
   }
+
+
+  template <int dim>
+  void PressureSolver<dim>::solve_held(const std::vector<char> &is_held, CornerVector &residual, SolveReport &report)
+  {
+    const Operator system{ *this };
+    CornerVector held(partitioner), &right_side = residual;
+    right_side = source;
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      held.local_element(i) = is_held[i] ? solution.local_element(i) : 0.;
+    system.vmult(scratch, held);
+
+    // The held corners leave the system like those of a drained wall.
+    const std::vector<char> all_unknown = is_unknown;
+    CornerVector marks(partitioner);
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      marks.local_element(i) = is_held[i];
+    marks.update_ghost_values();
+    for (unsigned int i = 0; i < is_unknown.size(); ++i)
+      is_unknown[i] = is_unknown[i] && marks.local_element(i) == 0.;
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      {
+        source.local_element(i)   = is_unknown[i] ? source.local_element(i) - scratch.local_element(i) : 0.;
+        solution.local_element(i) = is_unknown[i] ? solution.local_element(i) : 0.;
+      }
+    converge(report);
+    is_unknown = all_unknown;
+
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      if (is_held[i])
+        solution.local_element(i) = held.local_element(i);
+    source = right_side;
+    system.vmult(scratch, solution);
+    residual = scratch;
+    residual -= source;
+  }
+
+
+  template <int dim>
+  std::pair<SolveReport, unsigned int>
+  PressureSolver<dim>::keep_above(const double least, const CornerVector &pressure, CornerVector &change)
+  {
+    constexpr unsigned int most_sweeps = 5; // Corners below after them are held without another solve.
+    const MPI_Comm communicator        = grid.triangulation().get_communicator();
+    std::pair<SolveReport, unsigned int> result;
+    std::vector<char> is_held(diagonal.size(), false);
+    CornerVector residual;
+    const auto bound = [&](const unsigned int i) { return least - pressure.local_element(corner_of_number[i]); };
+    for (unsigned int sweep = 0;; ++sweep)
+      {
+        bool has_changed = false;
+        for (unsigned int i = 0; i < is_held.size(); ++i)
+          if (is_unknown[i])
+            {
+              const bool holds = is_held[i] ? residual.local_element(i) >= -tolerance || sweep == most_sweeps
+                                            : solution.local_element(i) < bound(i);
+              has_changed      = has_changed || holds != bool(is_held[i]);
+              is_held[i]       = holds;
+              if (holds)
+                solution.local_element(i) = bound(i);
+            }
+        if (sweep == most_sweeps || !Utilities::MPI::logical_or(has_changed, communicator))
+          break;
+        if (sweep == 0)
+          residual.reinit(partitioner);
+        solve_held(is_held, residual, result.first);
+      }
+    result.second = std::count(is_held.begin(), is_held.end(), true);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      change.local_element(corner_of_number[i]) = is_unknown[i] ? solution.local_element(i) : 0.;
+    return result;
+  }
+
 
   template <int dim>
   void PressureSolver<dim>::judge_preconditioner(const SolveReport &report)

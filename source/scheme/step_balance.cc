@@ -18,6 +18,7 @@ namespace scree
     correction_work += other.correction_work;
     n_iterations += other.n_iterations;
     n_preconditioners += other.n_preconditioners;
+    n_cavitating += other.n_cavitating;
     return *this;
   }
 

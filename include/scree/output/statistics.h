@@ -83,6 +83,7 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &has_start &start_momentum &start_energy &last_row &last_row_step &iterations_at_last_row;
+      archive &cavitating_at_last_row;
     }
 
   private:
@@ -106,6 +107,7 @@ namespace scree
     double start_energy              = 0;
     unsigned long long last_row_step = 0;
     double iterations_at_last_row    = 0;
+    double cavitating_at_last_row    = 0;
     std::vector<std::pair<std::string, double>> last_row;
   };
 } // namespace scree

@@ -97,7 +97,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const Splitting splitting;
     const PreviousPressure previous_pressure;
-    const double projection, bulk_modulus;
+    const double projection, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
     NodeNumbering<dim> corners;

@@ -48,7 +48,8 @@ namespace scree
     std::string free_surface        = "distance";
     std::string divergence          = "expanded";
     std::string previous_pressure   = "affine";
-    double projection               = 0; ///< tau of the pressure projection, in units of 1/(2 G)
+    double projection               = 0;    ///< tau of the pressure projection, in units of 1/(2 G)
+    double cavitation_pressure      = -1e5; ///< Pa
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);

@@ -49,6 +49,14 @@ namespace scree
     /// residual is rounding. Collective; throws if the solver does not converge.
     SolveReport solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change);
 
+    /// Keeps the pressure from falling below `least`, Pa: where the solution of solve(), in `change`, would take it
+    /// there, it is prescribed, and the mixture opens; it is set free again where the mixture would close, L dp < b.
+    /// A primal-dual active set (Hintermueller, Ito & Kunisch 2002): nothing is solved if no corner is below. To be
+    /// called right after solve(). Collective; throws as solve().
+    /// @return what the solves took; the owned corners that are held at `least`
+    std::pair<SolveReport, unsigned int>
+    keep_above(const double least, const CornerVector &pressure, CornerVector &change);
+
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void judge_preconditioner(const SolveReport &report);
 
@@ -83,6 +91,16 @@ namespace scree
     /// Turns the marks of owned corners into global numbers, -1 elsewhere; returns the range of this rank. Collective.
     dealii::IndexSet number_marked(CornerVector &marks) const;
     void make_preconditioner();
+
+    /// Sets `to` to the values of the owned unknown corners, and to 0 elsewhere.
+    void take(const CornerVector &from, CornerVector &to) const;
+
+    /// Solves the system from what `solution` holds; adds to the report.
+    void converge(SolveReport &report);
+
+    /// Solves with `solution` prescribed where `is_held`, by owned number; `residual` is L dp - b then, at all.
+    void solve_held(const std::vector<char> &is_held, CornerVector &residual, SolveReport &report);
+
     CellMatrix matrix(const Cell &cell) const;
 
     const BackgroundGrid<dim> &grid;
@@ -101,6 +119,7 @@ namespace scree
     double unit = 1.;             // diagonal of the other numbers, m^3/(Pa s): of the size of the unknowns', for a
                                   // preconditioner that is kept while corners turn from one to the other
     CornerVector source, solution, scratch;
+    double tolerance = 0; // of the last solve's residual, m^3/s
 
     struct Multigrid; // what Trilinos keeps of the preconditioner
     std::unique_ptr<Multigrid> multigrid;

@@ -24,8 +24,9 @@ namespace scree
     double load_work        = 0;         ///< of the surface load, J
     double correction_work  = 0;         ///< of the volume correction against gravity, J
 
-    // Counts, on the writing rank only; doubles hold them exactly and travel like the rest.
-    double n_iterations = 0, n_preconditioners = 0;
+    // Counts; doubles hold them exactly and travel like the rest.
+    double n_iterations = 0, n_preconditioners = 0; // on the writing rank only
+    double n_cavitating = 0;                        // corners of this rank held at the cavitation pressure
 
     StepBalance &operator+=(const StepBalance &other);
 
@@ -35,7 +36,7 @@ namespace scree
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse;
       archive &soil_walls &water_walls;
       archive &wall_dissipation &drag_dissipation &load_work &correction_work;
-      archive &n_iterations &n_preconditioners;
+      archive &n_iterations &n_preconditioners &n_cavitating;
     }
   };
 } // namespace scree
