@@ -8,6 +8,7 @@
 - consolidation at large strain of soil that is elastic in logarithmic strain: exact end state, course in time by
   finite differences
 - hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
+- dam break on a wet bed in shallow water: Stoker 1957
 
 Needs numpy.
 """
@@ -318,6 +319,33 @@ def dupuit_surface(x, upstream, downstream, length):
     return np.sqrt(upstream**2 - (upstream**2 - downstream**2) * np.asarray(x, dtype=float) / length)
 
 
+# Dam break ------------------------------------------------------------------------------------------------------------
+
+
+class Bore(NamedTuple):
+    """What runs into the shallow water: speed of the bore, depth and speed of the water behind it."""
+    speed: float  # m/s
+    depth: float  # m
+    velocity: float  # m/s
+
+
+def stoker_bore(upstream, downstream, gravity=GRAVITY):
+    """The bore after water of depth h_1 is released onto h_0 < h_1 (Stoker 1957, chapter 10.8), in shallow water, at any time.
+
+    Behind it depth h and speed u are uniform as far as the wave that runs upstream, which keeps u + 2 sqrt(g h); at the bore mass and
+    momentum are conserved: u = (h - h_0) sqrt(g/2 (1/h + 1/h_0)).
+    """
+    low, high = downstream, upstream
+    while high - low > 1e-14 * upstream:
+        depth = (low + high) / 2
+        behind = 2 * (math.sqrt(gravity * upstream) - math.sqrt(gravity * depth))
+        if behind > (depth - downstream) * math.sqrt(gravity / 2 * (1 / depth + 1 / downstream)):
+            low = depth
+        else:
+            high = depth
+    return Bore(behind * depth / (depth - downstream), depth, behind)
+
+
 # Self-test ------------------------------------------------------------------------------------------------------------
 
 
@@ -415,6 +443,12 @@ def _self_test():
         reynolds = 1000 * velocity * 5e-3 / (viscosity * .6)
         friction = 1000 * GRAVITY * 5e-3 * .4**3 / (1000 * velocity**2 * .6)
         _check(failures, f"Ergun, mu = {viscosity} Pa s: friction factor", abs(friction / (150 / reynolds + 1.75) - 1), 1e-9)
+
+    bore = stoker_bore(1., .2)
+    force = GRAVITY / 2 * (bore.depth**2 - .2**2)
+    _check(failures, "Stoker: momentum that passes the bore over the force on it",
+           abs(.2 * bore.speed * bore.velocity / force - 1), 1e-9)
+    _check(failures, "Stoker: a low step runs with sqrt(g h)", abs(stoker_bore(1.0001, 1.).speed / math.sqrt(GRAVITY) - 1), 1e-4)
 
     _check(failures, "hydrostatics: 1 m of water", abs(float(hydrostatic_pressure(0.25, 1.25)) - 9810), 1e-9)
 
