@@ -5,6 +5,8 @@
 // exact for linear motion, and a mixture that moves as one draws nothing, wherever its surface is; the solver finds the
 // pressure whose flux it is given.
 
+#include "pattern.h"
+
 #include <scree/material/table.h>
 #include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
@@ -24,16 +26,6 @@ namespace
   double largest(const double value)
   {
     return Utilities::MPI::max(value, MPI_COMM_WORLD);
-  }
-
-  /// A number that depends on the place only, and so is the same on all ranks.
-  template <int dim>
-  double pattern(const Point<dim> &x)
-  {
-    double phase = 1.;
-    for (unsigned int a = 0; a < dim; ++a)
-      phase = 17. * std::sin(phase + 7. * x[a] * (a + 1));
-    return std::sin(phase);
   }
 
   template <int dim>

@@ -7,6 +7,8 @@
 //   nodes as they went there, and without gradient;
 // - uniform porosity gives the velocity of the nodes to rounding, water without soil gives it to the last digit.
 
+#include "pattern.h"
+
 #include <scree/material/table.h>
 #include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
@@ -23,16 +25,6 @@ using namespace scree;
 namespace
 {
   constexpr double time_step = 1.; // s: displacements of the size of velocities
-
-  /// A number that depends on the place only, and so is the same on all ranks.
-  template <int dim>
-  double pattern(const Point<dim> &x)
-  {
-    double phase = 1.;
-    for (unsigned int a = 0; a < dim; ++a)
-      phase = 17. * std::sin(phase + 7. * x[a] * (a + 1));
-    return std::sin(phase);
-  }
 
   template <int dim>
   void shake(PointSet<dim> &points)
