@@ -29,21 +29,16 @@ namespace scree
       return parameters.grid;
     }
 
-    /// Of all bodies, along an axis.
-    unsigned int most_points_per_cell(const Parameters &parameters)
+    /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
+    std::pair<unsigned int, unsigned int> points_per_cell(const Parameters &parameters)
     {
-      unsigned int most = 1;
+      std::pair<unsigned int, unsigned int> range(numbers::invalid_unsigned_int, 1);
       for (const BodyParameters &body : parameters.bodies)
-        most = std::max(most, body.seeding.points_per_cell);
-      return most;
-    }
-
-    unsigned int fewest_points_per_cell(const Parameters &parameters)
-    {
-      unsigned int fewest = numbers::invalid_unsigned_int;
-      for (const BodyParameters &body : parameters.bodies)
-        fewest = std::min(fewest, body.seeding.points_per_cell);
-      return fewest;
+        {
+          range.first  = std::min(range.first, body.seeding.points_per_cell);
+          range.second = std::max(range.second, body.seeding.points_per_cell);
+        }
+      return range;
     }
   } // namespace
 
@@ -62,7 +57,7 @@ namespace scree
   {
     make_bodies();
     if (parameters.surface_load.is_set())
-      loads.emplace_back(grid, parameters.surface_load, most_points_per_cell(parameters));
+      loads.emplace_back(grid, parameters.surface_load, points_per_cell(parameters).second);
   }
 
 
@@ -111,7 +106,7 @@ namespace scree
                                                 parameters.water,
                                                 parameters.pressure,
                                                 bodies,
-                                                fewest_points_per_cell(parameters),
+                                                points_per_cell(parameters).first,
                                                 water,
                                                 loads,
                                                 timer);
@@ -162,7 +157,7 @@ namespace scree
   {
     const auto soil = parameters.soil_regions();
     if (soil.size() > 1)
-      require_apart(soil, most_points_per_cell(parameters), grid.triangulation(), grid.cell_size());
+      require_apart(soil, points_per_cell(parameters).second, grid.triangulation(), grid.cell_size());
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size());
