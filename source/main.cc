@@ -19,7 +19,8 @@ namespace
       "       scree --version            version and commit, libraries, compiler\n"
       "       scree --help, -h           this text\n"
       "In parallel: mpirun -np 2 scree case.prm\n"
-      "Exit code: 0 done, 1 an error, 3 stopped before the end time as it was asked to, and --resume goes on";
+      "Exit code: 0 done, 1 an error, 3 stopped before the end time as it was asked to, and --resume goes on (not "
+      "where it was still settling)";
 
   constexpr int exit_code_of_a_stop = 3;
 

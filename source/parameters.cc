@@ -70,9 +70,8 @@ namespace scree
 
   double BodyParameters::wave_speed() const
   {
-    const auto law       = make_material<2>(material);
-    const double tangent = law->initial_bulk_modulus(initial_state.pressure) + 4. / 3. * law->shear_modulus();
-    return std::sqrt(tangent / bulk_density());
+    const auto law = make_material<2>(material);
+    return law->wave_speed(law->initial_bulk_modulus(initial_state.pressure), 0., bulk_density());
   }
 
 

@@ -82,7 +82,8 @@ namespace scree
                             grid.triangulation(),
                             grid.mapping());
         bodies.back().is_rigid = body.is_rigid();
-        bodies.back().seepage  = body.seepage;
+        if (parameters.has_water)
+          bodies.back().drag.emplace(body.seepage.in_place_of(parameters.water), body.initial_porosity());
         if (water_rides)
           water.emplace_back(parameters.water.density, affine, bodies.back());
       }

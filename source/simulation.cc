@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case_changes.h>
 #include <scree/input/input_error.h>
+#include <scree/memory.h>
 #include <scree/output/checkpoint.h>
 #include <scree/output/log_header.h>
 #include <scree/simulation.h>
@@ -65,6 +66,8 @@ namespace scree
       folder.log(question);
     if (parameters.settling.maximum_time > 0)
       settle();
+    if (!is_released)
+      return;
     scene.mark_start();
     scheme->read_points();
   }
@@ -111,7 +114,11 @@ namespace scree
   template <int dim>
   void Simulation<dim>::log_case()
   {
-    log_size(folder, scene.grid, scene.bodies, scene.water);
+    log_size(folder,
+             scene.grid,
+             scene.bodies,
+             scene.water,
+             estimate_memory<dim>(parameters).bytes(Utilities::MPI::n_mpi_processes(communicator)));
     folder.log("Transfer: " + parameters.transfer.text());
   }
 
@@ -142,7 +149,7 @@ namespace scree
     timer.reset(); // Only the steps' time is to be told.
     stop.listen();
     Progress progress(folder, clock.time(), parameters.end_time);
-    if (start == Start::fresh) // A resumed run has reported its first state, also that at t = 0.
+    if (start == Start::fresh && is_released) // A resumed run has reported its first state, also that at t = 0.
       report();
     const double updates_before = point_updates;
     const double first_step     = stable_step();
@@ -169,6 +176,15 @@ namespace scree
   void Simulation<dim>::write_last()
   {
     folder.require_presence();
+    if (!is_released)
+      {
+        write_row();
+        folder.log(
+            "Stopped while settling, by " + text_of(stop_reason) +
+            ". There is no checkpoint, as nothing can go on from a state before the release: run the case again. "
+            "The row at t = 0 is of the soil on its way to rest.");
+        return;
+      }
     if (step_of_checkpoint != clock.step())
       write_checkpoint();
     require_entry(
@@ -314,17 +330,13 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::settle()
+  double Simulation<dim>::settle_down(Clock &settling_clock)
   {
-    const SettlingParameters &settling = parameters.settling;
-    if (!settling.gate.empty())
-      scene.constraints.close_gate(std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), settling.gate));
-    scene.forcing.set_damping(settling.damping_rate);
-
-    Clock settling_clock(parameters.time_step);
+    const SettlingParameters &settling          = parameters.settling;
     constexpr unsigned int steps_between_checks = 50;
     double ratio                                = std::numeric_limits<double>::infinity();
-    while (settling_clock.time() < settling.maximum_time && ratio >= settling.kinetic_energy)
+    while (settling_clock.time() < settling.maximum_time && ratio >= settling.kinetic_energy &&
+           stop_reason == StopReason::none)
       {
         const double step = settling_clock.next_step(stable_step(), settling.maximum_time);
         advance(step);
@@ -332,22 +344,41 @@ namespace scree
         if (settling_clock.step() % steps_between_checks == 0 || settling_clock.time() >= settling.maximum_time)
           ratio = kinetic_to_elastic_energy(scene.bodies, scene.water, communicator);
       }
-    folder.log(
-        "Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
-        std::to_string(settling_clock.step()) + " steps; kinetic over elastic energy " + Utilities::to_string(ratio) +
-        (ratio < settling.kinetic_energy ? ". Released."
-                                         : ", above the wanted " + Utilities::to_string(settling.kinetic_energy) +
-                                               ": not yet at rest. Released all the same."));
+    return ratio;
+  }
 
-    scene.forcing.set_damping(0.);
-    scene.constraints.open_gate();
-    scene.stop();
+
+  template <int dim>
+  void Simulation<dim>::settle()
+  {
+    const SettlingParameters &settling = parameters.settling;
+    if (!settling.gate.empty())
+      scene.constraints.close_gate(std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), settling.gate));
+    scene.forcing.set_damping(settling.damping_rate);
+    stop.listen();
+
+    Clock settling_clock(parameters.time_step);
+    const double ratio        = settle_down(settling_clock);
+    is_released               = stop_reason == StopReason::none;
+    const std::string release = ratio < settling.kinetic_energy
+                                    ? ". Released."
+                                    : ", above the wanted " + Utilities::to_string(settling.kinetic_energy) +
+                                          ": not yet at rest. Released all the same.";
+    folder.log("Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
+               std::to_string(settling_clock.step()) + " steps; kinetic over elastic energy " +
+               Utilities::to_string(ratio) + (is_released ? release : ". Asked to stop."));
     // Balances begin at the release; what was lost stays lost.
     const RunTotals<dim> settled = totals;
     totals                       = RunTotals<dim>();
     totals.n_lost                = settled.n_lost;
     totals.lost_mass             = settled.lost_mass;
     totals.lost_water_mass       = settled.lost_water_mass;
+    if (!is_released)
+      return;
+
+    scene.forcing.set_damping(0.);
+    scene.constraints.open_gate();
+    scene.stop();
     measure_speeds();
   }
 

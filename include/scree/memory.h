@@ -12,6 +12,12 @@ namespace scree
     double n_cells = 0, n_soil_points = 0, n_water_points = 0;
     double bytes_of_cells = 0, bytes_of_points = 0; ///< of all ranks
     double bytes_of_rank = 0;                       ///< of each rank beside its share of the cells
+
+    /// Of so many ranks that share the case.
+    double bytes(const unsigned int n_ranks) const
+    {
+      return bytes_of_cells + bytes_of_points + n_ranks * bytes_of_rank;
+    }
   };
 
   /// Numbers of cells and points of a case; regions are sampled. Throws ValueError if one is no number at a sample.

@@ -39,7 +39,8 @@ namespace scree
     /// Throws InputError or dealii exceptions if the parameters do not make a run.
     Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator);
 
-    /// From the start to the end time, with all output; or to a request to stop (StopRequests), with a checkpoint.
+    /// From the start to the end time, with all output; or to a request to stop (StopRequests), with a checkpoint
+    /// unless the soil was still settling.
     End run();
 
     /// One step of `time_step` s.
@@ -81,6 +82,10 @@ namespace scree
     void initialise();
     void resume();
     void settle();
+
+    /// Steps with damping, until the soil rests, its time is over, or the run is asked to stop.
+    /// @return kinetic over elastic energy at the end, infinity if that is not known
+    double settle_down(Clock &settling_clock);
 
     /// Fits scene and scheme to a new partition of the mesh.
     void reinit();
@@ -153,6 +158,7 @@ namespace scree
     double last_time_step                 = 0; // s
     unsigned long long step_of_checkpoint = std::numeric_limits<unsigned long long>::max(); // the newest, of this run
     StopReason stop_reason                = StopReason::none;                               // of all ranks
+    bool is_released                      = true; // or was stopped while it settled
   };
 } // namespace scree
 

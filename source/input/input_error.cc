@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdlib>
+#include <limits>
 #include <sstream>
 
 namespace scree
@@ -48,6 +50,14 @@ namespace scree
                      const std::string &remedy)
   {
     require_entry(possible, subsection, entry, number_text(value), remedy);
+  }
+
+
+  double number_of(const std::string &text)
+  {
+    char *end           = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    return text.empty() || *end != 0 ? std::numeric_limits<double>::quiet_NaN() : number;
   }
 
 

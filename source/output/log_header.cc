@@ -64,7 +64,8 @@ namespace scree
   void log_size(RunFolder &folder,
                 const BackgroundGrid<dim> &grid,
                 const std::list<SoilBody<dim>> &bodies,
-                const std::list<WaterPhase<dim>> &water)
+                const std::list<WaterPhase<dim>> &water,
+                const double expected_bytes)
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
     std::string points;
@@ -75,7 +76,8 @@ namespace scree
         points += (points.empty() ? "" : ", ") + ("water " + count(part.points(), communicator));
     folder.log(std::to_string(grid.triangulation().n_global_active_cells()) + " cells of " +
                number_text(grid.cell_size()) + " m; points: " + points + "; memory at the start " +
-               megabytes(memory().VmRSS, communicator) + " (all ranks)");
+               megabytes(memory().VmRSS, communicator) + ", estimated for the run " +
+               std::to_string(std::lround(expected_bytes / (1024. * 1024.))) + " MB (all ranks)");
   }
 
 
@@ -84,8 +86,14 @@ namespace scree
     folder.log("largest memory: " + megabytes(memory().VmHWM, communicator) + " (all ranks)");
   }
 
-  template void
-  log_size(RunFolder &, const BackgroundGrid<2> &, const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &);
-  template void
-  log_size(RunFolder &, const BackgroundGrid<3> &, const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &);
+  template void log_size(RunFolder &,
+                         const BackgroundGrid<2> &,
+                         const std::list<SoilBody<2>> &,
+                         const std::list<WaterPhase<2>> &,
+                         const double);
+  template void log_size(RunFolder &,
+                         const BackgroundGrid<3> &,
+                         const std::list<SoilBody<3>> &,
+                         const std::list<WaterPhase<3>> &,
+                         const double);
 } // namespace scree

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/points/drag_law.h>
 
+#include <algorithm>
+
 namespace scree
 {
   namespace
@@ -22,7 +24,8 @@ namespace scree
     if (water.grain_diameter > 0)
       factor = unit_weight * water.grain_diameter * water.grain_diameter / (150. * water.viscosity);
     else
-      factor = is_constant ? water.conductivity : water.conductivity / kozeny_carman(initial_porosity);
+      factor = is_constant ? water.conductivity
+                           : water.conductivity / kozeny_carman(std::max(initial_porosity, smallest_porosity));
   }
 
 

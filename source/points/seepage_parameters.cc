@@ -24,21 +24,8 @@ namespace scree
     const std::string dry = "nothing reads it, as the file has no subsection Water. Add one, or remove the entry.";
     require_entry(water != nullptr || conductivity == 0, body, "Hydraulic conductivity", conductivity, dry);
     require_entry(water != nullptr || grain_diameter == 0, body, "Grain diameter", grain_diameter, dry);
-    if (grain_diameter == 0)
-      return;
-    require_entry(conductivity == 0,
-                  body,
-                  "Hydraulic conductivity",
-                  conductivity,
-                  "the drag follows from \"Grain diameter\" = " + number_text(grain_diameter) +
-                      ". Remove one of the two.");
-    require_entry(water->viscosity > 0,
-                  "Water",
-                  "Viscosity",
-                  water->viscosity,
-                  "the drag of grains of \"Grain diameter\" = " + number_text(grain_diameter) + " in subsection " +
-                      body +
-                      " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
+    if (grain_diameter > 0)
+      water->check_grain_diameter(body, grain_diameter, conductivity > 0 ? number_text(conductivity) : "");
   }
 
 

@@ -5,6 +5,7 @@
 #include <scree/points/water_parameters.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -32,10 +33,15 @@ namespace scree
         "lattice's spacing; 0: a regular lattice. For verification and stability maps. Double-point only.",
         Patterns::Double(0, 0.49));
     prm.add_parameter("Density", density, "Density of the water, kg/m^3.", Patterns::Double(1e-12));
-    prm.add_parameter("Hydraulic conductivity",
-                      conductivity,
-                      "Darcy's conductivity of the soil at its initial porosity, m/s.",
-                      Patterns::Double(1e-20));
+    prm.declare_entry("Hydraulic conductivity",
+                      conductivity_text,
+                      Patterns::Anything(),
+                      "Darcy's conductivity of the soil at its initial porosity, m/s. auto: 1e-3, unless \"Grain "
+                      "diameter\" tells the drag.");
+    prm.add_action("Hydraulic conductivity", [this](const std::string &text) {
+      conductivity_text = text;
+      conductivity      = text == "auto" ? WaterParameters().conductivity : number_of(text);
+    });
     prm.add_parameter("Conductivity law",
                       conductivity_law,
                       "constant; Kozeny-Carman: in proportion to n^3/(1-n)^2 of the porosity n.",
@@ -97,8 +103,21 @@ namespace scree
       check_single_point();
     if (n_bodies == 0)
       check_without_soil();
+    require_entry(conductivity >= 1e-20 && std::isfinite(conductivity),
+                  "Water",
+                  "Hydraulic conductivity",
+                  conductivity_text,
+                  "write auto, or a number from 1e-20 on, in m/s.");
     if (grain_diameter > 0)
-      check_grain_diameter();
+      {
+        check_grain_diameter("Water", grain_diameter, conductivity_text == "auto" ? "" : conductivity_text);
+        require_entry(conductivity_law == WaterParameters().conductivity_law,
+                      "Water",
+                      "Conductivity law",
+                      conductivity_law,
+                      "the drag follows from \"Grain diameter\" = " + number_text(grain_diameter) +
+                          ". Remove one of the two.");
+      }
     // Gravity 0 is no fault: the pressure starts at 0.
     require_entry(initial_pressure_kind() == InitialPressure::none ||
                       std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
@@ -114,7 +133,7 @@ namespace scree
   {
     const WaterParameters defaults;
     const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
-    require_entry(conductivity == defaults.conductivity, "Water", "Hydraulic conductivity", conductivity, remedy);
+    require_entry(conductivity_text == "auto", "Water", "Hydraulic conductivity", conductivity_text, remedy);
     require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
     require_entry(grain_diameter == defaults.grain_diameter, "Water", "Grain diameter", grain_diameter, remedy);
     require_entry(fluidisation_porosity == defaults.fluidisation_porosity,
@@ -125,18 +144,21 @@ namespace scree
   }
 
 
-  void WaterParameters::check_grain_diameter() const
+  void WaterParameters::check_grain_diameter(const std::string &subsection,
+                                             const double diameter,
+                                             const std::string &conductivity) const
   {
-    const WaterParameters defaults;
-    const std::string remedy =
-        "the drag follows from \"Grain diameter\" = " + number_text(grain_diameter) + ". Remove one of the two.";
-    require_entry(conductivity == defaults.conductivity, "Water", "Hydraulic conductivity", conductivity, remedy);
-    require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
+    const std::string grains = "\"Grain diameter\" = " + number_text(diameter);
+    require_entry(conductivity.empty(),
+                  subsection,
+                  "Hydraulic conductivity",
+                  conductivity,
+                  "the drag follows from " + grains + ". Remove one of the two.");
     require_entry(viscosity > 0,
                   "Water",
                   "Viscosity",
                   viscosity,
-                  "the drag of grains of \"Grain diameter\" = " + number_text(grain_diameter) +
+                  "the drag of grains of " + grains + (subsection == "Water" ? "" : " in subsection " + subsection) +
                       " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
   }
 

@@ -3,25 +3,11 @@
 #include <scree/transfer/transfer_parameters.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <map>
 
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// NaN if the text is no number.
-    double number_of(const std::string &text)
-    {
-      char *end           = nullptr;
-      const double number = std::strtod(text.c_str(), &end);
-      return text.empty() || *end != 0 ? std::numeric_limits<double>::quiet_NaN() : number;
-    }
-  } // namespace
-
 
   void TransferParameters::add_parameters(ParameterHandler &prm)
   {

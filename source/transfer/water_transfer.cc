@@ -11,7 +11,6 @@ namespace scree
 
   namespace
   {
-    constexpr double smallest_porosity = 1e-3; // keeps the drag finite where grains overlap
 
     /// The linear functions of a cell's corners at one of its points.
     template <int dim>
@@ -164,8 +163,7 @@ namespace scree
   {
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const auto &layout            = soil.layout;
-    const DragLaw law(soil.seepage.in_place_of(parameters),
-                      std::max(1. - soil.density / soil.grain_density, smallest_porosity));
+    const DragLaw &law            = *soil.drag;
     for (const auto &cell : soil.points.cells())
       {
         const OpenKnots open          = grid.open_knots(cell.cell);

@@ -186,6 +186,31 @@ def signals():
     stop_and_go_on("case.prm", wanted, lambda process: process.send_signal(signal.SIGUSR1), "SIGUSR1", ranks=2)
 
 
+def stop_while_settling():
+    """Before the release a run ends with its exit code and a row as well, but there is nothing to go on from."""
+    damped = "Settling\n  set Maximum time = 1000\n  set Kinetic energy = 0"
+    case = CASE + f"subsection {damped}\nend\n"
+    requests = [(lambda process, n=number: process.send_signal(n), number.name, [], ranks)
+                for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGUSR1, 1), (signal.SIGUSR1, 2))]
+    requests += [(lambda process: (RESULTS / "terminate").touch(), "the file terminate", [], 1),
+                 (lambda process: None, 'the entry "Wall time limit"', ["Wall time limit = 1"], 2)]
+    for ask, reason, entries, ranks in requests:
+        write_case("settling.prm", ["Checkpoint interval = 0.01", *entries], case)
+        fresh()
+        process = start("settling.prm", ranks=ranks)
+        wait_for(lambda: (RESULTS / "log.txt").exists() and "Transfer:" in log(), process)
+        time.sleep(0.1)
+        ask(process)
+        code, errors = end(process)
+        check(code == STOPPED and "scree:" not in errors, f"{reason}: exit code {code}, not {STOPPED}: {errors}")
+        check(re.search(r"Settled for \S+ s in [1-9]\d* steps; .* Asked to stop", log()), log())
+        check(f"Stopped while settling, by {reason}. There is no checkpoint" in log(), log())
+        check(n_rows() == 1 and not resumable(), f"{reason}: {n_rows()} rows instead of 1, or a checkpoint")
+        check(not (RESULTS / "lock").exists() and not (RESULTS / "terminate").exists(), f"{reason}: lock or terminate is left")
+        errors = run("settling.prm", "--resume", wanted=1)
+        check("no checkpoint to resume from" in errors, errors)
+
+
 def terminate():
     """A file stops the run. It is looked for each second: the run is one that would last for minutes."""
     write_case("case.prm", ["End time = 0.2"])
@@ -362,13 +387,16 @@ def log_header():
         r"\w+ [0-9.]+, (Release|Debug)\n"
         r"flags: .*-std=c\+\+17.*\n"
         r"{ranks} rank\(s\), the first is process \d+ on \S+; 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d \w+\n"
-        r"120 cells of 0\.1 m; points: Soil 400; memory at the start [1-9]\d+ MB \(all ranks\)\n"
+        r"120 cells of 0\.1 m; points: Soil 400; memory at the start [1-9]\d+ MB, estimated for the run ([1-9]\d+) MB \(all ranks\)\n"
         r"Transfer: FLIP with a PIC rate of 5 1/s\n"
     )
     for ranks in (1, 2):
         run("case.prm", ranks=ranks)
-        check(re.match(header.replace("{ranks}", str(ranks)), log()), log())
-        check(re.search(r"largest memory: [1-9]\d+ MB", log()), log())
+        begin = re.match(header.replace("{ranks}", str(ranks)), log())
+        most = re.search(r"largest memory: ([1-9]\d+) MB", log())
+        check(begin and most, log())
+        ratio = int(begin.group(2)) / int(most.group(1))
+        check(0.5 < ratio < 2, f"the estimate is {ratio} times the largest memory")
     run("case.prm", "--resume")
     check(len(re.findall(header.replace("{ranks}", r"\d"), log())) == 2, log())
     print(log())

@@ -88,6 +88,7 @@ void test(const std::string &basis, std::ostream &out)
   });
 
   TransferParameters transfer_parameters;
+  soil.drag.emplace(water_parameters, seeding.initial_porosity);
   const WaterTransfer<dim> transfer(grid, transfer_parameters, water_parameters, 1.);
   Mixture<dim> mixture(grid, seeding.points_per_cell);
   PoreField<dim> pores(grid);

@@ -71,6 +71,7 @@ namespace
       seed_water(water, water_parameters, { { "Soil", region, 0.4, 1500. } }, grid.triangulation(), grid.cell_size());
       transfer_parameters.method   = method;
       transfer_parameters.pic_rate = 0;
+      soil.drag.emplace(water_parameters, 0.4);
       transfer = std::make_unique<WaterTransfer<dim>>(grid, transfer_parameters, water_parameters, 1.);
     }
 

@@ -59,6 +59,9 @@ namespace scree
                      const double value,
                      const std::string &remedy);
 
+  /// The number that a text is; NaN if it is none.
+  double number_of(const std::string &text);
+
   /// A number as a user would write it.
   std::string number_text(const double value);
 

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -85,6 +86,17 @@ namespace scree
 
     /// Tangent bulk modulus, Pa, at the mean compressive stress `pressure`, Pa.
     virtual double initial_bulk_modulus(const double pressure) const = 0;
+
+    /// Speed c of pressure waves in space, m/s; 0 where there is no stiffness. With the stretch lambda along an axis
+    /// and tau = M ln(lambda), c^2 = lambda^2/rho_0 d(tau/lambda)/d(lambda) = (M - tau)/rho_0: compression makes it
+    /// faster.
+    /// @param bulk_modulus Pa
+    /// @param compression largest compressive principal Kirchhoff stress, Pa
+    /// @param density at J = 1, kg/m^3
+    double wave_speed(const double bulk_modulus, const double compression, const double density) const
+    {
+      return std::sqrt((bulk_modulus + 4. / 3. * shear_modulus() + compression) / density);
+    }
 
     /// Stored energy, J per m^3 of reference volume, of the state `left_cauchy_green`.
     virtual double elastic_energy(const double *left_cauchy_green) const = 0;

@@ -15,12 +15,14 @@ namespace scree
   /// Collective.
   void log_program(RunFolder &folder, const MPI_Comm communicator);
 
-  /// Logs the size of the run: cells, points, and the memory that they take, MB of all ranks. Collective.
+  /// Logs the size of the run: cells, points, and memory, MB of all ranks. Collective.
+  /// @param expected_bytes that the run is estimated to take, of all ranks
   template <int dim>
   void log_size(RunFolder &folder,
                 const BackgroundGrid<dim> &grid,
                 const std::list<SoilBody<dim>> &bodies,
-                const std::list<WaterPhase<dim>> &water);
+                const std::list<WaterPhase<dim>> &water,
+                const double expected_bytes);
 
   /// Logs the largest memory so far, MB of all ranks. Collective.
   void log_peak_memory(RunFolder &folder, const MPI_Comm communicator);

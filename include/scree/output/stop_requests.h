@@ -30,8 +30,8 @@ namespace scree
     /// @param wall_time_limit from now on, s; 0: none
     StopRequests(const std::string &terminate_file, const double wall_time_limit);
 
-    /// From here on, signals stop the run by the end of its step; a second SIGINT ends it at once. Before, they end the
-    /// program, which has nothing to save yet.
+    /// From here on, signals stop the run by the end of its step, of settling, too; a second SIGINT ends it at once.
+    /// Before, they end the program, which has nothing to save yet.
     void listen();
 
     /// What this rank has been asked for. To be called once a step: the longest time between two calls tells how much

@@ -6,6 +6,8 @@
 
 namespace scree
 {
+  constexpr double smallest_porosity = 1e-3; ///< keeps the drag finite where grains overlap
+
   /// The drag of water on the grains that it flows past, per volume of saturated soil: (Q + (1-n) b |v_w - v_s|)
   /// (v_w - v_s), N/m^3. Darcy: Q = n^2 rho_w g/k and b = 0 with a given conductivity k. Ergun (1952), who found the
   /// gradient 150 mu (1-n)^2/(n^3 d^2) U + 1.75 rho_w (1-n)/(n^3 d) U^2 of the pressure with U = n |v_w - v_s| in beds

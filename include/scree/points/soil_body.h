@@ -3,12 +3,12 @@
 #define scree_points_soil_body_h
 
 #include <scree/material/material.h>
+#include <scree/points/drag_law.h>
 #include <scree/points/point_set.h>
 #include <scree/points/property_layout.h>
-#include <scree/points/seepage_parameters.h>
 
-#include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace scree
@@ -23,8 +23,8 @@ namespace scree
     std::unique_ptr<Material<dim>> material;
     PropertyLayout<dim> layout;
     PointSet<dim> points;
-    bool is_rigid = false; ///< its points keep their place and bear any stress
-    SeepageParameters seepage;
+    bool is_rigid = false;       ///< its points keep their place and bear any stress
+    std::optional<DragLaw> drag; ///< on water; none in a dry scene
 
     SoilBody(const std::string &name,
              const double density,
@@ -42,14 +42,10 @@ namespace scree
     {
     }
 
-    /// Speed c of pressure waves in space, m/s; 0 where there is no stiffness. With the stretch lambda along an axis
-    /// and tau = M ln(lambda), c^2 = lambda^2/rho_0 d(tau/lambda)/d(lambda) = (M - tau)/rho_0: compression makes it
-    /// faster.
-    /// @param bulk_modulus Pa
-    /// @param compression largest compressive principal Kirchhoff stress, Pa
+    /// See Material::wave_speed().
     double wave_speed(const double bulk_modulus, const double compression) const
     {
-      return std::sqrt((bulk_modulus + 4. / 3. * material->shear_modulus() + compression) / density);
+      return material->wave_speed(bulk_modulus, compression, density);
     }
 
     /// Volume of a point's pores, m^3 (2D: per m): not positive where grains overlap.

@@ -38,7 +38,8 @@ namespace scree
     unsigned int points_per_cell  = 4;             ///< along each axis
     double jitter                 = 0;             ///< over the points' spacing
     double density                = 1000;          ///< kg/m^3
-    double conductivity           = 1e-3;          ///< m/s, at the initial porosity
+    double conductivity           = 1e-3;          ///< m/s, at the initial porosity; NaN: the entry is no number
+    std::string conductivity_text = "auto";        ///< the entry
     std::string conductivity_law  = "constant";    ///< constant | Kozeny-Carman
     double grain_diameter         = 0;             ///< m; 0: the conductivity says what the drag is
     double viscosity              = 0;             ///< Pa s
@@ -59,13 +60,17 @@ namespace scree
     InitialPressure initial_pressure_kind() const;
     ConductivityLaw conductivity_law_kind() const;
 
+    /// Throws EntryError unless a grain diameter alone, of subsection Water or of a body, says what the drag is.
+    /// @param conductivity of the same subsection, as text; empty: not given
+    void
+    check_grain_diameter(const std::string &subsection, const double diameter, const std::string &conductivity) const;
+
     /// Whether the region is wherever soil is, and not an expression.
     bool is_where_soil_is() const;
 
   private:
     void check_single_point() const;
     void check_without_soil() const;
-    void check_grain_diameter() const;
   };
 } // namespace scree
 
