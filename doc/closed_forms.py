@@ -9,6 +9,7 @@
   finite differences
 - hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
 - dam break on a wet bed in shallow water: Stoker 1957
+- viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923), viscosity and settling of suspensions
 
 Needs numpy.
 """
@@ -346,6 +347,35 @@ def stoker_bore(upstream, downstream, gravity=GRAVITY):
     return Bore(behind * depth / (depth - downstream), depth, behind)
 
 
+# Viscous flow ---------------------------------------------------------------------------------------------------------
+
+
+def plane_poiseuille(height, gradient, viscosity, width):
+    """Velocity, m/s, of steady flow between plates `width` H apart: G y (H - y)/(2 mu), with the body force less the gradient of the
+    pressure G, N/m^3. Its mean is G H^2/(12 mu)."""
+    return gradient * height * (width - height) / (2 * viscosity)
+
+
+def vortex_decay(viscosity, density, size):
+    """Rate, 1/s, at which the velocity (sin kx cos ky, -cos kx sin ky), k = pi/L, decays: 2 nu k^2 (Taylor 1923). The convective
+    terms are a gradient, and walls along cell borders of the pattern take no shear."""
+    return 2 * viscosity / density * (math.pi / size)**2
+
+
+def krieger_dougherty(viscosity, grain_fraction, densest_packing=0.64):
+    """mu (1 - phi/phi_m)^(-5/2 phi_m): viscosity of a suspension, Pa s (Krieger & Dougherty 1959)."""
+    return viscosity * (1 - grain_fraction / densest_packing)**(-2.5 * densest_packing)
+
+
+def settling_velocity(conductivity, porosity, grain_density, density=1000):
+    """k (1 - n) (rho_s - rho_w)/rho_w: speed, m/s, at which grains that bear no stress sink in a closed column.
+
+    No volume passes, (1-n) v_s + n v_w = 0, so that v_s = -n (v_w - v_s); grad p is the weight of the mixture, and the water's balance
+    is n (rho - rho_w) g = Q (v_w - v_s) with rho - rho_w = (1-n)(rho_s - rho_w), Q = n^2 rho_w g/k.
+    """
+    return conductivity * (1 - porosity) * (grain_density - density) / density
+
+
 # Self-test ------------------------------------------------------------------------------------------------------------
 
 
@@ -380,6 +410,11 @@ def _self_test():
                for t in (0.1, 0.5, 1)]
     _check(failures, "consolidation with inertia: prm/terzaghi.prm, k = 1e-3 m/s: largest distance to Terzaghi",
            max(np.max(np.abs(difference)) for difference in inertia), 2e-3)
+
+    y, w = _gauss(0., 0.1)
+    _check(failures, "Poiseuille: mean velocity G H^2/(12 mu)",
+           abs(np.sum(w * plane_poiseuille(y, 3., 2., 0.1)) / 0.1 / (3 * 0.1**2 / 24) - 1), 1e-12)
+    _check(failures, "Krieger and Dougherty, dilute: Einstein's 1 + 5/2 phi", abs((krieger_dougherty(1., 1e-4) - 1) / 2.5e-4 - 1), 1e-3)
 
     _check(failures, "Hencky: s(J(s)) = s for s/M from 1e-9 to 10",
            max(abs(Mud(1, 1, .5, 1).stress(volume_ratio_of_stress(s, 1.)) / s - 1) for s in (1e-9, 1e-3, .3, 1, 10)), 1e-6)

@@ -239,14 +239,6 @@ namespace scree
                     pressure.cavitation_pressure,
                     "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
                         " Pa. Water tears there. Write a lower number, or a higher pressure at the wall.");
-    require_entry(
-        water.viscosity == 0 || carries_gradient(transfer.transfer_method()),
-        "Water",
-        "Viscosity",
-        water.viscosity,
-        "viscous stress needs the velocity gradient that only TPIC and AFLIP carry, but subsection Transfer has "
-        "\"Method = " +
-            transfer.method + "\". Write \"Method = AFLIP\" there, or remove the entry.");
     for (const SoilRegion &body : soil_regions())
       {
         if (water.is_where_soil_is())

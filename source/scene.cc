@@ -250,8 +250,25 @@ namespace scree
 
 
   template <int dim>
+  void Scene<dim>::require_viscosity(const double stable_step) const
+  {
+    constexpr double most = 1e10; // beyond, rounding of the velocities outweighs all other forces
+    const double stress =
+        parameters.water.viscosity / parameters.water.density * stable_step / (grid.cell_size() * grid.cell_size());
+    require_entry(stress <= most,
+                  "Water",
+                  "Viscosity",
+                  parameters.water.viscosity,
+                  "in a step of " + number_text(stable_step) + " s it would spread momentum over " +
+                      number_text(std::sqrt(stress)) + " cells, and at most 1e5 are possible. Write a smaller one.");
+  }
+
+
+  template <int dim>
   void Scene<dim>::require_steps(const double stable_step, const Speeds &speeds) const
   {
+    if (parameters.has_water)
+      require_viscosity(stable_step);
     constexpr double most_steps = 1e10; // months, even of the smallest mesh
     const double time           = std::max(parameters.end_time, parameters.settling.maximum_time);
     if (time / stable_step <= most_steps)
@@ -265,11 +282,6 @@ namespace scree
                   "Maximum time step",
                   step.maximum_time_step,
                   remedy + " Write a larger one.");
-    require_entry(Clock(step).stable_step(grid.cell_size(), speeds.wave, speeds.points) <= stable_step,
-                  "Water",
-                  "Viscosity",
-                  parameters.water.viscosity,
-                  remedy + " Write a smaller one.");
     const bool by_waves = speeds.wave >= speeds.points;
     const std::string c = number_text(by_waves ? speeds.wave : speeds.points) + " m/s: ";
     const auto stiffest = [](const auto &a, const auto &b) {

@@ -38,10 +38,10 @@ namespace scree
       , clock(parameters.time_step)
       , output_times(parameters.output, parameters.end_time)
       , graphics(scene.grid, parameters.output, parameters.output_directory)
-      , statistics(scene.grid,
-                   scene.forcing.gravity(),
-                   scene.loads.size(),
-                   parameters.water.volume_correction_rate > 0.)
+      , statistics(
+            scene.grid,
+            scene.forcing.gravity(),
+            { !scene.loads.empty(), parameters.water.volume_correction_rate > 0., parameters.water.viscosity > 0. })
       , rows(folder.file("statistics"))
       , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
   {

@@ -36,7 +36,8 @@ namespace scree
     /// The speeds of the points of all ranks, before the first step. Collective.
     Speeds speeds() const;
 
-    /// Throws EntryError, with the entry, if the run would take more steps than any run can: the time would not move.
+    /// Throws EntryError, with the entry, if the viscosity is too large to compute with, or if the run would take more
+    /// steps than any run can: the time would not move.
     /// @param stable_step s, at these `speeds` of all ranks
     void require_steps(const double stable_step, const Speeds &speeds) const;
 
@@ -71,6 +72,7 @@ namespace scree
     void fill_with_points();
     void set_velocity_gradients();
     void set_initial_state();
+    void require_viscosity(const double stable_step) const;
 
     /// Whether points of rigid bodies act on the owned nodes; empty without such bodies. Collective.
     std::vector<char> rigid_nodes() const;

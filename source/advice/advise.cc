@@ -98,14 +98,11 @@ namespace scree
     parameters.settling.maximum_time = 0;
     coarsen(parameters.grid, advice.coarser);
     Simulation<dim> simulation(parameters, Start::fresh, communicator);
-    const double step_at_start = simulation.stable_step();
-    const SceneNumbers seeded  = survey(simulation, parameters, communicator);
-    const StepCost steps       = measure_steps(simulation, seconds_of_steps, communicator);
+    const SceneNumbers seeded = survey(simulation, parameters, communicator);
+    const StepCost steps      = measure_steps(simulation, seconds_of_steps, communicator);
 
     advice.scene       = with_cell_size(seeded, advice.grid.cell_size);
     advice.first_steps = with_cell_size(steps, seeded, advice.grid.cell_size);
-    if (parameters.has_water && parameters.water.viscosity > 0)
-      advice.schedule.longest_step = step_at_start / (advice.coarser * advice.coarser);
     write_report(advice, out);
   }
 

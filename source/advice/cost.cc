@@ -75,7 +75,7 @@ namespace scree
   {
     const Clock clock(schedule.time_step);
     const auto step_at = [&](const double stiffness, const double speed) {
-      return std::min(schedule.longest_step, clock.stable_step(scene.cell_size, scene.fastest.speed(stiffness), speed));
+      return clock.stable_step(scene.cell_size, scene.fastest.speed(stiffness), speed);
     };
     const double update = seconds_of(first_steps, StepPart::stress);
 

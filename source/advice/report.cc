@@ -154,8 +154,7 @@ namespace scree
       const StepCost steps      = with_cell_size(advice.first_steps, scene, size);
       Schedule schedule         = advice.schedule;
       schedule.time_step        = time_step_for(wanted, schedule.time_step);
-      schedule.longest_step *= size * size / (scene.cell_size * scene.cell_size);
-      const RunCost cost = cost_of_run(wanted, steps, schedule);
+      const RunCost cost        = cost_of_run(wanted, steps, schedule);
       writer.line("step",
                   "about " + rounded(cost.mean_step) +
                       " s, with Courant number = " + rounded(schedule.time_step.courant_number) +

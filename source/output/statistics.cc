@@ -28,12 +28,25 @@ namespace scree
   {
     RunTotals total           = *this;
     StepBalance<dim> &balance = total.balance;
-    std::vector<double *> values{ &balance.wall_dissipation, &balance.drag_dissipation,  &balance.load_work,
-                                  &balance.correction_work,  &balance.n_iterations,      &balance.n_preconditioners,
-                                  &balance.n_cavitating,     &total.lost_mass,           &total.lost_water_mass,
-                                  &total.lost_energy,        &total.plastic_dissipation, &total.n_lost,
-                                  &total.n_updates,          &total.n_substeps,          &total.n_fallbacks,
-                                  &total.n_vertices,         &total.n_unresolved };
+    std::vector<double *> values{ &balance.wall_dissipation,
+                                  &balance.drag_dissipation,
+                                  &balance.viscous_dissipation,
+                                  &balance.load_work,
+                                  &balance.correction_work,
+                                  &balance.n_iterations,
+                                  &balance.n_preconditioners,
+                                  &balance.n_viscous_iterations,
+                                  &balance.n_cavitating,
+                                  &total.lost_mass,
+                                  &total.lost_water_mass,
+                                  &total.lost_energy,
+                                  &total.plastic_dissipation,
+                                  &total.n_lost,
+                                  &total.n_updates,
+                                  &total.n_substeps,
+                                  &total.n_fallbacks,
+                                  &total.n_vertices,
+                                  &total.n_unresolved };
     for (Tensor<1, dim> *vector : { &balance.wall_impulse,
                                     &balance.body_impulse,
                                     &balance.pressure_impulse,
@@ -59,12 +72,10 @@ namespace scree
   template <int dim>
   Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid,
                               const Tensor<1, dim> &gravity,
-                              const unsigned int n_loads,
-                              const bool corrects_volume)
+                              const FurtherColumns further)
       : grid(grid)
       , gravity(gravity)
-      , n_loads(n_loads)
-      , corrects_volume(corrects_volume)
+      , further(further)
   {
   }
 
@@ -117,16 +128,16 @@ namespace scree
     add("Wall dissipation (J)", balance.wall_dissipation);
     add("Numerical dissipation (J)",
         start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.drag_dissipation -
-            totals.lost_energy + balance.load_work + balance.correction_work);
+            balance.viscous_dissipation - totals.lost_energy + balance.load_work + balance.correction_work);
     if (!bodies.empty())
       add_soil_columns(bodies, now, totals, last_step);
     add("Points lost", totals.n_lost);
     add("Mass lost (kg)", totals.lost_mass);
     if (!water.empty())
       add_water_columns(bodies, water, now, totals, step);
-    if (n_loads > 0)
+    if (further.loads)
       add("Load work (J)", balance.load_work);
-    if (corrects_volume)
+    if (further.volume_correction)
       add("Volume correction work (J)", balance.correction_work);
     last_row_step = step;
   }
@@ -188,6 +199,12 @@ namespace scree
     add("Cavitating corners", mean_of_steps(totals.balance.n_cavitating, cavitating_at_last_row));
     add("CG iterations per step", mean_of_steps(totals.balance.n_iterations, iterations_at_last_row));
     add("Preconditioners built", totals.balance.n_preconditioners);
+    if (further.viscosity)
+      {
+        add("Viscous dissipation (J)", totals.balance.viscous_dissipation);
+        add("Viscous iterations per step",
+            mean_of_steps(totals.balance.n_viscous_iterations, viscous_iterations_at_last_row));
+      }
   }
 
 

@@ -33,26 +33,7 @@ namespace scree
         "lattice's spacing; 0: a regular lattice. For verification and stability maps. Double-point only.",
         Patterns::Double(0, 0.49));
     prm.add_parameter("Density", density, "Density of the water, kg/m^3.", Patterns::Double(1e-12));
-    prm.declare_entry("Hydraulic conductivity",
-                      conductivity_text,
-                      Patterns::Anything(),
-                      "Darcy's conductivity of the soil at its initial porosity, m/s. auto: 1e-3, unless \"Grain "
-                      "diameter\" tells the drag.");
-    prm.add_action("Hydraulic conductivity", [this](const std::string &text) {
-      conductivity_text = text;
-      conductivity      = text == "auto" ? WaterParameters().conductivity : number_of(text);
-    });
-    prm.add_parameter("Conductivity law",
-                      conductivity_law,
-                      "constant; Kozeny-Carman: in proportion to n^3/(1-n)^2 of the porosity n.",
-                      Patterns::Selection("constant|Kozeny-Carman"));
-    prm.add_parameter(
-        "Grain diameter",
-        grain_diameter,
-        "Diameter of the grains, m: the drag is that of Ergun 1952, which follows from diameter, porosity, "
-        "\"Density\" and \"Viscosity\", also where the flow is not slow; 0: \"Hydraulic conductivity\" "
-        "tells the drag.",
-        Patterns::Double(0));
+    add_drag_parameters(prm);
     prm.add_parameter("Viscosity", viscosity, "Dynamic viscosity of the water, Pa s; 0: none.", Patterns::Double(0));
     prm.add_parameter(
         "Bulk modulus", bulk_modulus, "Bulk modulus of the water, Pa; 0: incompressible.", Patterns::Double(0));
@@ -76,6 +57,32 @@ namespace scree
         "Velocity of the water at the start, m/s: an expression an axis, separated by semicolons; empty: at "
         "rest. Double-point only.",
         Patterns::Anything());
+    suspension.add_parameters(prm);
+  }
+
+
+  void WaterParameters::add_drag_parameters(ParameterHandler &prm)
+  {
+    prm.declare_entry("Hydraulic conductivity",
+                      conductivity_text,
+                      Patterns::Anything(),
+                      "Darcy's conductivity of the soil at its initial porosity, m/s. auto: 1e-3, unless \"Grain "
+                      "diameter\" tells the drag.");
+    prm.add_action("Hydraulic conductivity", [this](const std::string &text) {
+      conductivity_text = text;
+      conductivity      = text == "auto" ? WaterParameters().conductivity : number_of(text);
+    });
+    prm.add_parameter("Conductivity law",
+                      conductivity_law,
+                      "constant; Kozeny-Carman: in proportion to n^3/(1-n)^2 of the porosity n.",
+                      Patterns::Selection("constant|Kozeny-Carman"));
+    prm.add_parameter(
+        "Grain diameter",
+        grain_diameter,
+        "Diameter of the grains, m: the drag is that of Ergun 1952, which follows from diameter, porosity, "
+        "\"Density\" and \"Viscosity\", also where the flow is not slow; 0: \"Hydraulic conductivity\" "
+        "tells the drag.",
+        Patterns::Double(0));
   }
 
 
@@ -118,6 +125,7 @@ namespace scree
                       "the drag follows from \"Grain diameter\" = " + number_text(grain_diameter) +
                           ". Remove one of the two.");
       }
+    suspension.check(viscosity, n_bodies);
     // Gravity 0 is no fault: the pressure starts at 0.
     require_entry(initial_pressure_kind() == InitialPressure::none ||
                       std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),

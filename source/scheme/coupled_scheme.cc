@@ -24,7 +24,6 @@ namespace scree
       : grid(grid)
       , water_density(water_parameters.density)
       , fluidisation_porosity(water_parameters.fluidisation_porosity)
-      , viscosity(water_parameters.viscosity)
       , water(water)
       , timer(timer)
       , soil(grid, transfer_parameters, stabilisation, bodies, loads)
@@ -40,6 +39,8 @@ namespace scree
   {
     for (const auto &body : bodies)
       shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
+    if (water_parameters.viscosity > 0)
+      viscosity = std::make_unique<ViscousStep<dim>>(grid, water_parameters, bodies, water);
     if (water_parameters.volume_correction_rate > 0)
       volume_correction = std::make_unique<VolumeCorrection<dim>>(
           grid, constraints, pressure, forcing.gravity(), water_parameters.volume_correction_rate);
@@ -55,6 +56,8 @@ namespace scree
     water_field.reinit();
     pressure.reinit();
     step.reinit();
+    if (viscosity)
+      viscosity->reinit();
     if (volume_correction)
       volume_correction->reinit();
   }
@@ -153,11 +156,19 @@ namespace scree
       soil.field.update_ghosts();
       water_field.update_ghosts();
       pores.update_ghosts();
+      if (viscosity)
+        {
+          viscosity->apply(nodes, step, time_step, report.balance);
+          soil.field.update_ghosts();
+          water_field.update_ghosts();
+        }
     }
     pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, report.balance);
     const TimedPart part(timer, StepPart::nodes);
     step.correct(nodes, mixture, pressure, time_step, report.balance);
     pressure.accept_change();
+    if (viscosity)
+      viscosity->count_dissipation(nodes, report.balance);
     soil.field.update_ghosts();
     water_field.update_ghosts();
     // The predictor has counted the load among the forces.
@@ -214,11 +225,7 @@ namespace scree
   template <int dim>
   double CoupledScheme<dim>::stable_step(const Clock &clock, const Speeds &speeds) const
   {
-    const double step = clock.stable_step(grid.cell_size(), speeds.wave, speeds.points);
-    if (viscosity == 0.)
-      return step;
-    // The water's viscous stress is explicit.
-    return std::min(step, 0.25 / dim * grid.cell_size() * grid.cell_size() * water_density / viscosity);
+    return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points);
   }
 
 

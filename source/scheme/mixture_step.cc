@@ -23,16 +23,6 @@ namespace scree
         components[c] += vector[c];
     }
 
-    /// A phase without mass takes the other's vector.
-    template <int dim>
-    void follow(const DragPair<dim> &pair, SoilAndWater<dim> &vectors)
-    {
-      if (pair.soil_mass <= 0.)
-        vectors.soil = vectors.water;
-      if (pair.water_mass <= 0.)
-        vectors.water = vectors.soil;
-    }
-
     /// Another rank may see a node on which no point acts.
     template <int dim>
     bool is_empty(const MixtureNodes<dim> &nodes, const unsigned int node)
@@ -205,7 +195,7 @@ namespace scree
         balance.wall_dissipation -=
             0.5 * (walls.soil * (before.soil + after.soil) + walls.water * (before.water + after.water));
       }
-    follow(pair, after);
+    pair.follow(after);
     return after;
   }
 
@@ -306,7 +296,7 @@ namespace scree
         const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;
         if (pair.is_held())
           correct_at_walls(node, pair, impulses, before, soil_predicted, change, balance);
-        follow(pair, change);
+        pair.follow(change);
         for (const unsigned int first : { Field<dim>::velocity, Field<dim>::velocity_change })
           {
             add_to(of_soil + first, change.soil);
@@ -316,6 +306,32 @@ namespace scree
         // The work of an impulse, as at walls; the classical splitting's drag knows the predicted velocities only.
         balance.drag_dissipation += 0.5 * drag * (splitting == Splitting::classical ? slip_predicted : slip) *
                                     (before.water - before.soil + slip);
+      }
+  }
+
+
+  template <int dim>
+  void MixtureStep<dim>::push(const MixtureNodes<dim> &nodes,
+                              const unsigned int node,
+                              const SoilAndWater<dim> &impulses,
+                              StepBalance<dim> &balance) const
+  {
+    double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
+    const DragPair<dim> pair = pair_at(nodes, node);
+    SoilAndWater<dim> change = pair.solve(impulses);
+    if (pair.is_held())
+      {
+        const SoilAndWater<dim> walls = pair.reactions(impulses, change);
+        count_walls(node, walls, balance);
+        // As in the corrector, only the start's velocity counts.
+        balance.wall_dissipation -=
+            0.5 * (walls.soil * velocity_at_start<dim>(of_soil) + walls.water * velocity_at_start<dim>(of_water));
+      }
+    pair.follow(change);
+    for (const unsigned int first : { Field<dim>::velocity, Field<dim>::velocity_change })
+      {
+        add_to(of_soil + first, change.soil);
+        add_to(of_water + first, change.water);
       }
   }
 

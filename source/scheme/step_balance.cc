@@ -14,10 +14,12 @@ namespace scree
     load_impulse += other.load_impulse;
     wall_dissipation += other.wall_dissipation;
     drag_dissipation += other.drag_dissipation;
+    viscous_dissipation += other.viscous_dissipation;
     load_work += other.load_work;
     correction_work += other.correction_work;
     n_iterations += other.n_iterations;
     n_preconditioners += other.n_preconditioners;
+    n_viscous_iterations += other.n_viscous_iterations;
     n_cavitating += other.n_cavitating;
     return *this;
   }

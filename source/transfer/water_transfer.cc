@@ -100,22 +100,6 @@ namespace scree
         }
     }
 
-    /// Newtonian stress 2 mu dev(sym grad v), Pa: incompressible beside the pressure.
-    ///
-    /// @param gradient of the velocity, 1/s, dim x dim
-    template <int dim>
-    Tensor<2, dim> viscous_stress(const double viscosity, const double *gradient)
-    {
-      double trace = 0;
-      for (unsigned int c = 0; c < dim; ++c)
-        trace += gradient[c * dim + c];
-      Tensor<2, dim> stress;
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int a = 0; a < dim; ++a)
-          stress[c][a] = viscosity * (gradient[c * dim + a] + gradient[a * dim + c] - (a == c ? 2. / 3. * trace : 0.));
-      return stress;
-    }
-
     /// Value, Pa, and gradient, Pa/m, of a multilinear pressure at a place of a cell, into a point's slots.
     template <int dim>
     void set_pressure(const Multilinear<dim> &pressure,
@@ -150,7 +134,6 @@ namespace scree
       : grid(grid)
       , method(transfer.transfer_method())
       , pic_rate(transfer.pic_rate)
-      , parameters(water)
       , pressure_slope(pressure_slope)
       , point_sets(water.point_sets_kind())
   {
@@ -239,8 +222,6 @@ namespace scree
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.add(shape, sums.template momentum_part<method>(shape, mass, properties + layout.velocity, affine));
-          if (carries_gradient(method) && parameters.viscosity > 0)
-            sums.add(shape, sums.force_part(shape, volume, viscous_stress<dim>(parameters.viscosity, affine)));
           add_moments(shape, volume, moments);
           if (porosity != nullptr)
             add_row_sums(shape, volume * (porosity->inverse_at(shape.x) - 1.), grains_about);

@@ -9,7 +9,7 @@ thick: what is per metre in 2D is divided by it, its axis z is y there, and its 
 """
 import sys
 
-SOLVER = ("CG iterations per step", "Preconditioners built")
+SOLVER = ("CG iterations per step", "Viscous iterations per step", "Preconditioners built")
 COUNTS = ("Points", "Water points", "Separated points", "Fallbacks", "Vertices", "Unresolved", "Points lost")
 
 

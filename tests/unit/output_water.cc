@@ -162,7 +162,7 @@ void test_statistics(std::ostream &out)
   Scene<dim> scene;
   Tensor<1, dim> gravity;
   gravity[dim - 1] = -10.;
-  Statistics<dim> statistics(scene.grid, gravity, 1, false);
+  Statistics<dim> statistics(scene.grid, gravity, { true, false, false });
   RunTotals<dim> totals;
   const bool first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   statistics.collect(scene.bodies, scene.water, totals, 0., 0, 0., UpdateReport());
@@ -184,7 +184,7 @@ void test_statistics(std::ostream &out)
   out << dim << "D statistics:" << std::endl;
   statistics.print_last_row(out);
   std::ostringstream dry, empty;
-  Statistics<dim> dry_statistics(scene.grid, gravity, 0, false), water_statistics(scene.grid, gravity, 0, false);
+  Statistics<dim> dry_statistics(scene.grid, gravity, {}), water_statistics(scene.grid, gravity, {});
   dry_statistics.collect(scene.bodies, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
   dry_statistics.print_last_row(dry);
   AssertThrow(dry.str().find("ater") == std::string::npos && dry.str().find("Load") == std::string::npos,

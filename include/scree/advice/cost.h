@@ -7,7 +7,6 @@
 #include <scree/scheme/step_part.h>
 #include <scree/scheme/time_step.h>
 
-#include <limits>
 #include <map>
 
 namespace scree
@@ -43,7 +42,6 @@ namespace scree
   {
     TimeStepParameters time_step;
     OutputParameters output;
-    double longest_step = std::numeric_limits<double>::infinity(); ///< s, of the water's viscosity
   };
 
   /// The cost of a run of `scene` whose first steps cost `first_steps`. In motion, steps of soil that flows are shorter

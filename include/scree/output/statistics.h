@@ -43,16 +43,18 @@ namespace scree
     }
   };
 
+  /// What there are columns for besides those of all scenes.
+  struct FurtherColumns
+  {
+    bool loads = false, volume_correction = false, viscosity = false;
+  };
+
   /// The rows of the file `statistics`: global numbers at each due time.
   template <int dim>
   class Statistics
   {
   public:
-    /// With loads, there is a column of their work; with a volume correction, of its.
-    Statistics(const BackgroundGrid<dim> &grid,
-               const dealii::Tensor<1, dim> &gravity,
-               const unsigned int n_loads,
-               const bool corrects_volume);
+    Statistics(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const FurtherColumns further);
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
@@ -83,7 +85,7 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &has_start &start_momentum &start_energy &last_row &last_row_step &iterations_at_last_row;
-      archive &cavitating_at_last_row;
+      archive &cavitating_at_last_row &viscous_iterations_at_last_row;
     }
 
   private:
@@ -100,14 +102,14 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
-    const unsigned int n_loads;
-    const bool corrects_volume;
+    const FurtherColumns further;
     bool has_start = false;
     dealii::Tensor<1, dim> start_momentum;
-    double start_energy              = 0;
-    unsigned long long last_row_step = 0;
-    double iterations_at_last_row    = 0;
-    double cavitating_at_last_row    = 0;
+    double start_energy                   = 0;
+    unsigned long long last_row_step      = 0;
+    double iterations_at_last_row         = 0;
+    double cavitating_at_last_row         = 0;
+    double viscous_iterations_at_last_row = 0;
     std::vector<std::pair<std::string, double>> last_row;
   };
 } // namespace scree

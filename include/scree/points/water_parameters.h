@@ -2,6 +2,8 @@
 #ifndef scree_points_water_parameters_h
 #define scree_points_water_parameters_h
 
+#include <scree/points/suspension.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -48,6 +50,7 @@ namespace scree
     double volume_correction_rate = 0;             ///< of free water, 1/s
     std::string initial_pressure  = "hydrostatic"; ///< hydrostatic | none
     std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
+    SuspensionParameters suspension;
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -69,6 +72,7 @@ namespace scree
     bool is_where_soil_is() const;
 
   private:
+    void add_drag_parameters(dealii::ParameterHandler &prm);
     void check_single_point() const;
     void check_without_soil() const;
   };

@@ -5,6 +5,7 @@
 #include <scree/scheme/mixture_step.h>
 #include <scree/scheme/scheme.h>
 #include <scree/scheme/soil_motion.h>
+#include <scree/scheme/viscous_step.h>
 #include <scree/scheme/volume_correction.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -14,6 +15,7 @@ namespace scree
   /// 2021; Yuan et al. 2023; two sets of points: Xie, Navas & Lopez-Querol 2024).
   ///
   /// 1. Predictor with the old pressure: A v* = m v + dt (f - G p^n), where A holds masses and drag (MixtureStep).
+  ///    Then the viscosity, if there is any: (A + dt K) v** = A v* (ViscousStep).
   /// 2. Pressure: L dp = -div[(1-n) v_s* + n v_w*], with the drag in L (PorePressure).
   /// 3. Corrector: v = v* - dt A^-1 G dp (MixtureStep).
   /// 4. Points of free water leave where they crowd (VolumeCorrection), if the case asks for it.
@@ -60,7 +62,7 @@ namespace scree
     void fluidise();
 
     const BackgroundGrid<dim> &grid;
-    const double water_density, fluidisation_porosity, viscosity;
+    const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
     dealii::TimerOutput &timer;
@@ -72,6 +74,7 @@ namespace scree
     NodalField<dim> water_field;
     PorePressure<dim> pressure;
     MixtureStep<dim> step;
+    std::unique_ptr<ViscousStep<dim>> viscosity;              // null if there is none
     std::unique_ptr<VolumeCorrection<dim>> volume_correction; // null if the case does not ask for it
   };
 } // namespace scree

@@ -59,6 +59,28 @@ namespace scree
       return velocity;
     }
 
+    /// What is left of two vectors without their held directions.
+    SoilAndWater<dim> free_part(const SoilAndWater<dim> &vectors) const
+    {
+      return { held_soil.free_part(vectors.soil), held_water.free_part(vectors.water) };
+    }
+
+    /// The impulses, N s, that give free velocities, m/s: solve() finds these from them.
+    SoilAndWater<dim> impulses(const SoilAndWater<dim> &velocity) const
+    {
+      const dealii::Tensor<1, dim> drag_impulse = drag * (velocity.water - velocity.soil);
+      return free_part({ soil_mass * velocity.soil - drag_impulse, water_mass * velocity.water + drag_impulse });
+    }
+
+    /// A phase without mass takes the other's vector.
+    void follow(SoilAndWater<dim> &vectors) const
+    {
+      if (soil_mass <= 0.)
+        vectors.soil = vectors.water;
+      if (water_mass <= 0.)
+        vectors.water = vectors.soil;
+    }
+
     /// Speed at which soil and water pass each other, m/s, if the drag is C + `inertial` times this speed: exact where
     /// walls hold all or nothing of a phase, or the flow is along or across them.
     /// @param inertial kg s/m

@@ -36,9 +36,16 @@ namespace scree
                  const double time_step,
                  StepBalance<dim> &balance);
 
-  private:
+    /// Soil and water at an owned node, after predict().
     DragPair<dim> pair_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 
+    /// Gives an owned node further impulses, N s, after predict(): drag and walls see them, too.
+    void push(const MixtureNodes<dim> &nodes,
+              const unsigned int node,
+              const SoilAndWater<dim> &impulses,
+              StepBalance<dim> &balance) const;
+
+  private:
     /// Any mass for rigid soil, so that it takes part in drag: as it is held, the mass does not matter.
     void stand_in_for_rigid(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 

@@ -19,14 +19,16 @@ namespace scree
     dealii::Tensor<1, dim>
         pressure_impulse;                ///< sum over soil and water of -V grad p: walls and surfaces push back, N s
     dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
-    double wall_dissipation = 0;         ///< energy that walls took, J
-    double drag_dissipation = 0;         ///< between soil and water, J
-    double load_work        = 0;         ///< of the surface load, J
-    double correction_work  = 0;         ///< of the volume correction against gravity, J
+    double wall_dissipation    = 0;      ///< energy that walls took, J
+    double drag_dissipation    = 0;      ///< between soil and water, J
+    double viscous_dissipation = 0;      ///< of water and suspended soil, J
+    double load_work           = 0;      ///< of the surface load, J
+    double correction_work     = 0;      ///< of the volume correction against gravity, J
 
     // Counts; doubles hold them exactly and travel like the rest.
     double n_iterations = 0, n_preconditioners = 0; // on the writing rank only
-    double n_cavitating = 0;                        // corners of this rank held at the cavitation pressure
+    double n_viscous_iterations = 0;                // on the writing rank only
+    double n_cavitating         = 0;                // corners of this rank held at the cavitation pressure
 
     StepBalance &operator+=(const StepBalance &other);
 
@@ -35,8 +37,8 @@ namespace scree
     {
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse;
       archive &soil_walls &water_walls;
-      archive &wall_dissipation &drag_dissipation &load_work &correction_work;
-      archive &n_iterations &n_preconditioners &n_cavitating;
+      archive &wall_dissipation &drag_dissipation &viscous_dissipation &load_work &correction_work;
+      archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
     }
   };
 } // namespace scree

@@ -51,7 +51,7 @@ namespace scree
     /// Adds pores, drag and grains of a body's points to the mixture and to `pores`.
     void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
 
-    /// Adds mass, momentum and viscous force of the water's points to `field`, volume and pressure to the mixture, and
+    /// Adds mass and momentum of the water's points to `field`, volume and pressure to the mixture, and
     /// the grains about points of the water's own to `pores`. All soil has to be in.
     void
     to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field, PoreField<dim> &pores) const;
@@ -86,7 +86,6 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
     const double pic_rate;
-    const WaterParameters parameters;
     const double pressure_slope;
     const PointSets point_sets;
   };
