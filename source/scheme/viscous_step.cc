@@ -59,13 +59,22 @@ namespace scree
 
 
   template <int dim>
+  void ViscousStep<dim>::find_points()
+  {
+    viscous.clear();
+    for (const auto &part : water)
+      viscous.push_back({ part.points(), part.layout.mass, force.coefficients(part), false });
+    for (const auto &body : bodies)
+      viscous.push_back({ body.points, body.layout.mass, force.coefficients(body), true });
+  }
+
+
+  template <int dim>
   double ViscousStep<dim>::largest_rate() const
   {
     double largest = 0;
-    for (const auto &part : water)
-      largest = std::max(largest, force.largest_rate(part));
-    for (const auto &body : bodies)
-      largest = std::max(largest, force.largest_rate(body));
+    for (const Viscous &one : viscous)
+      largest = std::max(largest, force.largest_rate(one.points, one.coefficients, one.mass_slot));
     return Utilities::MPI::max(largest, grid.triangulation().get_communicator());
   }
 
@@ -77,10 +86,11 @@ namespace scree
   {
     soil_impulses.clear();
     water_impulses.clear();
-    for (const auto &part : water)
-      force.add(part, water_velocity, water_impulses);
-    for (const auto &body : bodies)
-      force.add(body, soil_velocity, soil_impulses);
+    for (const Viscous &one : viscous)
+      force.add(one.points,
+                one.coefficients,
+                one.is_soil ? soil_velocity : water_velocity,
+                one.is_soil ? soil_impulses : water_impulses);
     for (NodalField<dim> *field : { &soil_impulses, &water_impulses })
       {
         field->add_contributions();
@@ -177,6 +187,7 @@ namespace scree
                                const double time_step,
                                StepBalance<dim> &balance)
   {
+    find_points();
     active = nodes.pores.active_nodes();
     pairs.clear();
     for (const unsigned int node : active)

@@ -2,6 +2,8 @@
 #include <scree/tensor/invariants.h>
 #include <scree/transfer/viscous_force.h>
 
+#include <algorithm>
+
 namespace scree
 {
   using namespace dealii;
@@ -16,10 +18,13 @@ namespace scree
     }
 
     /// sum |grad phi_i|^2/phi_i, per square of the cell's width: a sum over the axes, as the others' functions add up
-    /// to one.
+    /// to one. Of quadratic splines at most 6 an axis, which is taken for all points away from walls.
     template <int dim, int n>
-    double stiffness(const CellBasis<dim, n> &basis)
+    double stiffness(const Point<dim> &x, const OpenKnots open)
     {
+      if (n == 3 && open == 0)
+        return 6. * dim;
+      const CellBasis<dim, n> basis(x, open);
       double sum = 0;
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int i = 0; i < n; ++i)
@@ -40,44 +45,60 @@ namespace scree
 
 
   template <int dim>
-  auto ViscousForce<dim>::coefficient_of(const WaterPhase<dim> &water) const
+  std::vector<double> ViscousForce<dim>::coefficients(const WaterPhase<dim> &water) const
   {
-    return [this, volume = water.layout.volume](const double *properties) { return viscosity * properties[volume]; };
+    std::vector<double> result;
+    for_each_point(water.points(),
+                   [&](const auto &point) { result.push_back(viscosity * point.properties[water.layout.volume]); });
+    return result;
   }
 
 
   template <int dim>
-  auto ViscousForce<dim>::coefficient_of(const SoilBody<dim> &soil) const
+  std::vector<double> ViscousForce<dim>::coefficients(const SoilBody<dim> &soil) const
   {
-    return [this, &soil](const double *properties) {
-      const double part = suspension.suspended_part(mean_effective_stress(properties + soil.layout.stress));
+    std::vector<double> result;
+    if (!suspension.any() || soil.is_rigid)
+      return result;
+    bool any = false;
+    for_each_point(soil.points, [&](const auto &point) {
+      const double *properties = point.properties;
+      const double part        = suspension.suspended_part(mean_effective_stress(properties + soil.layout.stress));
+      result.push_back(0.);
       if (part == 0.)
-        return 0.;
+        return;
+      any                   = true;
       const double porosity = std::max(soil.porosity(properties), 0.);
-      return part * (suspension.viscosity(1. - porosity) - porosity * viscosity) * properties[soil.layout.volume];
-    };
+      result.back() =
+          part * (suspension.viscosity(1. - porosity) - porosity * viscosity) * properties[soil.layout.volume];
+    });
+    return any ? result : std::vector<double>();
   }
 
 
   template <int dim>
-  template <int n, typename Coefficient>
+  template <int n>
   void ViscousForce<dim>::add_points(const PointSet<dim> &points,
-                                     const Coefficient &coefficient,
+                                     const std::vector<double> &coefficients,
                                      const NodalField<dim> &motion,
                                      NodalField<dim> &field) const
   {
+    auto coefficient = coefficients.begin();
     for (const auto &cell : points.cells())
       {
+        const auto end = coefficient + cell.n_points;
+        if (std::all_of(coefficient, end, [](const double number) { return number == 0.; }))
+          {
+            coefficient = end;
+            continue;
+          }
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int *nodes = grid.nodes(cell.cell);
         const CellVelocity<dim, n> velocity(nodes, motion, grid.cell_size());
         CellSums<dim, n> sums(grid.cell_size());
         for_each_point(cell, [&](const auto &point) {
-          const double factor = coefficient(point.properties);
-          if (factor == 0.)
-            return;
           const PointShape<dim, n> shape(point.reference_location, open);
-          sums.add(shape, sums.force_part(shape, factor, twice_deviatoric_rate(velocity.gradient(shape))));
+          sums.add(shape, sums.force_part(shape, *coefficient++, twice_deviatoric_rate(velocity.gradient(shape))));
         });
         field.activate_cell(cell.cell);
         sums.scatter(nodes, field);
@@ -86,62 +107,47 @@ namespace scree
 
 
   template <int dim>
-  template <int n, typename Coefficient>
-  double ViscousForce<dim>::largest_rate(const PointSet<dim> &points,
-                                         const unsigned int mass_slot,
-                                         const Coefficient &coefficient) const
+  template <int n>
+  double ViscousForce<dim>::bound(const PointSet<dim> &points,
+                                  const std::vector<double> &coefficients,
+                                  const unsigned int mass_slot) const
   {
-    double largest = 0;
+    double largest   = 0;
+    auto coefficient = coefficients.begin();
     for (const auto &cell : points.cells())
       for_each_point(cell, [&, open = grid.open_knots(cell.cell)](const auto &point) {
-        if (const double factor = coefficient(point.properties); factor > 0.)
+        if (const double number = *coefficient++; number > 0.)
           largest = std::max(largest,
-                             factor / point.properties[mass_slot] *
-                                 stiffness(CellBasis<dim, n>(point.reference_location, open)));
+                             number / point.properties[mass_slot] * stiffness<dim, n>(point.reference_location, open));
       });
     return 2. * largest / (grid.cell_size() * grid.cell_size());
   }
 
 
   template <int dim>
-  void ViscousForce<dim>::add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const
+  void ViscousForce<dim>::add(const PointSet<dim> &points,
+                              const std::vector<double> &coefficients,
+                              const NodalField<dim> &motion,
+                              NodalField<dim> &field) const
   {
-    if (grid.n_nodes_1d() == 2)
-      add_points<2>(water.points(), coefficient_of(water), motion, field);
-    else
-      add_points<3>(water.points(), coefficient_of(water), motion, field);
-  }
-
-
-  template <int dim>
-  void ViscousForce<dim>::add(const SoilBody<dim> &soil, const NodalField<dim> &motion, NodalField<dim> &field) const
-  {
-    if (!suspension.any() || soil.is_rigid)
+    if (coefficients.empty())
       return;
     if (grid.n_nodes_1d() == 2)
-      add_points<2>(soil.points, coefficient_of(soil), motion, field);
+      add_points<2>(points, coefficients, motion, field);
     else
-      add_points<3>(soil.points, coefficient_of(soil), motion, field);
+      add_points<3>(points, coefficients, motion, field);
   }
 
 
   template <int dim>
-  double ViscousForce<dim>::largest_rate(const WaterPhase<dim> &water) const
+  double ViscousForce<dim>::largest_rate(const PointSet<dim> &points,
+                                         const std::vector<double> &coefficients,
+                                         const unsigned int mass_slot) const
   {
-    if (grid.n_nodes_1d() == 2)
-      return largest_rate<2>(water.points(), water.layout.mass, coefficient_of(water));
-    return largest_rate<3>(water.points(), water.layout.mass, coefficient_of(water));
-  }
-
-
-  template <int dim>
-  double ViscousForce<dim>::largest_rate(const SoilBody<dim> &soil) const
-  {
-    if (!suspension.any() || soil.is_rigid)
+    if (coefficients.empty())
       return 0.;
-    if (grid.n_nodes_1d() == 2)
-      return largest_rate<2>(soil.points, soil.layout.mass, coefficient_of(soil));
-    return largest_rate<3>(soil.points, soil.layout.mass, coefficient_of(soil));
+    return grid.n_nodes_1d() == 2 ? bound<2>(points, coefficients, mass_slot)
+                                  : bound<3>(points, coefficients, mass_slot);
   }
 
   template class ViscousForce<2>;

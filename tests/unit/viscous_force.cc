@@ -30,22 +30,24 @@ double sum(const double value)
 
 
 /// The nodes of the points of one phase, and the viscous force on them.
-template <int dim, typename Phase>
+template <int dim>
 struct Nodes
 {
   const BackgroundGrid<dim> &grid;
   const ViscousForce<dim> &force;
-  const Phase &phase;
+  const PointSet<dim> &points;
+  const std::vector<double> coefficients;
   NodalField<dim> masses, motion, forces;
 
   Nodes(const BackgroundGrid<dim> &grid,
         const ViscousForce<dim> &force,
-        const Phase &phase,
         const PointSet<dim> &points,
+        const std::vector<double> &coefficients,
         const unsigned int mass_slot)
       : grid(grid)
       , force(force)
-      , phase(phase)
+      , points(points)
+      , coefficients(coefficients)
       , masses(grid)
       , motion(grid)
       , forces(grid)
@@ -81,7 +83,7 @@ struct Nodes
   {
     motion.update_ghosts();
     forces.clear();
-    force.add(phase, motion, forces);
+    force.add(points, coefficients, motion, forces);
     forces.add_contributions();
   }
 
@@ -129,8 +131,8 @@ struct Nodes
 };
 
 
-template <int dim, typename Phase>
-void examine(Nodes<dim, Phase> nodes, const double viscosity_times_volume, const double bound, std::ostream &out)
+template <int dim>
+void examine(Nodes<dim> nodes, const double viscosity_times_volume, const double bound, std::ostream &out)
 {
   const auto vector = [](const std::function<double(const Point<dim> &, unsigned int)> &component) {
     return [component](const Point<dim> &x) {
@@ -217,15 +219,18 @@ void test(const std::string &basis, std::ostream &out)
   const double of_grains =
       2. * (std::pow(1. - 0.4 / 0.64, -1.6) - 0.6); // Krieger and Dougherty, less the water's share
   out << dim << "D " << basis << ": water";
-  examine(Nodes<dim, WaterPhase<dim>>(grid, force, water, water.points(), water.layout.mass),
-          2. * sum(water_volume),
-          force.largest_rate(water),
-          out);
+  const auto test_points = [&](const PointSet<dim> &points,
+                               const std::vector<double> &coefficients,
+                               const unsigned int mass_slot,
+                               const double all) {
+    examine(Nodes<dim>(grid, force, points, coefficients, mass_slot),
+            all,
+            force.largest_rate(points, coefficients, mass_slot),
+            out);
+  };
+  test_points(water.points(), force.coefficients(water), water.layout.mass, 2. * sum(water_volume));
   out << "; soil";
-  examine(Nodes<dim, SoilBody<dim>>(grid, force, soil, soil.points, soil.layout.mass),
-          of_grains * sum(part),
-          force.largest_rate(soil),
-          out);
+  test_points(soil.points, force.coefficients(soil), soil.layout.mass, of_grains * sum(part));
   out << std::endl;
 }
 

@@ -38,6 +38,17 @@ namespace scree
     void count_dissipation(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const;
 
   private:
+    /// Points that are viscous in a step.
+    struct Viscous
+    {
+      const PointSet<dim> &points;
+      unsigned int mass_slot;
+      std::vector<double> coefficients;
+      bool is_soil;
+    };
+
+    void find_points();
+
     using Vector = std::vector<SoilAndWater<dim>>; // an entry an owned node on which points act
 
     /// The impulses -dt K v into `impulses`. Collective.
@@ -61,6 +72,7 @@ namespace scree
     const std::list<SoilBody<dim>> &bodies;
     const std::list<WaterPhase<dim>> &water;
     const ViscousForce<dim> force;
+    std::vector<Viscous> viscous;
     std::vector<unsigned int> active;              // owned nodes on which points act
     std::vector<DragPair<dim>> pairs;              // A, of each of them
     NodalField<dim> soil_motion, water_motion;     // velocities that K is applied to

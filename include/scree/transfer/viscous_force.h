@@ -7,7 +7,7 @@
 #include <scree/points/water_phase.h>
 #include <scree/transfer/velocity_transfer.h>
 
-#include <list>
+#include <vector>
 
 namespace scree
 {
@@ -23,30 +23,35 @@ namespace scree
   public:
     ViscousForce(const BackgroundGrid<dim> &grid, const WaterParameters &water);
 
-    /// Adds the force on this rank's points, of the velocity of `motion`, whose ghosts hold values, to that of `field`.
-    void add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const;
-    void add(const SoilBody<dim> &soil, const NodalField<dim> &motion, NodalField<dim> &field) const;
+    /// Viscosity times volume of this rank's points, Pa s m^3 (2D: per m), in their order; empty if all are 0.
+    std::vector<double> coefficients(const WaterPhase<dim> &water) const;
+    std::vector<double> coefficients(const SoilBody<dim> &soil) const;
+
+    /// Adds the force of points with these coefficients, of the velocity of `motion`, whose ghosts hold values, to that
+    /// of `field`.
+    void add(const PointSet<dim> &points,
+             const std::vector<double> &coefficients,
+             const NodalField<dim> &motion,
+             NodalField<dim> &field) const;
 
     /// A bound on the rates, 1/s, at which viscosity slows any motion of nodes with lumped masses, for this rank's
     /// points: the largest eigenvalue of M^-1 K is at most max 2 mu V/m sum |grad phi_i|^2/phi_i, by the inequality of
     /// Cauchy and Schwarz for |sum grad phi_i v_i|^2.
-    double largest_rate(const WaterPhase<dim> &water) const;
-    double largest_rate(const SoilBody<dim> &soil) const;
+    /// @param mass_slot of the points
+    double largest_rate(const PointSet<dim> &points,
+                        const std::vector<double> &coefficients,
+                        const unsigned int mass_slot) const;
 
   private:
-    /// Viscosity times volume of a point, Pa s m^3 (2D: per m), from its properties.
-    auto coefficient_of(const WaterPhase<dim> &water) const;
-    auto coefficient_of(const SoilBody<dim> &soil) const;
-
-    template <int n, typename Coefficient>
+    template <int n>
     void add_points(const PointSet<dim> &points,
-                    const Coefficient &coefficient,
+                    const std::vector<double> &coefficients,
                     const NodalField<dim> &motion,
                     NodalField<dim> &field) const;
 
-    template <int n, typename Coefficient>
+    template <int n>
     double
-    largest_rate(const PointSet<dim> &points, const unsigned int mass_slot, const Coefficient &coefficient) const;
+    bound(const PointSet<dim> &points, const std::vector<double> &coefficients, const unsigned int mass_slot) const;
 
     const BackgroundGrid<dim> &grid;
     const double viscosity; // of the water, Pa s
