@@ -48,6 +48,7 @@ namespace scree
   std::vector<double> ViscousForce<dim>::coefficients(const WaterPhase<dim> &water) const
   {
     std::vector<double> result;
+    result.reserve(water.points().n_points());
     for_each_point(water.points(),
                    [&](const auto &point) { result.push_back(viscosity * point.properties[water.layout.volume]); });
     return result;
@@ -60,6 +61,7 @@ namespace scree
     std::vector<double> result;
     if (!suspension.any() || soil.is_rigid)
       return result;
+    result.reserve(soil.points.n_points());
     bool any = false;
     for_each_point(soil.points, [&](const auto &point) {
       const double *properties = point.properties;
