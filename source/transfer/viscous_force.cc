@@ -12,9 +12,14 @@ namespace scree
   {
     /// 2 dev(sym grad v), 1/s: incompressible beside the pressure.
     template <int dim>
-    Tensor<2, dim> twice_deviatoric_rate(const Tensor<2, dim> &gradient)
+    DEAL_II_ALWAYS_INLINE inline Tensor<2, dim> twice_deviatoric_rate(const Tensor<2, dim> &gradient)
     {
-      return gradient + transpose(gradient) - 2. / 3. * trace(gradient) * Tensor<2, dim>(unit_symmetric_tensor<dim>());
+      const double mean = 2. / 3. * trace(gradient);
+      Tensor<2, dim> rate;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int a = 0; a < dim; ++a)
+          rate[c][a] = gradient[c][a] + gradient[a][c] - (a == c ? mean : 0.);
+      return rate;
     }
 
     /// sum |grad phi_i|^2/phi_i, per square of the cell's width: a sum over the axes, as the others' functions add up
