@@ -86,6 +86,7 @@ namespace scree
     if (!folder.is_writer())
       totals = RunTotals<dim>(); // The writer holds the sums.
     reinit();
+    points_at_edge = are_points_at_edge();
     output_times.begin(clock.time());
     record_case();
     log_case();
@@ -212,6 +213,7 @@ namespace scree
   template <int dim>
   void Simulation<dim>::advance(const double time_step)
   {
+    follow_points(time_step);
     repartition();
     partition.begin_step();
     StepReport<dim> step;
@@ -244,19 +246,30 @@ namespace scree
   void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
   {
     const auto sets = point_sets();
-    std::vector<double> largest{ of_rank.wave, of_rank.points }; // and the disorder of each set
+    std::vector<double> largest{ of_rank.wave, of_rank.points, 0. }; // and the disorder of each set
     {
       const TimedPart part(timer, StepPart::sort);
       for (PointSet<dim> *points : sets)
-        largest.push_back(static_cast<int>(points->update_places()));
+        {
+          largest.push_back(static_cast<int>(points->update_places()));
+          largest[2] = std::max(largest[2], double(points->is_at_edge()));
+        }
     }
     partition.finish(Work::to_points);
     agree_on(largest);
     partition.resume();
     check_speed(time_step);
     const TimedPart part(timer, StepPart::sort);
+    points_at_edge = points_at_edge || largest[2] > 0.;
+    bool is_sorted = false;
     for (unsigned int s = 0; s < sets.size(); ++s)
-      sets[s]->hand_over(static_cast<Disorder>(static_cast<int>(largest[2 + s])));
+      {
+        const auto disorder = static_cast<Disorder>(static_cast<int>(largest[3 + s]));
+        sets[s]->hand_over(disorder);
+        is_sorted = is_sorted || disorder == Disorder::far;
+      }
+    if (is_sorted && scene.grid.follows_points())
+      points_at_edge = are_points_at_edge() || points_at_edge;
     partition.finish(Work::to_nodes);
   }
 
@@ -349,6 +362,40 @@ namespace scree
     totals.lost_mass             = settled.lost_mass;
     totals.lost_water_mass       = settled.lost_water_mass;
     measure_speeds();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::follow_points(const double time_step)
+  {
+    if (!points_at_edge)
+      return;
+    // Steps until the mesh is to be looked at again, if points keep their velocity: it costs some tens of steps.
+    constexpr double steps_ahead = 500;
+    const TimedPart part(timer, StepPart::repartition);
+    const Blocks blocks = scene.blocks_of_points(steps_ahead * time_step);
+    const auto sets     = point_sets();
+    for (PointSet<dim> *points : sets)
+      points->lift();
+    scene.grid.refine_around(blocks, Shares::kept);
+    for (PointSet<dim> *points : sets)
+      {
+        points->put_down();
+        points->costs().reinit(scene.grid.triangulation().n_active_cells());
+      }
+    reinit();
+    points_at_edge = are_points_at_edge();
+    ++n_refinements;
+    AssertThrow(!points_at_edge, ExcInternalError("A point is outside the fine cells."));
+  }
+
+
+  template <int dim>
+  bool Simulation<dim>::are_points_at_edge()
+  {
+    const auto sets = point_sets();
+    const bool own  = std::any_of(sets.begin(), sets.end(), [](const auto *points) { return points->is_at_edge(); });
+    return Utilities::MPI::max(int(own), communicator) == 1;
   }
 
 

@@ -63,7 +63,7 @@ namespace scree
   NodeNumbering<dim> PorePressure<dim>::numbered(const BackgroundGrid<dim> &grid)
   {
     NodeNumbering<dim> corners(Basis::linear);
-    corners.distribute(grid.triangulation(), grid.cell_size());
+    corners.distribute(grid.fine_cells());
     return corners;
   }
 
@@ -71,7 +71,7 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::reinit()
   {
-    corners.distribute(grid.triangulation(), grid.cell_size());
+    corners.distribute(grid.fine_cells());
     surface.reinit();
     solver.reinit();
     reinit_vectors();
