@@ -197,6 +197,11 @@ namespace scree
                        scene.name_of_a_point());
     progress.summarise_ranks(
         seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
+    if (scene.grid.follows_points())
+      folder.log("fine cells at the end: " +
+                 number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
+                 "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
+                 number_text(seconds_of(timer, StepPart::repartition)) + " s");
     log_peak_memory(folder, communicator);
     folder.log(
         "Results are in " + parameters.output_directory +
@@ -215,6 +220,8 @@ namespace scree
   {
     follow_points(time_step);
     repartition();
+    for ([[maybe_unused]] const PointSet<dim> *points : point_sets())
+      Assert(points->is_in_inner_cells(), ExcMessage("A point lies beside cells without nodes."));
     partition.begin_step();
     StepReport<dim> step;
     scene.forcing.set_time(clock.time());
@@ -370,14 +377,12 @@ namespace scree
   {
     if (!points_at_edge)
       return;
-    // Steps until the mesh is to be looked at again, if points keep their velocity: it costs some tens of steps.
-    constexpr double steps_ahead = 500;
     const TimedPart part(timer, StepPart::repartition);
-    const Blocks blocks = scene.blocks_of_points(steps_ahead * time_step);
+    const Blocks blocks = blocks_ahead(time_step);
     const auto sets     = point_sets();
     for (PointSet<dim> *points : sets)
       points->lift();
-    scene.grid.refine_around(blocks, Shares::kept);
+    scene.grid.refine(blocks, Shares::kept);
     for (PointSet<dim> *points : sets)
       {
         points->put_down();
@@ -387,6 +392,23 @@ namespace scree
     points_at_edge = are_points_at_edge();
     ++n_refinements;
     AssertThrow(!points_at_edge, ExcInternalError("A point is outside the fine cells."));
+  }
+
+
+  template <int dim>
+  Blocks Simulation<dim>::blocks_ahead(const double time_step) const
+  {
+    // A new mesh costs some tens of steps, and no more cells than twice those around the points are to lie ahead of
+    // them.
+    constexpr double steps_ahead = 500, most_blocks = 2;
+    const auto blocks = [this](const double time) {
+      return scene.grid.with_surroundings(scene.blocks_of_points(time));
+    };
+    const Blocks around = blocks(0.);
+    for (double steps = steps_ahead; steps > 1; steps /= 2)
+      if (Blocks ahead = blocks(steps * time_step); ahead.size() <= most_blocks * around.size())
+        return ahead;
+    return around;
   }
 
 

@@ -92,6 +92,9 @@ namespace scree
     /// Repartitions the mesh, if that is due and worthwhile.
     void repartition();
 
+    /// The blocks that are to be fine, of all ranks: around the points and on their way. Collective.
+    Blocks blocks_ahead(const double time_step) const;
+
     /// Whether a point of any rank has come to the edge of the fine cells. Collective.
     bool are_points_at_edge();
 

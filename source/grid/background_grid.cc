@@ -76,11 +76,20 @@ namespace scree
     }
 
 
-    /// Blocks between points and larger cells.
-    constexpr unsigned int margin = 2;
+    template <int dim>
+    unsigned int levels(const GridParameters &parameters)
+    {
+      const CellsOfBox<dim> box = cells_of_box<dim>(parameters);
+      return parameters.is_adaptive() ? levels_of_box(box) : levels_that_divide(box);
+    }
 
-    /// With more than this part of the box, all of it is made fine: that costs less than to follow the points.
-    constexpr double most_of_box = 0.5;
+
+    GridParameters everywhere(GridParameters parameters)
+    {
+      parameters.fine = "everywhere";
+      return parameters;
+    }
+
   } // namespace
 
 
@@ -160,6 +169,22 @@ namespace scree
   }
 
 
+  double GridParameters::n_cells() const
+  {
+    double n = 1;
+    for (unsigned int a = 0; a < upper_corner.size(); ++a)
+      n *= std::round((upper_corner[a] - lower_corner[a]) / cell_size);
+    return n;
+  }
+
+
+  bool GridParameters::is_adaptive() const
+  {
+    constexpr double few = 2e4;
+    return fine == "around points" && n_cells() > few;
+  }
+
+
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
                                       const unsigned int n_levels,
@@ -169,7 +194,7 @@ namespace scree
       , upper(point_from_list<dim>(parameters.upper_corner))
       , box(cells_of_box<dim>(parameters))
       , n_levels(n_levels)
-      , follows(parameters.is_adaptive() && n_levels > 0)
+      , follows(parameters.is_adaptive())
       , mesh(communicator,
              Triangulation<dim>::none,
              parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
@@ -188,7 +213,7 @@ namespace scree
 
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator)
-      : BackgroundGrid(parameters, levels_that_divide(cells_of_box<dim>(parameters)), communicator)
+      : BackgroundGrid(everywhere(parameters), levels_that_divide(cells_of_box<dim>(parameters)), communicator)
   {
     mesh.refine_global(n_levels);
     cells.reinit();
@@ -200,13 +225,10 @@ namespace scree
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
                                       const HoldsPoints<dim> &holds_points,
                                       const MPI_Comm communicator)
-      : BackgroundGrid(parameters,
-                       parameters.is_adaptive() ? levels_of_box(cells_of_box<dim>(parameters)) :
-                                                  levels_that_divide(cells_of_box<dim>(parameters)),
-                       communicator)
+      : BackgroundGrid(parameters, levels<dim>(parameters), communicator)
   {
     if (follows)
-      refine_around(occupied_blocks(holds_points), Shares::even);
+      refine(with_surroundings(occupied_blocks(holds_points)), Shares::even);
     else
       {
         mesh.refine_global(n_levels);
@@ -306,23 +328,23 @@ namespace scree
 
 
   template <int dim>
-  void BackgroundGrid<dim>::refine_around(const Blocks &blocks, const Shares shares)
+  Blocks BackgroundGrid<dim>::with_surroundings(const Blocks &blocks) const
   {
     const CellPlace<dim> n = n_blocks();
     double n_all           = 1;
     for (const int along : n)
       n_all *= along;
-    const Blocks around = with_margin<dim>(all_blocks(blocks, mesh.get_communicator()), margin, n);
-    const bool is_most  = around.size() > most_of_box * n_all;
-    refine(is_most ? with_margin<dim>({ 0 }, *std::max_element(n.begin(), n.end()), n) : around, shares);
+    const Blocks around = with_margin<dim>(all_blocks(blocks, mesh.get_communicator()), GridParameters::margin / 2, n);
+    if (around.size() <= GridParameters::most_of_box * n_all)
+      return around;
+    return with_margin<dim>({ 0 }, *std::max_element(n.begin(), n.end()), n);
   }
 
 
   template <int dim>
   void BackgroundGrid<dim>::refine(const Blocks &blocks, const Shares shares)
   {
-    const Blocks all = all_blocks(blocks, mesh.get_communicator());
-    for (bool is_first = true; set_flags(all) || is_first; is_first = false)
+    for (bool is_first = true; set_flags(blocks) || is_first; is_first = false)
       {
         mesh.execute_coarsening_and_refinement();
         if (shares == Shares::even)

@@ -190,7 +190,7 @@ namespace scree
         if (file.name.rfind(name_of_mesh, 0) == 0)
           {
             const std::string content = read_checked_file(checkpoint.folder, file);
-            const std::size_t n       = content.size() / sizeof(Blocks::value_type), n_before = blocks.size();
+            const std::size_t n = content.size() / sizeof(Blocks::value_type), n_before = blocks.size();
             blocks.resize(n_before + n);
             Reader(checkpoint.folder + '/' + file.name, content).take(blocks.data() + n_before, n);
           }
@@ -366,6 +366,7 @@ namespace scree
       {
         Blocks blocks;
         on_all_ranks([&] { blocks = read_blocks(checkpoint); });
+        make_unique(blocks);
         grid.refine(blocks, Shares::even);
       }
     std::vector<std::uint64_t> n_points;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/cell_places.h>
 #include <scree/points/point_set.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,6 +8,7 @@
 #include <deal.II/grid/cell_id.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace scree
@@ -93,10 +95,13 @@ namespace scree
       : index(iterator->active_cell_index())
       , iterator(iterator)
   {
-    const CellId id = iterator->id();
-    number          = id.get_coarse_cell_id();
-    for (const unsigned int child : id.get_child_indices())
-      number = number << dim | child;
+    // The mesh's first vertex is the lower corner of the box.
+    const Point<dim> lower = iterator->get_triangulation().get_vertices()[0], corner = iterator->vertex(0);
+    const Tensor<1, dim> width = width_of<dim>(iterator);
+    CellPlace<dim> place;
+    for (unsigned int a = 0; a < dim; ++a)
+      place[a] = static_cast<int>(std::lround((corner[a] - lower[a]) / width[a]));
+    number = curve_number<dim>(place);
   }
 
 
@@ -272,6 +277,14 @@ namespace scree
 
 
   template <int dim>
+  bool PointSet<dim>::is_in_inner_cells() const
+  {
+    return std::all_of(
+        filled.begin(), filled.end(), [](const Cell &cell) { return use_of(cell.iterator) == CellUse::inner; });
+  }
+
+
+  template <int dim>
   void PointSet<dim>::lift()
   {
     lifted                  = std::make_unique<Lifted>();
@@ -350,8 +363,11 @@ namespace scree
             }
         point = points.end();
       }
-    if (!outside.empty())
-      particle_handler.remove_particles(outside);
+    // One by one, and from the last one on, since the last point of a cell takes the number of one that is removed:
+    // deal.II's remove_particles() is collective.
+    std::for_each(
+        outside.rbegin(), outside.rend(), [this](const auto &point) { particle_handler.remove_particle(point); });
+    particle_handler.update_cached_numbers();
   }
 
 

@@ -28,11 +28,18 @@ namespace scree
 
     Basis basis_kind() const;
 
-    /// Whether cells may be larger where no points are.
-    bool is_adaptive() const
-    {
-      return fine == "around points";
-    }
+    /// Cells of this size that fill the box.
+    double n_cells() const;
+
+    /// Whether cells are larger where no points are: in boxes of many cells. Few take less memory than the program, and
+    /// so little time that to follow the points would cost more.
+    bool is_adaptive() const;
+
+    /// Cells beside points that are fine, too, at least.
+    static constexpr unsigned int margin = 4;
+
+    /// With more than this part of the box, all of it is made fine: that costs less than to follow the points.
+    static constexpr double most_of_box = 0.5;
   };
 
   /// What refinement does to the ranks of cells.
@@ -58,22 +65,20 @@ namespace scree
     /// Fine cells everywhere. Collective.
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator);
 
-    /// Fine cells where points are; everywhere if the parameters say so, or if that makes little difference. Collective.
-    BackgroundGrid(const GridParameters &parameters,
-                   const HoldsPoints<dim> &holds_points,
-                   const MPI_Comm communicator);
+    /// Fine cells where points are; everywhere if the parameters say so or the box has few cells. Collective.
+    BackgroundGrid(const GridParameters &parameters, const HoldsPoints<dim> &holds_points, const MPI_Comm communicator);
 
     /// Builds the nodes for the current mesh and partition. Collective; called again after a repartition and after
     /// refine().
     void distribute_nodes();
 
-    /// Makes cells fine in these blocks and in a margin around them, and others larger. Collective; no points may be on
-    /// the mesh.
-    /// @param blocks of this rank
-    void refine_around(const Blocks &blocks, const Shares shares);
+    /// The blocks of all ranks with a margin around them, or all of the box if that makes little difference.
+    /// Collective.
+    /// @param blocks of this rank, in which points are
+    Blocks with_surroundings(const Blocks &blocks) const;
 
-    /// Makes the cells of these blocks fine, without a margin. Collective; no points may be on the mesh.
-    /// @param blocks on any rank
+    /// Makes the cells of these blocks fine, and others larger. Collective; no points may be on the mesh.
+    /// @param blocks of all ranks
     void refine(const Blocks &blocks, const Shares shares);
 
     /// This rank's blocks of fine cells.

@@ -2,7 +2,7 @@
 #ifndef scree_grid_fine_cells_h
 #define scree_grid_fine_cells_h
 
-#include <scree/grid/cell_places.h>
+#include <scree/points/cell_places.h>
 
 #include <deal.II/distributed/tria.h>
 

@@ -130,6 +130,9 @@ namespace scree
       return at_edge;
     }
 
+    /// Whether all cells() are inner ones, as a step needs it.
+    bool is_in_inner_cells() const;
+
     /// This rank's cells that hold points, in an order that depends on the cells' places only. Valid until the points
     /// move on.
     const std::vector<CellPoints<dim>> &cells()

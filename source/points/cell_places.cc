@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/grid/cell_places.h>
+#include <scree/points/cell_places.h>
 
 #include <deal.II/base/mpi.h>
 

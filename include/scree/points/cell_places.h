@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_grid_cell_places_h
-#define scree_grid_cell_places_h
+#ifndef scree_points_cell_places_h
+#define scree_points_cell_places_h
 
 #include <deal.II/base/point.h>
 
