@@ -55,12 +55,19 @@ namespace scree
         {
           const CellPlace<dim> place = box.place_of_corner(cell->vertex(0));
           const bool is_fine         = cell->vertex(1)[0] - cell->vertex(0)[0] < 1.5 * box.width;
-          const CellUse use          = !box.contains(place) ? CellUse::outside :
-                                       is_fine              ? CellUse::inner :
-                                                              CellUse::coarse;
+          const CellUse use = !box.contains(place) ? CellUse::outside : is_fine ? CellUse::inner : CellUse::coarse;
           cell->set_user_index(static_cast<unsigned int>(use));
-          if (use == CellUse::inner)
-            cell_list.push_back({ curve_number<dim>(place), place, cell->active_cell_index(), cell->subdomain_id() });
+          if (use != CellUse::inner)
+            continue;
+          cell_list.push_back({ curve_number<dim>(place), place, cell->active_cell_index(), cell->subdomain_id() });
+          // Halving again and again rounds in another way for each depth of the mesh.
+          for (const unsigned int v : cell->vertex_indices())
+            {
+              CellPlace<dim> at = place;
+              for (unsigned int a = 0; a < dim; ++a)
+                at[a] += v >> a & 1;
+              cell->vertex(v) = box.corner(at);
+            }
         }
     std::sort(cell_list.begin(), cell_list.end(), [](const Cell &a, const Cell &b) { return a.number < b.number; });
     entry_of_index.assign(triangulation.n_active_cells(), none);

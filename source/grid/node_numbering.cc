@@ -84,9 +84,8 @@ namespace scree
 
 
   template <int dim>
-  void NodeNumbering<dim>::exchange(const FineCells<dim> &cells,
-                                    const types::global_dof_index first,
-                                    Homes &homes) const
+  void
+  NodeNumbering<dim>::exchange(const FineCells<dim> &cells, const types::global_dof_index first, Homes &homes) const
   {
     for (auto &number : homes)
       if (number != none)
@@ -140,8 +139,8 @@ namespace scree
                                                  numbers::invalid_dof_index),
         foreign;
     for_nodes([&](const std::size_t entry, const CellPlace<dim> &place, const unsigned int node, const unsigned int c) {
-      numbers[entry] = c == none ? first + homeless.at({ curve_number<dim>(place), node })
-                                 : homes[std::size_t(c) * n_nodes + node];
+      numbers[entry] =
+          c == none ? first + homeless.at({ curve_number<dim>(place), node }) : homes[std::size_t(c) * n_nodes + node];
       if (c != none && !cells.is_owned(cells.cells()[c]))
         foreign.push_back(numbers[entry]);
     });
@@ -165,10 +164,10 @@ namespace scree
     for (const Cell &cell : cells.cells())
       if (cells.is_owned(cell))
         {
-          const std::size_t first   = std::size_t(cell.index) * n_nodes;
-          const OpenKnots open      = cell_open_knots[cell.index];
-          const std::uint8_t walls  = cell_walls[cell.index];
-          const Point<dim> corner   = cells.box().corner(cell.place);
+          const std::size_t first  = std::size_t(cell.index) * n_nodes;
+          const OpenKnots open     = cell_open_knots[cell.index];
+          const std::uint8_t walls = cell_walls[cell.index];
+          const Point<dim> corner  = cells.box().corner(cell.place);
           for (unsigned int i = 0; i < n_nodes; ++i)
             {
               const unsigned int node = distribution->global_to_local(global_nodes[first + i]);

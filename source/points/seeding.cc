@@ -92,7 +92,8 @@ namespace scree
     std::string fault;
     for (const auto &cell : triangulation.active_cell_iterators())
       for (unsigned int i = 0;
-           cell->is_locally_owned() && holds_nodes(cell) && fault.empty() && i < Utilities::fixed_power<dim>(n); ++i)
+           cell->is_locally_owned() && holds_nodes(cell) && fault.empty() && i < Utilities::fixed_power<dim>(n);
+           ++i)
         {
           Point<dim> x = cell->vertex(0);
           for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)

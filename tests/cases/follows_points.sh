@@ -27,7 +27,7 @@ sed 's/set Cell size/set Fine cells = everywhere\n  set Cell size/' "$case" >eve
 run around 1 "$case"
 run everywhere 1 "$PWD/everywhere.prm"
 compare around everywhere "$4"
-grep -q 'followed the points [2-9] times' around/results/log.txt
+grep -q 'followed the points [1-9] times' around/results/log.txt
 
 for ranks in 2 3; do
   run $ranks $ranks "$case"
