@@ -46,6 +46,35 @@ namespace scree
     }
 
 
+    /// Cells in which one of the regions is and those of the margin around them, by sampling: at most all of the box.
+    template <int dim>
+    double cells_around(const std::vector<Region<dim>> &regions, const GridParameters &grid)
+    {
+      constexpr int n                  = dim == 2 ? 200 : 40; // samples an axis
+      constexpr unsigned int n_samples = Utilities::pow(n, dim);
+      std::array<double, dim> length;
+      std::vector<char> is_inside(n_samples);
+      for (unsigned int i = 0; i < n_samples; ++i)
+        {
+          Point<dim> x;
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+            {
+              length[a] = grid.upper_corner[a] - grid.lower_corner[a];
+              x[a]      = grid.lower_corner[a] + length[a] * (rest % n + 0.5) / n;
+            }
+          is_inside[i] =
+              std::any_of(regions.begin(), regions.end(), [&](const Region<dim> &one) { return one.contains(x); });
+        }
+      const double cells_of_sample = grid.n_cells() / n_samples;
+      double cells                 = cells_of_sample * std::count(is_inside.begin(), is_inside.end(), 1);
+      for (unsigned int a = 0, stride = 1; a < dim; ++a, stride *= n)
+        for (unsigned int i = 0; i < n_samples; ++i)
+          if (i / stride % n + 1 < n && is_inside[i] != is_inside[i + stride]) // a face of the regions
+            cells += (GridParameters::margin + 1) * cells_of_sample * n * grid.cell_size / length[a];
+      return cells > GridParameters::most_of_box * grid.n_cells() ? grid.n_cells() : cells;
+    }
+
+
     /// The number in a file; infinity if there is none, such as "max".
     double number_in(const std::string &file)
     {
@@ -150,25 +179,29 @@ namespace scree
   {
     const GridParameters &grid = parameters.grid;
     MemoryEstimate estimate;
-    estimate.n_cells        = 1;
+    const double n_cells    = grid.n_cells();
     unsigned int n_halvings = 31;
     for (unsigned int a = 0; a < dim; ++a)
-      {
-        const long cells = std::lround((grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size);
-        estimate.n_cells *= cells;
-        while (cells % (1l << n_halvings) != 0)
-          --n_halvings;
-      }
-    const double n_coarse_cells = estimate.n_cells / std::pow(1l << n_halvings, dim);
+      while (std::lround((grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size) % (1l << n_halvings) != 0)
+        --n_halvings;
+    const double n_coarse_cells = grid.is_adaptive() ? 0. : n_cells / std::pow(1l << n_halvings, dim);
 
+    std::vector<Region<dim>> regions;
     const auto soil = parameters.soil_regions();
     for (unsigned int i = 0; i < soil.size(); ++i)
-      estimate.n_soil_points += estimate.n_cells * std::pow(parameters.bodies[i].seeding.points_per_cell, dim) *
-                                part_of_box(Region<dim>(entry_name(soil[i].name, "Region"), soil[i].region), grid);
+      {
+        regions.emplace_back(entry_name(soil[i].name, "Region"), soil[i].region);
+        estimate.n_soil_points +=
+            n_cells * std::pow(parameters.bodies[i].seeding.points_per_cell, dim) * part_of_box(regions.back(), grid);
+      }
     double n_wet_cells = 0;
     if (parameters.has_water)
       for (const WaterPart &part : water_parts(parameters.water, soil))
-        n_wet_cells += estimate.n_cells * part_of_box(Region<dim>(entry_name("Water", "Region"), part.region), grid);
+        {
+          regions.emplace_back(entry_name("Water", "Region"), part.region);
+          n_wet_cells += n_cells * part_of_box(regions.back(), grid);
+        }
+    estimate.n_cells = grid.is_adaptive() ? cells_around(regions, grid) : n_cells;
     if (parameters.water.point_sets_kind() == PointSets::double_point)
       estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim);
 

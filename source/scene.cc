@@ -29,6 +29,43 @@ namespace scree
       return parameters.grid;
     }
 
+    /// Where the case puts points at the start.
+    template <int dim>
+    HoldsPoints<dim> places_of_points(const Parameters &parameters)
+    {
+      struct Part
+      {
+        Region<dim> region;
+        unsigned int points_per_cell;
+      };
+      const auto parts = std::make_shared<std::vector<Part>>();
+      const auto soil  = parameters.soil_regions();
+      for (unsigned int i = 0; i < soil.size(); ++i)
+        parts->push_back({ Region<dim>(entry_name(soil[i].name, "Region"), soil[i].region),
+                           parameters.bodies[i].seeding.points_per_cell });
+      if (parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point)
+        for (const WaterPart &part : water_parts(parameters.water, soil))
+          parts->push_back(
+              { Region<dim>(entry_name("Water", "Region"), part.region), parameters.water.points_per_cell });
+      return [parts, &parameters](const Point<dim> &cell) {
+        const auto touches_cell = [&](const Part &part) {
+          const unsigned int n = part.points_per_cell;
+          const double width   = parameters.grid.cell_size / n;
+          for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
+            {
+              Point<dim> corner = cell;
+              for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+                corner[a] += width * (rest % n);
+              if (part.region.touches_cube(corner, width))
+                return true;
+            }
+          return false;
+        };
+        return parameters.surface_load.touches_cell(cell.begin_raw(), parameters.grid, dim) ||
+               std::any_of(parts->begin(), parts->end(), touches_cell);
+      };
+    }
+
     /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
     std::pair<unsigned int, unsigned int> points_per_cell(const Parameters &parameters)
     {
@@ -45,7 +82,7 @@ namespace scree
 
   template <int dim>
   Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm communicator)
-      : grid(grid_that_fits<dim>(parameters, communicator), communicator)
+      : grid(grid_that_fits<dim>(parameters, communicator), places_of_points<dim>(parameters), communicator)
       , walls(grid, parameters.boundaries)
       , water_walls(parameters.has_water
                         ? std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries)
@@ -119,6 +156,28 @@ namespace scree
   {
     grid.distribute_nodes();
     constraints.hold_soil(rigid_nodes());
+  }
+
+
+  template <int dim>
+  Blocks Scene<dim>::blocks_of_points(const double time) const
+  {
+    Blocks blocks;
+    const auto append = [&](const PointSet<dim> &points, const unsigned int velocity) {
+      for_each_point(points, [&](const auto &point) {
+        const double *v = point.properties + velocity;
+        grid.append_blocks(point.location, time * Tensor<1, dim>(make_array_view(v, v + dim)), blocks);
+      });
+    };
+    for (const auto &body : bodies)
+      append(body.points, body.layout.velocity);
+    for (const auto &part : water)
+      append(part.points(), part.layout.velocity);
+    for (const auto &load : loads)
+      for_each_point(load.points(),
+                     [&](const auto &point) { grid.append_blocks(point.location, Tensor<1, dim>(), blocks); });
+    make_unique(blocks);
+    return blocks;
   }
 
 

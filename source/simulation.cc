@@ -89,6 +89,7 @@ namespace scree
     if (!folder.is_writer())
       totals = RunTotals<dim>(); // The writer holds the sums.
     reinit();
+    points_at_edge = are_points_at_edge();
     output_times.begin(clock.time());
     record_case();
     log_case();
@@ -212,6 +213,11 @@ namespace scree
                        scene.name_of_a_point());
     progress.summarise_ranks(
         seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
+    if (scene.grid.follows_points())
+      folder.log("fine cells at the end: " +
+                 number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
+                 "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
+                 number_text(seconds_of(timer, StepPart::repartition)) + " s");
     log_peak_memory(folder, communicator);
     folder.log(
         "Results are in " + parameters.output_directory +
@@ -228,7 +234,10 @@ namespace scree
   template <int dim>
   void Simulation<dim>::advance(const double time_step)
   {
+    follow_points(time_step);
     repartition();
+    for ([[maybe_unused]] const PointSet<dim> *points : point_sets())
+      Assert(points->is_in_inner_cells(), ExcMessage("A point lies beside cells without nodes."));
     partition.begin_step();
     StepReport<dim> step;
     scene.forcing.set_time(clock.time());
@@ -260,19 +269,30 @@ namespace scree
   void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
   {
     const auto sets = point_sets();
-    std::vector<double> largest{ of_rank.wave, of_rank.points }; // and the disorder of each set
+    std::vector<double> largest{ of_rank.wave, of_rank.points, 0. }; // and the disorder of each set
     {
       const TimedPart part(timer, StepPart::sort);
       for (PointSet<dim> *points : sets)
-        largest.push_back(static_cast<int>(points->update_places()));
+        {
+          largest.push_back(static_cast<int>(points->update_places()));
+          largest[2] = std::max(largest[2], double(points->is_at_edge()));
+        }
     }
     partition.finish(Work::to_points);
     agree_on(largest);
     partition.resume();
     check_speed(time_step);
     const TimedPart part(timer, StepPart::sort);
+    points_at_edge = points_at_edge || largest[2] > 0.;
+    bool is_sorted = false;
     for (unsigned int s = 0; s < sets.size(); ++s)
-      sets[s]->hand_over(static_cast<Disorder>(static_cast<int>(largest[2 + s])));
+      {
+        const auto disorder = static_cast<Disorder>(static_cast<int>(largest[3 + s]));
+        sets[s]->hand_over(disorder);
+        is_sorted = is_sorted || disorder == Disorder::far;
+      }
+    if (is_sorted && scene.grid.follows_points())
+      points_at_edge = are_points_at_edge() || points_at_edge;
     partition.finish(Work::to_nodes);
   }
 
@@ -380,6 +400,55 @@ namespace scree
     scene.constraints.open_gate();
     scene.stop();
     measure_speeds();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::follow_points(const double time_step)
+  {
+    if (!points_at_edge)
+      return;
+    const TimedPart part(timer, StepPart::repartition);
+    const Blocks blocks = blocks_ahead(time_step);
+    const auto sets     = point_sets();
+    for (PointSet<dim> *points : sets)
+      points->lift();
+    scene.grid.refine(blocks, Shares::kept);
+    for (PointSet<dim> *points : sets)
+      {
+        points->put_down();
+        points->costs().reinit(scene.grid.triangulation().n_active_cells());
+      }
+    reinit();
+    points_at_edge = are_points_at_edge();
+    ++n_refinements;
+    AssertThrow(!points_at_edge, ExcInternalError("A point is outside the fine cells."));
+  }
+
+
+  template <int dim>
+  Blocks Simulation<dim>::blocks_ahead(const double time_step) const
+  {
+    // A new mesh costs some tens of steps, and no more cells than twice those around the points are to lie ahead of
+    // them.
+    constexpr double steps_ahead = 500, most_blocks = 2;
+    const auto blocks = [this](const double time) {
+      return scene.grid.with_surroundings(scene.blocks_of_points(time));
+    };
+    const Blocks around = blocks(0.);
+    for (double steps = steps_ahead; steps > 1; steps /= 2)
+      if (Blocks ahead = blocks(steps * time_step); ahead.size() <= most_blocks * around.size())
+        return ahead;
+    return around;
+  }
+
+
+  template <int dim>
+  bool Simulation<dim>::are_points_at_edge()
+  {
+    const auto sets = point_sets();
+    const bool own  = std::any_of(sets.begin(), sets.end(), [](const auto *points) { return points->is_at_edge(); });
+    return Utilities::MPI::max(int(own), communicator) == 1;
   }
 
 

@@ -27,8 +27,11 @@ namespace scree
     /// EntryError where the case does not fit itself.
     void fill();
 
-    /// Fits what depends on the partition of the mesh to it. Collective.
+    /// Fits what depends on the mesh and its partition to them. Collective.
     void reinit();
+
+    /// The blocks in which this rank's points are, and those they come through in the next `time`, s, at their velocity.
+    Blocks blocks_of_points(const double time) const;
 
     /// The scheme that moves the points of this scene, to which it refers: chosen here and nowhere else.
     std::unique_ptr<Scheme<dim>> make_scheme(dealii::TimerOutput &timer);

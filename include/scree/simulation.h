@@ -90,8 +90,18 @@ namespace scree
     /// Fits scene and scheme to a new partition of the mesh.
     void reinit();
 
+    /// Makes cells fine around the points as they are, and where they go to, once a point has come to the edge of the
+    /// fine cells. Depends on the state of the run only, so that a resumed run does it in the same step.
+    void follow_points(const double time_step);
+
     /// Repartitions the mesh, if that is due and worthwhile.
     void repartition();
+
+    /// The blocks that are to be fine, of all ranks: around the points and on their way. Collective.
+    Blocks blocks_ahead(const double time_step) const;
+
+    /// Whether a point of any rank has come to the edge of the fine cells. Collective.
+    bool are_points_at_edge();
 
     /// Waits for the slowest rank.
     void wait();
@@ -143,6 +153,8 @@ namespace scree
     Scene<dim> scene;
     std::unique_ptr<Scheme<dim>> scheme;
     Partition<dim> partition;
+    bool points_at_edge        = false; // of any rank
+    unsigned int n_refinements = 0;     // that followed the points
 
     Clock clock;
     OutputTimes output_times;

@@ -89,7 +89,7 @@ namespace scree
         scene.gravity =
             Tensor<1, dim>(make_array_view(parameters.gravity.data(), parameters.gravity.data() + dim)).norm();
         scene.cell_size = grid.cell_size();
-        scene.n_cells   = grid.triangulation().n_global_active_cells();
+        scene.n_cells   = grid.n_cells_of_box();
         scene.has_soil  = std::any_of(
             parameters.bodies.begin(), parameters.bodies.end(), [](const auto &body) { return !body.is_rigid(); });
         scene.is_elastic = scene.has_soil;

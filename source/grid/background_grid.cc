@@ -2,6 +2,8 @@
 #include <scree/grid/background_grid.h>
 #include <scree/input/input_error.h>
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_generator.h>
 
 #include <algorithm>
@@ -21,6 +23,73 @@ namespace scree
       std::copy_n(list.begin(), dim, point.begin_raw());
       return point;
     }
+
+
+    template <int dim>
+    CellsOfBox<dim> cells_of_box(const GridParameters &parameters)
+    {
+      CellsOfBox<dim> box{ point_from_list<dim>(parameters.lower_corner), parameters.cell_size, {} };
+      for (unsigned int a = 0; a < dim; ++a)
+        box.n[a] = static_cast<int>(
+            std::lround((parameters.upper_corner[a] - parameters.lower_corner[a]) / parameters.cell_size));
+      return box;
+    }
+
+
+    /// Coarse cells along each axis of the box, each halved `n_levels` times.
+    template <int dim>
+    std::vector<unsigned int> coarse_cells(const CellsOfBox<dim> &box, const unsigned int n_levels)
+    {
+      std::vector<unsigned int> n;
+      for (const int along : box.n)
+        n.push_back((along + (1 << n_levels) - 1) >> n_levels);
+      return n;
+    }
+
+
+    /// As many levels as every axis allows: p4est copies the coarse cells to all ranks.
+    template <int dim>
+    unsigned int levels_that_divide(const CellsOfBox<dim> &box)
+    {
+      unsigned int n_levels = 0;
+      while (std::all_of(box.n.begin(), box.n.end(), [&](const int n) { return n % (2 << n_levels) == 0; }))
+        ++n_levels;
+      return n_levels;
+    }
+
+
+    /// So many that the coarse cells are few.
+    template <int dim>
+    unsigned int levels_of_box(const CellsOfBox<dim> &box)
+    {
+      constexpr double few  = 1000;
+      unsigned int n_levels = 0;
+      const auto n_coarse   = [&] {
+        double product = 1;
+        for (const unsigned int n : coarse_cells(box, n_levels))
+          product *= n;
+        return product;
+      };
+      while (n_coarse() > few)
+        ++n_levels;
+      return n_levels;
+    }
+
+
+    template <int dim>
+    unsigned int levels(const GridParameters &parameters)
+    {
+      const CellsOfBox<dim> box = cells_of_box<dim>(parameters);
+      return parameters.is_adaptive() ? levels_of_box(box) : levels_that_divide(box);
+    }
+
+
+    GridParameters everywhere(GridParameters parameters)
+    {
+      parameters.fine = "everywhere";
+      return parameters;
+    }
+
   } // namespace
 
 
@@ -41,6 +110,11 @@ namespace scree
                       basis,
                       "Shape functions: spline (C1 quadratic B-splines), quadratic (C0) or linear.",
                       Patterns::Selection("spline|quadratic|linear"));
+    prm.add_parameter("Fine cells",
+                      fine,
+                      "Where cells have that width: around points (with a margin that moves with them; larger cells, "
+                      "which take no memory worth mentioning, elsewhere), or everywhere.",
+                      Patterns::Selection("around points|everywhere"));
     prm.leave_subsection();
   }
 
@@ -95,47 +169,216 @@ namespace scree
   }
 
 
+  double GridParameters::n_cells() const
+  {
+    double n = 1;
+    for (unsigned int a = 0; a < upper_corner.size(); ++a)
+      n *= std::round((upper_corner[a] - lower_corner[a]) / cell_size);
+    return n;
+  }
+
+
+  bool GridParameters::is_adaptive() const
+  {
+    constexpr double few = 2e4;
+    return fine == "around points" && n_cells() > few;
+  }
+
+
   template <int dim>
-  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator)
+  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
+                                      const unsigned int n_levels,
+                                      const MPI_Comm communicator)
       : width(parameters.cell_size)
       , lower(point_from_list<dim>(parameters.lower_corner))
       , upper(point_from_list<dim>(parameters.upper_corner))
+      , box(cells_of_box<dim>(parameters))
+      , n_levels(n_levels)
+      , follows(parameters.is_adaptive())
       , mesh(communicator,
              Triangulation<dim>::none,
              parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
+      , cells(mesh, box)
       , nodes_of_mesh(parameters.basis_kind())
+      , after_repartition(mesh.signals.post_distributed_repartition.connect([this] { cells.reinit(); }))
   {
-    mesh.refine_global(make_coarse_mesh());
+    const std::vector<unsigned int> n = coarse_cells(box, n_levels);
+    Point<dim> end                    = upper;
+    for (unsigned int a = 0; a < dim; ++a)
+      if (const int along = n[a] << n_levels; along != box.n[a])
+        end[a] = lower[a] + along * width;
+    GridGenerator::subdivided_hyper_rectangle(mesh, n, lower, end);
+  }
+
+
+  template <int dim>
+  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator)
+      : BackgroundGrid(everywhere(parameters), levels_that_divide(cells_of_box<dim>(parameters)), communicator)
+  {
+    mesh.refine_global(n_levels);
+    cells.reinit();
     distribute_nodes();
   }
 
 
   template <int dim>
-  unsigned int BackgroundGrid<dim>::make_coarse_mesh()
+  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
+                                      const HoldsPoints<dim> &holds_points,
+                                      const MPI_Comm communicator)
+      : BackgroundGrid(parameters, levels<dim>(parameters), communicator)
   {
-    // As many refinements as every axis allows: p4est copies the coarse cells to all ranks.
-    std::vector<unsigned int> cells(dim);
-    for (unsigned int a = 0; a < dim; ++a)
-      cells[a] = static_cast<unsigned int>(std::lround((upper[a] - lower[a]) / width));
-
-    unsigned int n_refinements = 0;
-    while (std::all_of(cells.begin(), cells.end(), [](const unsigned int n) { return n % 2 == 0; }))
+    if (follows)
+      refine(with_surroundings(occupied_blocks(holds_points)), Shares::even);
+    else
       {
-        for (unsigned int &n : cells)
-          n /= 2;
-        ++n_refinements;
+        mesh.refine_global(n_levels);
+        cells.reinit();
       }
-
-    const bool number_the_walls = true;
-    GridGenerator::subdivided_hyper_rectangle(mesh, cells, lower, upper, number_the_walls);
-    return n_refinements;
+    distribute_nodes();
   }
 
 
   template <int dim>
   void BackgroundGrid<dim>::distribute_nodes()
   {
-    nodes_of_mesh.distribute(mesh, width);
+    nodes_of_mesh.distribute(cells);
+  }
+
+
+  template <int dim>
+  CellPlace<dim> BackgroundGrid<dim>::n_blocks() const
+  {
+    CellPlace<dim> n;
+    for (unsigned int a = 0; a < dim; ++a)
+      n[a] = (box.n[a] + 1) / 2;
+    return n;
+  }
+
+
+  template <int dim>
+  Blocks BackgroundGrid<dim>::occupied_blocks(const HoldsPoints<dim> &holds_points) const
+  {
+    const MPI_Comm communicator = mesh.get_communicator();
+    const CellPlace<dim> n      = n_blocks();
+    std::uint64_t n_all         = 1;
+    for (const int along : n)
+      n_all *= along;
+    const auto is_occupied = [&](const CellPlace<dim> &block) {
+      for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+        {
+          CellPlace<dim> cell;
+          for (unsigned int a = 0; a < dim; ++a)
+            cell[a] = 2 * block[a] + (v >> a & 1);
+          if (box.contains(cell) && holds_points(box.corner(cell)))
+            return true;
+        }
+      return false;
+    };
+    const std::uint64_t rank = Utilities::MPI::this_mpi_process(communicator);
+    const std::uint64_t end  = n_all * (rank + 1) / Utilities::MPI::n_mpi_processes(communicator);
+    Blocks blocks;
+    on_all_ranks(communicator, [&] {
+      for (std::uint64_t i = n_all * rank / Utilities::MPI::n_mpi_processes(communicator); i < end; ++i)
+        {
+          CellPlace<dim> block;
+          std::uint64_t rest = i;
+          for (unsigned int a = 0; a < dim; ++a, rest /= n[a - 1])
+            block[a] = rest % n[a];
+          if (is_occupied(block))
+            blocks.push_back(curve_number<dim>(block));
+        }
+    });
+    return blocks;
+  }
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::append_blocks(const Point<dim> &x, const Tensor<1, dim> &path, Blocks &blocks) const
+  {
+    const auto block_at = [&](const Point<dim> &y) {
+      CellPlace<dim> place = box.place_near(y);
+      for (int &along : place)
+        along /= 2;
+      return curve_number<dim>(place);
+    };
+    const std::uint64_t first = block_at(x);
+    if (!blocks.empty() && blocks.back() == first)
+      return;
+    // A way that is no number, or as long as the box, has no end.
+    double length = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      length = std::max(length, std::min(std::abs(path[a]), upper[a] - lower[a]));
+    const unsigned int n = std::isfinite(path.norm()) ? static_cast<unsigned int>(length / (2. * width)) : 0;
+    for (unsigned int i = n; i > 0; --i)
+      blocks.push_back(block_at(x + double(i) / n * path));
+    blocks.push_back(first);
+  }
+
+
+  template <int dim>
+  Blocks BackgroundGrid<dim>::fine_blocks() const
+  {
+    Blocks blocks;
+    for (const auto &cell : cells.cells())
+      if (cells.is_owned(cell))
+        blocks.push_back(cell.number >> dim);
+    make_unique(blocks);
+    return blocks;
+  }
+
+
+  template <int dim>
+  Blocks BackgroundGrid<dim>::with_surroundings(const Blocks &blocks) const
+  {
+    const CellPlace<dim> n = n_blocks();
+    double n_all           = 1;
+    for (const int along : n)
+      n_all *= along;
+    const Blocks around = with_margin<dim>(all_blocks(blocks, mesh.get_communicator()), GridParameters::margin / 2, n);
+    if (around.size() <= GridParameters::most_of_box * n_all)
+      return around;
+    return with_margin<dim>({ 0 }, *std::max_element(n.begin(), n.end()), n);
+  }
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::refine(const Blocks &blocks, const Shares shares)
+  {
+    for (bool is_first = true; set_flags(blocks) || is_first; is_first = false)
+      {
+        mesh.execute_coarsening_and_refinement();
+        if (shares == Shares::even)
+          mesh.repartition();
+      }
+    for (const auto &cell : mesh.active_cell_iterators())
+      cell->clear_coarsen_flag();
+    cells.reinit();
+  }
+
+
+  template <int dim>
+  bool BackgroundGrid<dim>::set_flags(const Blocks &blocks)
+  {
+    bool refines = false;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          // A cell of this level is 2^s cells wide, hence an aligned cube of 2^(dim (s - 1)) blocks.
+          const unsigned int s     = n_levels - cell->level();
+          const CellPlace<dim> own = box.place_of_corner(cell->vertex(0));
+          const auto is_wanted     = [&](const unsigned int s) {
+            const std::uint64_t number = curve_number<dim>(own) >> (dim * s) << (dim * (s - 1));
+            return has_any(blocks, number, std::uint64_t(1) << (dim * (s - 1)));
+          };
+          if (s > 0 && is_wanted(s))
+            {
+              cell->set_refine_flag();
+              refines = true;
+            }
+          else if (cell->level() > 0 && !is_wanted(s + 1))
+            cell->set_coarsen_flag();
+        }
+    return Utilities::MPI::max(int(refines), mesh.get_communicator()) == 1;
   }
 
   template class BackgroundGrid<2>;

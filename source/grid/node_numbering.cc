@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/grid/node_numbering.h>
 
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_bernstein.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_tools.h>
-#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <map>
 
 namespace scree
 {
@@ -15,103 +13,14 @@ namespace scree
 
   namespace
   {
+    /// The walls of the box that a cell touches: bit f for face f.
     template <int dim>
-    std::unique_ptr<FiniteElement<dim>> make_element(const Basis basis)
+    std::uint8_t walls_of(const CellPlace<dim> &place, const CellPlace<dim> &n)
     {
-      if (basis == Basis::linear)
-        return std::make_unique<FE_Q<dim>>(1);
-      return std::make_unique<FE_Bernstein<dim>>(2);
-    }
-
-
-    template <int dim>
-    std::vector<OpenKnots> open_knots_of_cells(const Triangulation<dim> &mesh, const Basis basis)
-    {
-      std::vector<OpenKnots> result(mesh.n_active_cells(), 0);
-      for (const auto &cell : mesh.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const unsigned int f : cell->face_indices())
-            if (basis != Basis::spline || cell->at_boundary(f))
-              result[cell->active_cell_index()] |= 1 << f;
-      return result;
-    }
-
-
-    /// The free coefficient behind each shape function of each owned cell: an index on an interior C1 face stands for
-    /// the coefficient inside the neighbour.
-    template <int dim>
-    std::vector<types::global_dof_index> free_coefficients(const DoFHandler<dim> &dof_handler,
-                                                           const std::vector<OpenKnots> &open_knots)
-    {
-      const auto &fe       = dof_handler.get_fe();
-      const unsigned int n = fe.degree + 1, n_nodes = fe.n_dofs_per_cell();
-      const auto lexicographic = FETools::lexicographic_to_hierarchic_numbering<dim>(fe.degree);
-      std::vector<types::global_dof_index> masters(open_knots.size() * n_nodes, numbers::invalid_dof_index),
-          dofs(n_nodes);
-      for (const auto &cell : dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (unsigned int i = 0; i < n_nodes; ++i)
-            {
-              auto owner         = cell;
-              unsigned int index = 0;
-              for (unsigned int a = 0, rest = i, stride = 1; a < dim; ++a, rest /= n, stride *= n)
-                {
-                  const unsigned int position = rest % n;
-                  const unsigned int face     = 2 * a + (position == n - 1);
-                  const bool on_face          = position == 0 || position == n - 1;
-                  if (on_face && !((open_knots[cell->active_cell_index()] >> face) & 1))
-                    {
-                      owner = owner->neighbor(face);
-                      index += stride; // its interior coefficient
-                    }
-                  else
-                    index += stride * position;
-                }
-              owner->get_dof_indices(dofs);
-              masters[std::size_t(cell->active_cell_index()) * n_nodes + i] = dofs[lexicographic[index]];
-            }
-      return masters;
-    }
-
-
-    /// Numbers the free coefficients compactly, which replaces those of `masters` by their new numbers, and finds out
-    /// the numbers of the ghosts. Collective.
-    template <int dim>
-    std::shared_ptr<const Utilities::MPI::Partitioner> number_compactly(const DoFHandler<dim> &dof_handler,
-                                                                        std::vector<types::global_dof_index> &masters)
-    {
-      const MPI_Comm communicator = dof_handler.get_communicator();
-      std::vector<types::global_dof_index> used;
-      std::copy_if(masters.begin(), masters.end(), std::back_inserter(used), [](const auto dof) {
-        return dof != numbers::invalid_dof_index;
-      });
-      std::sort(used.begin(), used.end());
-      used.erase(std::unique(used.begin(), used.end()), used.end());
-
-      const IndexSet &owned_dofs = dof_handler.locally_owned_dofs();
-      IndexSet ghost_dofs(dof_handler.n_dofs());
-      ghost_dofs.add_indices(used.begin(), used.end());
-      LinearAlgebra::distributed::Vector<double> number(owned_dofs, ghost_dofs, communicator);
-
-      const types::global_dof_index n_owned =
-          std::count_if(used.begin(), used.end(), [&](const auto dof) { return owned_dofs.is_element(dof); });
-      const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
-          communicator, n_owned)[Utilities::MPI::this_mpi_process(communicator)];
-
-      auto next = owned.begin();
-      for (const auto dof : used)
-        if (owned_dofs.is_element(dof))
-          number(dof) = *next++;
-      number.update_ghost_values();
-
-      IndexSet ghosts(owned.size());
-      for (const auto dof : used)
-        if (!owned_dofs.is_element(dof))
-          ghosts.add_index(static_cast<types::global_dof_index>(number(dof)));
-      for (auto &master : masters)
-        if (master != numbers::invalid_dof_index)
-          master = static_cast<types::global_dof_index>(number(master));
-      return std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, communicator);
+      std::uint8_t walls = 0;
+      for (unsigned int a = 0; a < dim; ++a)
+        walls |= (place[a] == 0) << (2 * a) | (place[a] == n[a] - 1) << (2 * a + 1);
+      return walls;
     }
   } // namespace
 
@@ -124,33 +33,141 @@ namespace scree
 
 
   template <int dim>
-  void NodeNumbering<dim>::distribute(const parallel::distributed::Triangulation<dim> &mesh, const double width)
+  void NodeNumbering<dim>::distribute(const FineCells<dim> &cells)
   {
-    const auto fe = make_element<dim>(basis);
-    DoFHandler<dim> dof_handler(mesh);
-    dof_handler.distribute_dofs(*fe);
+    constexpr OpenKnots all = (1 << 2 * dim) - 1;
+    cell_walls.assign(cells.mesh().n_active_cells(), 0);
+    for (const Cell &cell : cells.cells())
+      cell_walls[cell.index] = walls_of<dim>(cell.place, cells.box().n);
+    cell_open_knots = cell_walls;
+    if (basis != Basis::spline)
+      cell_open_knots.assign(cell_walls.size(), all);
 
-    cell_open_knots   = open_knots_of_cells(mesh, basis);
-    auto global_nodes = free_coefficients(dof_handler, cell_open_knots);
-    distribution      = number_compactly(dof_handler, global_nodes);
-    place_nodes(mesh, width, global_nodes);
+    unsigned int n_owned    = 0;
+    Homes homes             = number_own(cells, n_owned);
+    const auto global_nodes = number_all(cells, homes, n_owned);
+    place_nodes(cells, global_nodes);
   }
 
 
   template <int dim>
-  void NodeNumbering<dim>::place_nodes(const Triangulation<dim> &mesh,
-                                       const double width,
+  std::pair<CellPlace<dim>, unsigned int>
+  NodeNumbering<dim>::home(const CellPlace<dim> &cell, const unsigned int i, const CellPlace<dim> &n) const
+  {
+    const int stride = basis == Basis::quadratic ? 2 : 1;
+    CellPlace<dim> place;
+    unsigned int node = 0;
+    for (unsigned int a = 0, rest = i, power = 1; a < dim; ++a, rest /= n_nodes_1d(), power *= n_nodes_1d())
+      {
+        const int along = stride * cell[a] + int(rest % n_nodes_1d());
+        place[a]        = std::min(std::max(along - 1, 0) / stride, n[a] - 1);
+        node += power * (along - stride * place[a]);
+      }
+    return { place, node };
+  }
+
+
+  template <int dim>
+  typename NodeNumbering<dim>::Homes NodeNumbering<dim>::number_own(const FineCells<dim> &cells,
+                                                                    unsigned int &n_owned) const
+  {
+    const unsigned int n_nodes = n_nodes_per_cell();
+    Homes homes(cells.cells().size() * n_nodes, none);
+    n_owned = 0;
+    for (unsigned int c = 0; c < cells.cells().size(); ++c)
+      if (const Cell &cell = cells.cells()[c]; cells.is_owned(cell))
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          if (home(cell.place, i, cells.box().n).first == cell.place)
+            homes[std::size_t(c) * n_nodes + i] = n_owned++;
+    return homes;
+  }
+
+
+  template <int dim>
+  void
+  NodeNumbering<dim>::exchange(const FineCells<dim> &cells, const types::global_dof_index first, Homes &homes) const
+  {
+    for (auto &number : homes)
+      if (number != none)
+        number += first;
+    using CellIterator         = typename Triangulation<dim>::active_cell_iterator;
+    using Numbers              = std::vector<types::global_dof_index>;
+    const unsigned int n_nodes = n_nodes_per_cell();
+    GridTools::exchange_cell_data_to_ghosts<Numbers, parallel::distributed::Triangulation<dim>>(
+        cells.mesh(),
+        [&](const CellIterator &cell) {
+          const unsigned int c = cells.of_index(cell->active_cell_index());
+          if (c == none)
+            return std_cxx17::optional<Numbers>();
+          const auto begin = homes.begin() + std::size_t(c) * n_nodes;
+          return std_cxx17::optional<Numbers>(Numbers(begin, begin + n_nodes));
+        },
+        [&](const CellIterator &cell, const Numbers &numbers) {
+          const unsigned int c = cells.of_index(cell->active_cell_index());
+          std::copy(numbers.begin(), numbers.end(), homes.begin() + std::size_t(c) * n_nodes);
+        });
+  }
+
+
+  template <int dim>
+  std::vector<types::global_dof_index>
+  NodeNumbering<dim>::number_all(const FineCells<dim> &cells, Homes &homes, unsigned int n_owned)
+  {
+    const MPI_Comm communicator = cells.mesh().get_communicator();
+    const unsigned int n_nodes  = n_nodes_per_cell();
+    // Nodes that live in no fine cell, by the number of that cell and which one of its nodes it is.
+    std::map<std::pair<std::uint64_t, unsigned int>, unsigned int> homeless;
+    const auto for_nodes = [&](const auto &act) {
+      for (const Cell &cell : cells.cells())
+        if (cells.is_owned(cell))
+          for (unsigned int i = 0; i < n_nodes; ++i)
+            {
+              const auto [place, node] = home(cell.place, i, cells.box().n);
+              act(std::size_t(cell.index) * n_nodes + i, place, node, cells.find(place));
+            }
+    };
+    for_nodes([&](const std::size_t, const CellPlace<dim> &place, const unsigned int node, const unsigned int c) {
+      if (c == none && homeless.emplace(std::make_pair(curve_number<dim>(place), node), n_owned).second)
+        ++n_owned;
+    });
+    const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
+        communicator, n_owned)[Utilities::MPI::this_mpi_process(communicator)];
+    const types::global_dof_index first = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+    exchange(cells, first, homes);
+
+    std::vector<types::global_dof_index> numbers(std::size_t(cells.mesh().n_active_cells()) * n_nodes,
+                                                 numbers::invalid_dof_index),
+        foreign;
+    for_nodes([&](const std::size_t entry, const CellPlace<dim> &place, const unsigned int node, const unsigned int c) {
+      numbers[entry] =
+          c == none ? first + homeless.at({ curve_number<dim>(place), node }) : homes[std::size_t(c) * n_nodes + node];
+      if (c != none && !cells.is_owned(cells.cells()[c]))
+        foreign.push_back(numbers[entry]);
+    });
+    std::sort(foreign.begin(), foreign.end());
+    foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+    IndexSet ghosts(owned.size());
+    ghosts.add_indices(foreign.begin(), foreign.end());
+    distribution = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, communicator);
+    return numbers;
+  }
+
+
+  template <int dim>
+  void NodeNumbering<dim>::place_nodes(const FineCells<dim> &cells,
                                        const std::vector<types::global_dof_index> &global_nodes)
   {
     const unsigned int n = n_nodes_1d(), n_nodes = n_nodes_per_cell();
     cell_nodes.assign(global_nodes.size(), numbers::invalid_unsigned_int);
     positions.assign(distribution->locally_owned_size() + distribution->n_ghost_indices(), Point<dim>());
     face_flags.assign(positions.size(), 0);
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const Cell &cell : cells.cells())
+      if (cells.is_owned(cell))
         {
-          const std::size_t first = std::size_t(cell->active_cell_index()) * n_nodes;
-          const OpenKnots open    = cell_open_knots[cell->active_cell_index()];
+          const std::size_t first  = std::size_t(cell.index) * n_nodes;
+          const OpenKnots open     = cell_open_knots[cell.index];
+          const std::uint8_t walls = cell_walls[cell.index];
+          const Point<dim> corner  = cells.box().corner(cell.place);
           for (unsigned int i = 0; i < n_nodes; ++i)
             {
               const unsigned int node = distribution->global_to_local(global_nodes[first + i]);
@@ -160,10 +177,10 @@ namespace scree
                   const unsigned int position = rest % n;
                   const unsigned int face     = 2 * a + (position == n - 1);
                   positions[node][a] =
-                      cell->vertex(0)[a] + width * (n == 3 ? CellBasis<dim, 3>::node_positions(open, a)[position]
-                                                           : CellBasis<dim, 2>::node_positions(open, a)[position]);
-                  if ((position == 0 || position == n - 1) && cell->at_boundary(face))
-                    face_flags[node] |= 1 << face;
+                      corner[a] + cells.box().width * (n == 3 ? CellBasis<dim, 3>::node_positions(open, a)[position]
+                                                              : CellBasis<dim, 2>::node_positions(open, a)[position]);
+                  if (position == 0 || position == n - 1)
+                    face_flags[node] |= walls & (1 << face);
                 }
             }
         }

@@ -20,7 +20,8 @@ namespace scree
 
   namespace
   {
-    const std::string name_of_entries = "entries", name_of_state = "state", name_of_points = "points.";
+    const std::string name_of_entries = "entries", name_of_state = "state", name_of_points = "points.",
+                      name_of_mesh = "mesh.";
 
     /// What an action of this rank complains of; empty: nothing.
     std::string fault_of(const std::function<void()> &action)
@@ -181,6 +182,22 @@ namespace scree
     }
 
 
+    /// The blocks of fine cells of all ranks.
+    Blocks read_blocks(const Checkpoint &checkpoint)
+    {
+      Blocks blocks;
+      for (const CheckedFile &file : checkpoint.manifest.files)
+        if (file.name.rfind(name_of_mesh, 0) == 0)
+          {
+            const std::string content = read_checked_file(checkpoint.folder, file);
+            const std::size_t n = content.size() / sizeof(Blocks::value_type), n_before = blocks.size();
+            blocks.resize(n_before + n);
+            Reader(checkpoint.folder + '/' + file.name, content).take(blocks.data() + n_before, n);
+          }
+      return blocks;
+    }
+
+
     void read_state(const Checkpoint &checkpoint, const std::function<void(boost::archive::binary_iarchive &)> &state)
     {
       std::istringstream in(read_checked_file(checkpoint.folder, checkpoint.manifest.file(name_of_state)));
@@ -265,6 +282,11 @@ namespace scree
     const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
 
     std::map<std::string, std::string> contents{ { name_of_points + std::to_string(rank), pack_points(sets) } };
+    if (grid.follows_points())
+      {
+        const Blocks blocks = grid.fine_blocks();
+        append(contents[name_of_mesh + std::to_string(rank)], blocks.data(), blocks.size());
+      }
     if (rank == 0)
       {
         contents[name_of_state]   = packed_state(state);
@@ -326,7 +348,7 @@ namespace scree
 
   template <int dim>
   void load_checkpoint(const Checkpoint &checkpoint,
-                       const BackgroundGrid<dim> &grid,
+                       BackgroundGrid<dim> &grid,
                        const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_iarchive &)> &state)
   {
@@ -340,6 +362,13 @@ namespace scree
     };
     for (PointSet<dim> *points : sets)
       points->handler().clear_particles();
+    if (grid.follows_points())
+      {
+        Blocks blocks;
+        on_all_ranks([&] { blocks = read_blocks(checkpoint); });
+        make_unique(blocks);
+        grid.refine(blocks, Shares::even);
+      }
     std::vector<std::uint64_t> n_points;
     on_all_ranks([&] { n_points = read_points(checkpoint, grid.triangulation(), sets); });
     for (PointSet<dim> *points : sets)
@@ -370,11 +399,11 @@ namespace scree
                                 const std::vector<PointSet<3> *> &,
                                 const std::function<void(boost::archive::binary_oarchive &)> &);
   template void load_checkpoint(const Checkpoint &,
-                                const BackgroundGrid<2> &,
+                                BackgroundGrid<2> &,
                                 const std::vector<PointSet<2> *> &,
                                 const std::function<void(boost::archive::binary_iarchive &)> &);
   template void load_checkpoint(const Checkpoint &,
-                                const BackgroundGrid<3> &,
+                                BackgroundGrid<3> &,
                                 const std::vector<PointSet<3> *> &,
                                 const std::function<void(boost::archive::binary_iarchive &)> &);
 } // namespace scree

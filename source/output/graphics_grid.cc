@@ -28,7 +28,7 @@ namespace scree
       {
         const unsigned int index = cell->active_cell_index();
         const CellContents &sums = contents[index];
-        if (sums.is_empty())
+        if (sums.is_empty() || !holds_nodes(cell))
           continue;
         typename PatchOutput<dim, dim>::Patch patch;
         patch.patch_index    = output.patches.size();

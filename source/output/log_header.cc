@@ -74,10 +74,13 @@ namespace scree
     for (const auto &part : water)
       if (part.carrier() == nullptr)
         points += (points.empty() ? "" : ", ") + ("water " + count(part.points(), communicator));
-    folder.log(std::to_string(grid.triangulation().n_global_active_cells()) + " cells of " +
-               number_text(grid.cell_size()) + " m; points: " + points + "; memory at the start " +
-               megabytes(memory().VmRSS, communicator) + ", estimated for the run " +
-               std::to_string(std::lround(expected_bytes / (1024. * 1024.))) + " MB (all ranks)");
+    const double n_cells = Utilities::MPI::sum(double(grid.fine_cells().n_owned()), communicator);
+    const double n_all   = grid.n_cells_of_box();
+    folder.log(number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +
+               (n_cells < n_all ? " around the points, in a box of " + number_text(n_all) : "") +
+               "; points: " + points + "; memory at the start " + megabytes(memory().VmRSS, communicator) +
+               ", estimated for the run " + std::to_string(std::lround(expected_bytes / (1024. * 1024.))) +
+               " MB (all ranks)");
   }
 
 

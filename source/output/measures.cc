@@ -175,7 +175,7 @@ namespace scree
             for (unsigned int a = 0; a < dim; ++a)
               for (unsigned int i = 0, n = patch.size(); i < n; ++i)
                 for (const unsigned int face : { 2 * a, 2 * a + 1 })
-                  if (const auto near = patch[i]; !near->at_boundary(face))
+                  if (const auto near = patch[i]; holds_nodes(near) && !near->at_boundary(face))
                     patch.push_back(near->neighbor(face));
             Moments<dim> sum;
             for (const auto &near : patch)

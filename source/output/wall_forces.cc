@@ -53,12 +53,12 @@ namespace scree
     for (const auto &water : view.water)
       for (const auto &cell : water.points().cells())
         wet_cells.insert(cell.cell);
-    for (const auto &cell : grid.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary() && wet_cells.count(cell->active_cell_index()) > 0)
+    for (const unsigned int cell : wet_cells)
+      if (const std::uint8_t walls = grid.numbering().walls(cell); walls != 0 && grid.numbering().has_nodes(cell))
         {
-          const auto corners = view.pressure_of_cell(cell->active_cell_index());
-          for (const unsigned int face : cell->face_indices())
-            if (cell->at_boundary(face))
+          const auto corners = view.pressure_of_cell(cell);
+          for (const unsigned int face : GeometryInfo<dim>::face_indices())
+            if ((walls >> face) & 1)
               for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
                 {
                   Point<dim> x;

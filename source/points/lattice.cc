@@ -100,7 +100,7 @@ namespace scree
   {
     std::vector<Seed<dim>> seeds;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned() && holds_nodes(cell))
         add_seeds_of_cell(cell, cell_size, lattice, part_of_cube, seeds);
     return seeds;
   }

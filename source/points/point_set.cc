@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/cell_places.h>
 #include <scree/points/point_set.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,6 +8,7 @@
 #include <deal.II/grid/cell_id.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace scree
@@ -60,7 +62,7 @@ namespace scree
             if (cell->at_boundary(face))
               return {};
             cell = cell->neighbor(face);
-            if (!cell->is_active() || cell->is_artificial())
+            if (!cell->is_active() || cell->is_artificial() || use_of(cell) == CellUse::outside)
               return {};
           }
       const typename Triangulation<dim>::active_cell_iterator found = cell;
@@ -85,6 +87,32 @@ namespace scree
     {
       archive &cell &location &reference_location &id &properties;
     }
+  };
+
+
+  template <int dim>
+  PointSet<dim>::Cell::Cell(const CellIterator &iterator)
+      : index(iterator->active_cell_index())
+      , iterator(iterator)
+  {
+    // The mesh's first vertex is the lower corner of the box.
+    const Point<dim> lower = iterator->get_triangulation().get_vertices()[0], corner = iterator->vertex(0);
+    const Tensor<1, dim> width = width_of<dim>(iterator);
+    CellPlace<dim> place;
+    for (unsigned int a = 0; a < dim; ++a)
+      place[a] = static_cast<int>(std::lround((corner[a] - lower[a]) / width[a]));
+    number = curve_number<dim>(place);
+  }
+
+
+  /// Cell by cell.
+  template <int dim>
+  struct PointSet<dim>::Lifted
+  {
+    std::vector<std::pair<CellId::binary_type, unsigned int>> cells; // and how many points they hold
+    std::vector<Point<dim>> locations;
+    std::vector<types::particle_index> ids;
+    std::vector<double> properties;
   };
 
 
@@ -128,6 +156,8 @@ namespace scree
   Disorder PointSet<dim>::update_places()
   {
     const bool found_all = set_places();
+    at_edge              = std::any_of(
+        leavers.begin(), leavers.end(), [](const Leaver &leaver) { return use_of(leaver.to) != CellUse::inner; });
     // From the last one on: where a point is taken out, the last one of its cell takes its number.
     std::for_each(leavers.rbegin(), leavers.rend(), [this](const Leaver &leaver) { move(leaver); });
     if (!found_all || n_moved > most_moved * n_points())
@@ -188,7 +218,7 @@ namespace scree
   void PointSet<dim>::insert(const CellIterator &cell, const Record &record)
   {
     if (particle_handler.n_particles_in_cell(cell) == 0)
-      newly_filled.push_back({ cell->active_cell_index(), cell });
+      newly_filled.emplace_back(cell);
     particle_handler.insert_particle(record.location, record.reference_location, record.id, cell, record.properties);
   }
 
@@ -247,15 +277,113 @@ namespace scree
 
 
   template <int dim>
+  bool PointSet<dim>::is_in_inner_cells() const
+  {
+    return std::all_of(
+        filled.begin(), filled.end(), [](const Cell &cell) { return use_of(cell.iterator) == CellUse::inner; });
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::lift()
+  {
+    lifted                  = std::make_unique<Lifted>();
+    const std::size_t count = particle_handler.n_locally_owned_particles();
+    lifted->locations.reserve(count);
+    lifted->ids.reserve(count);
+    lifted->properties.reserve(count * n_properties);
+    for (const Cell &cell : filled)
+      {
+        lifted->cells.emplace_back(cell.iterator->id().template to_binary<dim>(),
+                                   particle_handler.n_particles_in_cell(cell.iterator));
+        for (const auto &point : particle_handler.particles_in_cell(cell.iterator))
+          {
+            const auto properties = point.get_properties();
+            lifted->locations.push_back(point.get_location());
+            lifted->ids.push_back(point.get_id());
+            lifted->properties.insert(lifted->properties.end(), properties.begin(), properties.end());
+          }
+      }
+    filled.clear();
+    particle_handler.clear_particles();
+    particle_handler.update_cached_numbers();
+    list_all_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::put_down()
+  {
+    particle_handler.reserve(lifted->ids.size());
+    std::size_t p = 0;
+    for (const auto &[id, n_points] : lifted->cells)
+      {
+        typename Triangulation<dim>::cell_iterator parent = mesh.create_cell_iterator(CellId(id));
+        for (unsigned int i = 0; i < n_points; ++i, ++p)
+          {
+            const Point<dim> &x = lifted->locations[p];
+            auto cell           = parent;
+            while (cell->has_children())
+              {
+                unsigned int child = 0;
+                for (unsigned int a = 0; a < dim; ++a)
+                  child |= (x[a] > cell->center()[a] ? 1u : 0u) << a;
+                cell = cell->child(child);
+              }
+            const CellIterator active = cell;
+            double *properties        = lifted->properties.data() + p * n_properties;
+            particle_handler.insert_particle(x,
+                                             place_in_cell(x, active->vertex(0), width_of<dim>(active)),
+                                             lifted->ids[p],
+                                             active,
+                                             ArrayView<const double>(properties, n_properties));
+          }
+      }
+    lifted.reset();
+    particle_handler.update_cached_numbers();
+    n_moved = 0;
+    list_all_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::lose_points_outside()
+  {
+    std::vector<typename Particles::ParticleHandler<dim>::particle_iterator> outside;
+    for (auto point = particle_handler.begin(); point != particle_handler.end();)
+      {
+        const CellIterator cell = point->get_surrounding_cell();
+        const auto points       = particle_handler.particles_in_cell(cell);
+        if (use_of(cell) == CellUse::outside)
+          for (auto one = points.begin(); one != points.end(); ++one)
+            {
+              const auto properties = one->get_properties();
+              lost_points.push_back({ one->get_location(), { properties.begin(), properties.end() } });
+              outside.push_back(one);
+            }
+        point = points.end();
+      }
+    // One by one, and from the last one on, since the last point of a cell takes the number of one that is removed:
+    // deal.II's remove_particles() is collective.
+    std::for_each(
+        outside.rbegin(), outside.rend(), [this](const auto &point) { particle_handler.remove_particle(point); });
+    particle_handler.update_cached_numbers();
+  }
+
+
+  template <int dim>
   void PointSet<dim>::list_all_cells()
   {
     filled.clear();
     newly_filled.clear();
+    lose_points_outside();
+    at_edge = false;
     for (auto point = particle_handler.begin(); point != particle_handler.end();)
       {
         const CellIterator cell = point->get_surrounding_cell();
-        newly_filled.push_back({ cell->active_cell_index(), cell });
-        point = particle_handler.particles_in_cell(cell).end();
+        newly_filled.emplace_back(cell);
+        at_edge = at_edge || use_of(cell) != CellUse::inner;
+        point   = particle_handler.particles_in_cell(cell).end();
       }
     list_cells();
   }

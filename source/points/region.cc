@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/points/region.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/utilities.h>
 
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// The place `index` of a lattice of n^dim places in a cube, the outer ones `inset` widths inside it.
+    template <int dim>
+    Point<dim> sample(const Point<dim> &lower,
+                      const double width,
+                      const unsigned int index,
+                      const unsigned int n,
+                      const double inset)
+    {
+      Point<dim> x;
+      for (unsigned int a = 0, rest = index; a < dim; ++a, rest /= n)
+        x[a] = lower[a] + width * (inset + (1. - 2. * inset) * (rest % n) / (n - 1.));
+      return x;
+    }
+  } // namespace
+
 
   template <int dim>
   Region<dim>::Region(const std::string &where, const std::string &expression)
@@ -15,24 +34,42 @@ namespace scree
 
 
   template <int dim>
-  std::pair<double, Point<dim>> Region<dim>::part_of_cube(const Point<dim> &lower, const double width) const
+  Point<dim> Region<dim>::corner(const Point<dim> &lower, const double width, const unsigned int vertex)
   {
-    const auto at = [&](const unsigned int index, const unsigned int n, const double inset) {
-      Point<dim> x;
-      for (unsigned int a = 0, rest = index; a < dim; ++a, rest /= n)
-        x[a] = lower[a] + width * (inset + (1. - 2. * inset) * (rest % n) / (n - 1.));
-      return x;
-    };
+    return sample(lower, width, vertex, 2, 1e-6);
+  }
 
-    // Most cubes lie inside or outside with all corners (a little inside the cube: a region may end at its face).
-    constexpr unsigned int n_corners = 1 << dim;
-    unsigned int corners_inside      = 0;
-    for (unsigned int v = 0; v < n_corners; ++v)
-      corners_inside += contains(at(v, 2, 1e-6));
+
+  template <int dim>
+  Point<dim> Region<dim>::middle(const Point<dim> &lower, const double width)
+  {
     Point<dim> middle = lower;
     for (unsigned int a = 0; a < dim; ++a)
       middle[a] += width / 2.;
-    const double volume = Utilities::fixed_power<dim>(width);
+    return middle;
+  }
+
+
+  template <int dim>
+  bool Region<dim>::touches_cube(const Point<dim> &lower, const double width) const
+  {
+    for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+      if (contains(corner(lower, width, v)))
+        return true;
+    return contains(middle(lower, width));
+  }
+
+
+  template <int dim>
+  std::pair<double, Point<dim>> Region<dim>::part_of_cube(const Point<dim> &lower, const double width) const
+  {
+    // Most cubes lie inside or outside with all corners.
+    constexpr unsigned int n_corners = 1 << dim;
+    unsigned int corners_inside      = 0;
+    for (unsigned int v = 0; v < n_corners; ++v)
+      corners_inside += contains(corner(lower, width, v));
+    const Point<dim> middle = Region::middle(lower, width);
+    const double volume     = Utilities::fixed_power<dim>(width);
     if (corners_inside == n_corners && contains(middle))
       return { volume, middle };
     if (corners_inside == 0 && !contains(middle))
@@ -43,7 +80,7 @@ namespace scree
     unsigned int n_inside            = 0;
     Tensor<1, dim> sum;
     for (unsigned int i = 0; i < n_samples; ++i)
-      if (const auto x = at(i, n, 0.5 / n); contains(x))
+      if (const auto x = sample(lower, width, i, n, 0.5 / n); contains(x))
         {
           ++n_inside;
           sum += x - lower;

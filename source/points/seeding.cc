@@ -91,7 +91,9 @@ namespace scree
     const unsigned int n       = 2 * points_per_cell;
     std::string fault;
     for (const auto &cell : triangulation.active_cell_iterators())
-      for (unsigned int i = 0; cell->is_locally_owned() && fault.empty() && i < Utilities::fixed_power<dim>(n); ++i)
+      for (unsigned int i = 0;
+           cell->is_locally_owned() && holds_nodes(cell) && fault.empty() && i < Utilities::fixed_power<dim>(n);
+           ++i)
         {
           Point<dim> x = cell->vertex(0);
           for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)

@@ -63,7 +63,7 @@ namespace scree
   NodeNumbering<dim> PorePressure<dim>::numbered(const BackgroundGrid<dim> &grid)
   {
     NodeNumbering<dim> corners(Basis::linear);
-    corners.distribute(grid.triangulation(), grid.cell_size());
+    corners.distribute(grid.fine_cells());
     return corners;
   }
 
@@ -71,10 +71,39 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::reinit()
   {
-    corners.distribute(grid.triangulation(), grid.cell_size());
+    const std::map<std::uint64_t, double> kept = grid_pressure();
+    corners.distribute(grid.fine_cells());
     surface.reinit();
     solver.reinit();
     reinit_vectors();
+    if (kept.empty())
+      return;
+    for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
+      if (const auto found = kept.find(number_of(corner)); found != kept.end())
+        pressure.local_element(corner) = found->second;
+    has_grid_pressure = true;
+  }
+
+
+  template <int dim>
+  std::uint64_t PorePressure<dim>::number_of(const unsigned int corner) const
+  {
+    return curve_number<dim>(grid.fine_cells().box().place_of_corner(corners.position(corner)));
+  }
+
+
+  template <int dim>
+  std::map<std::uint64_t, double> PorePressure<dim>::grid_pressure() const
+  {
+    std::map<std::uint64_t, double> own, all;
+    if (previous_pressure != PreviousPressure::grid)
+      return all;
+    for (const unsigned int corner : surface.wet_corners())
+      if (has_grid_pressure)
+        own[number_of(corner)] = pressure.local_element(corner);
+    for (const auto &of_rank : Utilities::MPI::all_gather(grid.triangulation().get_communicator(), own))
+      all.insert(of_rank.begin(), of_rank.end());
+    return all;
   }
 
 

@@ -102,9 +102,9 @@ namespace scree
           break;
         marks.update_ghost_values();
         marked_cells.clear();
-        for (const auto &cell : grid.triangulation().active_cell_iterators())
-          if (cell->is_locally_owned() && is_touched(cell->active_cell_index()))
-            marked_cells.push_back(cell->active_cell_index());
+        for (const auto &cell : grid.fine_cells().cells())
+          if (grid.fine_cells().is_owned(cell) && is_touched(cell.index))
+            marked_cells.push_back(cell.index);
         marks.zero_out_ghost_values();
       }
     return marked_cells;

@@ -75,6 +75,26 @@ namespace scree
   }
 
 
+  double SurfaceLoadParameters::layer_below(const unsigned int axis, const double lower, const double cell_size) const
+  {
+    // Cells below the plane; 0 if the plane is the lower face of the box.
+    const double cells_below = (lower_corner[axis] - lower) / cell_size;
+    return lower + cell_size * std::max(0., std::ceil(cells_below - 1e-9) - 1);
+  }
+
+
+  bool SurfaceLoadParameters::touches_cell(const double *corner, const GridParameters &grid, const unsigned int dim) const
+  {
+    const unsigned int normal = normal_axis(dim);
+    bool touches              = is_set();
+    for (unsigned int a = 0; a < dim && touches; ++a)
+      touches = a == normal ? std::abs(corner[a] - layer_below(a, grid.lower_corner[a], grid.cell_size)) <
+                                  0.5 * grid.cell_size
+                            : corner[a] < upper_corner[a] && corner[a] + grid.cell_size > lower_corner[a];
+    return touches;
+  }
+
+
   void SurfaceLoadParameters::check(const GridParameters &grid, const unsigned int dim) const
   {
     const std::string subsection = "Surface load";
@@ -140,11 +160,8 @@ namespace scree
       , function(
             parse_expression<dim>(entry_name("Surface load", "Traction"), parameters.traction, dim, /*with_time*/ true))
   {
-    const double cell_size = grid.cell_size();
-    // Cells below the plane; 0 if the plane is the lower face of the box.
-    const double cells_below = (parameters.lower_corner[normal] - grid.lower_corner()[normal]) / cell_size;
-    const double layer       = std::max(0., std::ceil(cells_below - 1e-9) - 1);
-    const double layer_lower = grid.lower_corner()[normal] + layer * cell_size;
+    const double cell_size   = grid.cell_size();
+    const double layer_lower = parameters.layer_below(normal, grid.lower_corner()[normal], cell_size);
     // A hair inside the layer: rounding must not put a marker on a face into the next cell, which holds no soil.
     const double hair = 1e-9 * cell_size;
     const double plane =
@@ -154,7 +171,7 @@ namespace scree
     for (const auto &cell : grid.triangulation().active_cell_iterators())
       {
         const Point<dim> lower = cell->vertex(0);
-        if (!cell->is_locally_owned() || std::abs(lower[normal] - layer_lower) > 0.5 * cell_size)
+        if (!cell->is_locally_owned() || !holds_nodes(cell) || std::abs(lower[normal] - layer_lower) > 0.5 * cell_size)
           continue;
         std::array<std::vector<std::pair<double, double>>, dim> places;
         unsigned int n = 1;

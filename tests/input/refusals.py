@@ -25,7 +25,7 @@ REFUSED = {
         SHORT + SOIL + LOAD.format("0; -1/(t < 1e-3)"),
         r'^scree: stopped: case.prm, line 12: subsection Surface load, entry "Traction" = .*: it is infinite at .* m, t = 0\.001\d* s\. Write'),
     "more cells than any memory holds": (
-        SHORT + SOIL.replace("y < 0.5", "x < 0.1 && y < 0.1") + "subsection Mesh\n  set Upper corner = 3, 3\n  set Cell size = 1e-4\nend\n",
+        SHORT + SOIL.replace("y < 0.5", "x < 0.1 && y < 0.1") + "subsection Mesh\n  set Upper corner = 3, 3\n  set Cell size = 1e-4\n  set Fine cells = everywhere\nend\n",
         r'^scree: case.prm, line 11: subsection Mesh, entry "Cell size" = 0.0001: the run would need about \S+ GB of memory, '
         r"for 9e\+08 cells and about \S+ points, but only \S+ GB are available"),
     "more points than any memory holds": (

@@ -7,6 +7,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/fe/mapping_cartesian.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace scree
     std::vector<double> lower_corner{ 0., 0. }, upper_corner{ 1., 1. }; ///< m
     double cell_size  = 0.1;                                            ///< m
     std::string basis = "spline";
+    std::string fine  = "around points";
 
     void add_parameters(dealii::ParameterHandler &prm);
 
@@ -25,17 +27,84 @@ namespace scree
     void check(const unsigned int dim) const;
 
     Basis basis_kind() const;
+
+    /// Cells of this size that fill the box.
+    double n_cells() const;
+
+    /// Whether cells are larger where no points are: in boxes of many cells. Few take less memory than the program, and
+    /// so little time that to follow the points would cost more.
+    bool is_adaptive() const;
+
+    /// Cells beside points that are fine, too, at least.
+    static constexpr unsigned int margin = 4;
+
+    /// With more than this part of the box, all of it is made fine: that costs less than to follow the points.
+    static constexpr double most_of_box = 0.5;
   };
 
+  /// What refinement does to the ranks of cells.
+  enum class Shares
+  {
+    kept, ///< cells stay with their rank
+    even  ///< all ranks get about as many
+  };
+
+  /// Whether points lie in the cell of the box with this lower corner, m.
+  template <int dim>
+  using HoldsPoints = std::function<bool(const dealii::Point<dim> &corner)>;
+
   /// The background mesh and the nodes of the velocity.
+  ///
+  /// Cells are fine, of the size that the user asks for, where points are and some way around; the others are larger,
+  /// the more so the further away, and hold no nodes. The mesh consists of coarse cells that p4est halves; it may reach
+  /// beyond the upper walls of the box, since a box need not be a multiple of coarse cells.
   template <int dim>
   class BackgroundGrid
   {
   public:
+    /// Fine cells everywhere. Collective.
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator);
 
-    /// Builds the nodes for the current partition of the mesh. Collective; called again after a repartition.
+    /// Fine cells where points are; everywhere if the parameters say so or the box has few cells. Collective.
+    BackgroundGrid(const GridParameters &parameters, const HoldsPoints<dim> &holds_points, const MPI_Comm communicator);
+
+    /// Builds the nodes for the current mesh and partition. Collective; called again after a repartition and after
+    /// refine().
     void distribute_nodes();
+
+    /// The blocks of all ranks with a margin around them, or all of the box if that makes little difference.
+    /// Collective.
+    /// @param blocks of this rank, in which points are
+    Blocks with_surroundings(const Blocks &blocks) const;
+
+    /// Makes the cells of these blocks fine, and others larger. Collective; no points may be on the mesh.
+    /// @param blocks of all ranks
+    void refine(const Blocks &blocks, const Shares shares);
+
+    /// This rank's blocks of fine cells.
+    Blocks fine_blocks() const;
+
+    /// Whether cells may be larger than the fine ones where no points are.
+    bool follows_points() const
+    {
+      return follows;
+    }
+
+    /// Adds the blocks on the way from `x` along `path`, m, as far as it lies in the box, if the first one is not the
+    /// last of `blocks`.
+    void append_blocks(const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &path, Blocks &blocks) const;
+
+    /// The cells that hold nodes.
+    const FineCells<dim> &fine_cells() const
+    {
+      return cells;
+    }
+
+    /// Cells of the finest size that fill the box.
+    double n_cells_of_box() const
+    {
+      return box.n_cells();
+    }
 
     /// The nodes, see NodeNumbering.
     const NodeNumbering<dim> &numbering() const
@@ -98,15 +167,29 @@ namespace scree
     }
 
   private:
-    /// Makes the coarse mesh; returns how often it is to be refined.
-    unsigned int make_coarse_mesh();
+    /// Without fine cells.
+    BackgroundGrid(const GridParameters &parameters, const unsigned int n_levels, const MPI_Comm communicator);
+
+    /// Blocks along each axis of the box.
+    CellPlace<dim> n_blocks() const;
+
+    /// This rank's share of the blocks in which cells hold points. Throws what `holds_points` throws, on all ranks.
+    Blocks occupied_blocks(const HoldsPoints<dim> &holds_points) const;
+
+    /// Flags cells for the next step to these blocks; returns whether any rank refines.
+    bool set_flags(const Blocks &blocks);
 
     const double width;
     dealii::Point<dim> lower, upper;
+    const CellsOfBox<dim> box;
+    const unsigned int n_levels; // from the coarse cells to the fine ones
+    const bool follows;
 
     dealii::parallel::distributed::Triangulation<dim> mesh;
     dealii::MappingCartesian<dim> cartesian;
+    FineCells<dim> cells;
     NodeNumbering<dim> nodes_of_mesh;
+    boost::signals2::scoped_connection after_repartition;
   };
 } // namespace scree
 

@@ -43,12 +43,12 @@ namespace scree
                              const std::function<void(const std::string &)> &log,
                              const MPI_Comm communicator);
 
-  /// Reads a checkpoint, on any number of ranks. The grid must be as it was when it was written, whatever its
-  /// partition; the sets, in the order in which they were saved, lose the points they have. Collective; throws
+  /// Reads a checkpoint, on any number of ranks. The grid must be of the same box; it gets the fine cells of then. The
+  /// sets, in the order in which they were saved, lose the points they have. Collective; throws
   /// EntryError if the files do not fit.
   template <int dim>
   void load_checkpoint(const Checkpoint &checkpoint,
-                       const BackgroundGrid<dim> &grid,
+                       BackgroundGrid<dim> &grid,
                        const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_iarchive &)> &state);
 } // namespace scree

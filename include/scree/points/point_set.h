@@ -3,13 +3,16 @@
 #define scree_points_point_set_h
 
 #include <scree/points/cell_costs.h>
+#include <scree/points/cell_use.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/particles/particle_handler.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -113,7 +116,25 @@ namespace scree
     /// The other half. Collective.
     void hand_over(const Disorder disorder);
 
-    /// This rank's cells that hold points, in the order of their indices. Valid until the points move on.
+    /// Takes all points off the mesh, before its cells are refined or coarsened.
+    void lift();
+
+    /// Puts them back on the mesh, which has cells as large as before or smaller where they were, on the same ranks.
+    /// Collective.
+    void put_down();
+
+    /// Whether one of this rank's points has got into a cell that is no CellUse::inner one, in the step before or since
+    /// it was put there.
+    bool is_at_edge() const
+    {
+      return at_edge;
+    }
+
+    /// Whether all cells() are inner ones, as a step needs it.
+    bool is_in_inner_cells() const;
+
+    /// This rank's cells that hold points, in an order that depends on the cells' places only. Valid until the points
+    /// move on.
     const std::vector<CellPoints<dim>> &cells()
     {
       return cell_list;
@@ -170,13 +191,16 @@ namespace scree
     /// A cell with points.
     struct Cell
     {
-      unsigned int index; // active cell index
-      CellIterator iterator;
+      explicit Cell(const CellIterator &iterator);
 
       bool operator<(const Cell &other) const
       {
-        return index < other.index;
+        return number < other.number || (number == other.number && index < other.index);
       }
+
+      std::uint64_t number; // of the cell on the curve through the mesh
+      unsigned int index;   // active cell index
+      CellIterator iterator;
     };
 
     /// A point that is no longer in its cell.
@@ -189,6 +213,9 @@ namespace scree
     /// What a point carries from cell to cell or rank to rank.
     struct Record;
 
+    /// What points carry from mesh to mesh.
+    struct Lifted;
+
     /// Sets the places of the points that are still in their cells, and lists the others in `leavers`. Returns whether
     /// the cells of all were found.
     bool set_places();
@@ -200,6 +227,9 @@ namespace scree
 
     /// Sends and receives emigrants. Collective.
     void exchange();
+
+    /// Takes out the points in cells beyond the walls.
+    void lose_points_outside();
 
     /// Makes cells() from the handler: all of it, or where cells filled or emptied since.
     void list_all_cells();
@@ -216,6 +246,8 @@ namespace scree
     std::map<unsigned int, std::vector<Record>> emigrants; // by rank
     std::size_t n_moved = 0;                               // points that changed cells since the last sort()
     std::vector<LostPoint<dim>> lost_points;
+    std::unique_ptr<Lifted> lifted;
+    bool at_edge = false;
     CellCosts cell_costs;
   };
 

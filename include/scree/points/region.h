@@ -24,10 +24,17 @@ namespace scree
       return function->value(x) != 0.;
     }
 
+    /// Whether part_of_cube() may find any of the region there.
+    bool touches_cube(const dealii::Point<dim> &lower, const double width) const;
+
     /// Volume, m^3, and centroid, m, of the part of the region that lies in a small cube, by sampling.
     std::pair<double, dealii::Point<dim>> part_of_cube(const dealii::Point<dim> &lower, const double width) const;
 
   private:
+    /// Corners of the cube, a little inside it: a region may end at its face.
+    static dealii::Point<dim> corner(const dealii::Point<dim> &lower, const double width, const unsigned int vertex);
+    static dealii::Point<dim> middle(const dealii::Point<dim> &lower, const double width);
+
     std::unique_ptr<Expression<dim>> function;
   };
 } // namespace scree

@@ -85,6 +85,13 @@ namespace scree
   private:
     static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
     void reinit_vectors();
+
+    /// Pressures that outlast a change of the mesh, by the curve numbers of the corners' places; those of all ranks.
+    /// Empty unless the pressure lives on the grid. Collective.
+    std::map<std::uint64_t, double> grid_pressure() const;
+
+    /// Of a corner's place on the curve.
+    std::uint64_t number_of(const unsigned int corner) const;
     void set_mobilities(Mixture<dim> &mixture,
                         const NodalField<dim> &soil,
                         const NodalField<dim> &water,

@@ -36,6 +36,13 @@ namespace scree
 
     /// The axis along which the patch has no width.
     unsigned int normal_axis(const unsigned int dim) const;
+
+    /// Where the layer of cells below the patch begins, m, along the axis across it.
+    /// @param lower of the box along this axis, m
+    double layer_below(const unsigned int axis, const double lower, const double cell_size) const;
+
+    /// Whether a part of the patch acts on the cell with this lower corner, m.
+    bool touches_cell(const double *corner, const GridParameters &grid, const unsigned int dim) const;
   };
 
   /// Markers on the patch, which carry its load to the nodes around them and move with the soil.

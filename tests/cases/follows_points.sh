@@ -1,0 +1,49 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# follows_points.sh SCREE LAUNCHER CASE TOLERANCE OTHER: fine cells that follow the points change nothing but time and memory. Results
+# are those of fine cells everywhere, to the TOLERANCE; two and three ranks agree with one to OTHER; a box of twice the height and width
+# takes no more fine cells.
+set -e
+cases=$(dirname -- "$0")
+scree=$1
+launcher=$2 # several words
+case=$cases/$3.prm
+
+# run NAME RANKS CASE: in a folder of that name
+run()
+{
+  rm -rf $1
+  mkdir $1
+  (cd $1 && $launcher $2 "$scree" "$3" >screen)
+}
+
+compare()
+{
+  echo "$1 and $2:"
+  /usr/bin/python3 "$cases/compare_statistics.py" $1/results/statistics $2/results/statistics $3
+}
+
+sed 's/set Cell size/set Fine cells = everywhere\n  set Cell size/' "$case" >everywhere.prm
+run around 1 "$case"
+run everywhere 1 "$PWD/everywhere.prm"
+compare around everywhere "$4"
+grep -q 'followed the points [1-9] times' around/results/log.txt
+
+for ranks in 2 3; do
+  run $ranks $ranks "$case"
+  compare around $ranks "$5"
+done
+
+/usr/bin/python3 - "$case" >wide.prm <<END
+import re, sys
+def twice(found):
+    return found.group(1) + ", ".join(str(2 * float(x)) for x in found.group(2).split(","))
+print(re.sub("(End time *= )(.*)", r"\g<1>0.002", re.sub("(Upper corner *= )(.*)", twice, open(sys.argv[1]).read())))
+END
+run wide 1 "$PWD/wide.prm"
+for size in around wide; do
+  sed -n 's/^\([0-9e+.]*\) cells of .* m around the points.*/\1/p' $size/results/log.txt >$size/cells
+done
+echo "fine cells: $(cat around/cells), in a wide box $(cat wide/cells)"
+test -s wide/cells
+cmp around/cells wide/cells
