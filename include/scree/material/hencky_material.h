@@ -92,7 +92,7 @@ namespace scree
                                                   UpdateReport &report) const
   {
     double trial[n_components];
-    trial_left_cauchy_green(f, out_of_plane_stretch, left_cauchy_green, trial);
+    trial_left_cauchy_green<dim>(&f[0][0], out_of_plane_stretch, left_cauchy_green, trial);
     const PrincipalFrame<dim> frame(trial);
     const PrincipalValues trial_strain = log_strain(frame.values());
     AssertThrow(std::isfinite(trial_strain[0] + trial_strain[1] + trial_strain[2]),
