@@ -44,18 +44,18 @@ struct States
                       const unsigned int first,
                       unsigned int n)
   {
-    std::vector<Tensor<2, dim>> F;
-    std::vector<double> zz, J, V0;
+    std::vector<double> F(dim * dim * n), zz, J, V0;
     for (unsigned int i = first; i < first + n; ++i)
       {
-        F.push_back(increment[slots[i]]);
+        for (unsigned int c = 0; c < dim * dim; ++c)
+          F[c * n + i - first] = increment[slots[i]][c / dim][c % dim];
         zz.push_back(stretch[slots[i]]);
         J.push_back(volume_ratio[slots[i]]);
         V0.push_back(reference_volume[slots[i]]);
       }
     UpdateReport report;
     material.update({ n, stride, record(0), record(0) + n_components, record(0) + 2 * n_components, &slots[first] },
-                    { F.data(), zz.data(), J.data(), V0.data() },
+                    { F.data(), zz.data(), J.data(), V0.data(), n },
                     report);
     return report;
   }

@@ -39,8 +39,7 @@ namespace scree
     }
 
   private:
-    using Mask    = simd::Mask<Batch>;
-    using Indices = std::array<unsigned int, batch_size>;
+    using Mask = simd::Mask<Batch>;
 
     static constexpr unsigned int n_components = n_symmetric_components<dim>;
     static constexpr unsigned int n_internal   = Law::n_internal_variables;
@@ -53,7 +52,7 @@ namespace scree
       std::array<unsigned int, block_size> points;
 
       /// The points whose bits are set.
-      void append(const Indices &indices, unsigned int bits)
+      void append(const BatchIndices &indices, unsigned int bits)
       {
         for (; bits != 0; bits &= bits - 1)
           points[size++] = indices[__builtin_ctz(bits)];
@@ -84,8 +83,8 @@ namespace scree
                       UpdateReport &report) const;
 
     /// Of points in a row: stores the elastic ones and lists the others.
-    void update_elastic(const Indices &indices,
-                        const unsigned int used,
+    void update_elastic(const BatchIndices &indices,
+                        const unsigned int n,
                         const MaterialPoints<dim> &points,
                         const MaterialMotion<dim> &motion,
                         List &returns,
@@ -94,8 +93,8 @@ namespace scree
                         UpdateReport &report) const;
 
     /// Of any points: with return and sub-steps. Lists those that batches do not serve.
-    void update_with_return(const Indices &indices,
-                            const unsigned int used,
+    void update_with_return(const BatchIndices &indices,
+                            const unsigned int n,
                             const MaterialPoints<dim> &points,
                             const MaterialMotion<dim> &motion,
                             List &others,
@@ -138,33 +137,43 @@ namespace scree
       return largest;
     }
 
-    static Input read(const Indices &indices, const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion)
+    /// Reads points, of which `n` in a row count, or any points if n = 0.
+    static Input read(const BatchIndices &indices,
+                      const unsigned int n,
+                      const MaterialPoints<dim> &points,
+                      const MaterialMotion<dim> &motion)
     {
       Input input;
-      RecordPointers<const double> b, internal, increment;
+      RecordPointers<const double> b, internal;
       for (unsigned int l = 0; l < batch_size; ++l)
         {
-          const unsigned int p      = indices[l];
-          b[l]                      = points.left_cauchy_green + points.offset(p);
-          internal[l]               = points.internal_variables + points.offset(p);
-          increment[l]              = &motion.deformation_increment[p][0][0];
-          input.volume_ratio[l]     = motion.volume_ratio[p];
-          input.reference_volume[l] = motion.reference_volume[p];
-          if (dim == 2)
-            input.out_of_plane_stretch[l] = motion.out_of_plane_stretch[p];
+          const std::size_t offset = points.offset(indices[l]);
+          b[l]                     = points.left_cauchy_green + offset;
+          internal[l]              = points.internal_variables + offset;
         }
-      if (dim == 3)
-        input.out_of_plane_stretch = simd::broadcast<Batch>(1.);
       simd::load_records<n_components>(b, input.left_cauchy_green);
-      simd::load_records<dim * dim>(increment, input.increment);
       simd::load_records<n_internal>(internal, input.internal_variables);
+
+      const auto list = [&](const double *numbers) {
+        if (n == batch_size)
+          return simd::load(numbers + indices[0]);
+        Batch batch;
+        for (unsigned int l = 0; l < batch_size; ++l)
+          batch[l] = numbers[indices[l]];
+        return batch;
+      };
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        input.increment[c] = list(motion.deformation_increment + c * motion.pitch);
+      input.volume_ratio         = list(motion.volume_ratio);
+      input.reference_volume     = list(motion.reference_volume);
+      input.out_of_plane_stretch = dim == 2 ? list(motion.out_of_plane_stretch) : simd::broadcast<Batch>(1.);
       return input;
     }
 
     /// Writes `n` batches into the points' records, those of lanes whose bits are not set into nothing.
     template <unsigned int n>
     static void write(const Batch *batches,
-                      const Indices &indices,
+                      const BatchIndices &indices,
                       const unsigned int bits,
                       const MaterialPoints<dim> &points,
                       double *of_record_0)
@@ -193,39 +202,25 @@ namespace scree
                                              UpdateReport &report) const
   {
     List returns, in_substeps, others;
-    // Calls `update(indices, used)` for batches of a list of points: the last batch repeats its last point, and only
-    // the lanes whose bits are set in `used` count.
-    const auto for_each_batch = [](const unsigned int size, const auto &point, const auto &update) {
-      for (unsigned int start = 0; start < size; start += batch_size)
-        {
-          const unsigned int n = std::min(size - start, batch_size);
-          Indices indices;
-          for (unsigned int l = 0; l < batch_size; ++l)
-            indices[l] = point(start + std::min(l, n - 1));
-          update(indices, (1u << n) - 1);
-        }
-    };
-    for_each_batch(
-        n_points,
-        [&](const unsigned int i) { return first + i; },
-        [&](const Indices &indices, const unsigned int used) {
-          update_elastic(indices, used, points, motion, returns, in_substeps, others, report);
-        });
+    for_each_batch(n_points, [&](BatchIndices indices, const unsigned int n) {
+      for (unsigned int &index : indices)
+        index += first;
+      update_elastic(indices, n, points, motion, returns, in_substeps, others, report);
+    });
     for (const List *list : { &returns, &in_substeps })
-      for_each_batch(
-          list->size,
-          [&](const unsigned int i) { return list->points[i]; },
-          [&](const Indices &indices, const unsigned int used) {
-            update_with_return(indices, used, points, motion, others, report);
-          });
+      for_each_batch(list->size, [&](BatchIndices indices, const unsigned int n) {
+        for (unsigned int &index : indices)
+          index = list->points[index];
+        update_with_return(indices, n, points, motion, others, report);
+      });
     for (unsigned int i = 0; i < others.size; ++i)
       this->update_point(others.points[i], points, motion, report);
   }
 
 
   template <int dim, typename Law>
-  void BatchMaterial<dim, Law>::update_elastic(const Indices &indices,
-                                               const unsigned int used,
+  void BatchMaterial<dim, Law>::update_elastic(const BatchIndices &indices,
+                                               const unsigned int n,
                                                const MaterialPoints<dim> &points,
                                                const MaterialMotion<dim> &motion,
                                                List &returns,
@@ -233,7 +228,8 @@ namespace scree
                                                List &others,
                                                UpdateReport &report) const
   {
-    const Input input = read(indices, points, motion);
+    const unsigned int used = (1u << n) - 1;
+    const Input input       = read(indices, n, points, motion);
     // Written such that not-a-number is refused, too.
     const Mask is_possible = (determinant_of_rows<dim>(input.increment) > 0.) & (input.volume_ratio > 0.) &
                              (input.out_of_plane_stretch > 0.);
@@ -267,14 +263,15 @@ namespace scree
 
 
   template <int dim, typename Law>
-  void BatchMaterial<dim, Law>::update_with_return(const Indices &indices,
-                                                   const unsigned int used,
+  void BatchMaterial<dim, Law>::update_with_return(const BatchIndices &indices,
+                                                   const unsigned int n,
                                                    const MaterialPoints<dim> &points,
                                                    const MaterialMotion<dim> &motion,
                                                    List &others,
                                                    UpdateReport &report) const
   {
-    const Input input = read(indices, points, motion);
+    const unsigned int used = (1u << n) - 1;
+    const Input input       = read(indices, 0, points, motion);
     State state{};
     std::copy_n(input.left_cauchy_green, n_components, state.left_cauchy_green);
     std::copy_n(input.internal_variables, n_internal, state.internal_variables);

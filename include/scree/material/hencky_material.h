@@ -206,7 +206,7 @@ namespace scree
                                                      UpdateReport &report) const
   {
     report.plastic_dissipation +=
-        motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment[p],
+        motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment_of(p),
                                                          dim == 2 ? motion.out_of_plane_stretch[p] : 1,
                                                          motion.volume_ratio[p],
                                                          points.left_cauchy_green + points.offset(p),

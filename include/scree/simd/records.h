@@ -4,24 +4,44 @@
 
 #include <scree/simd/batch.h>
 
+#include <algorithm>
 #include <array>
 
 namespace scree
 {
+  /// The numbers of the things that a batch is about.
+  using BatchIndices = std::array<unsigned int, batch_size>;
+
   /// Where each lane finds its record of doubles.
   template <typename Pointee>
   using RecordPointers = std::array<Pointee *, batch_size>;
+
+  /// The same records, to be read.
+  inline RecordPointers<const double> as_constant(const RecordPointers<double> &records)
+  {
+    RecordPointers<const double> result;
+    std::copy(records.begin(), records.end(), result.begin());
+    return result;
+  }
 
   namespace simd
   {
 #if defined(__AVX2__)
     using FourDoubles = double __attribute__((vector_size(4 * sizeof(double))));
 
-    DEAL_II_ALWAYS_INLINE inline FourDoubles load_four(const double *values)
+    /// Four doubles from `first` on of the records of lanes `l`, l + 4, ...
+    DEAL_II_ALWAYS_INLINE inline Batch
+    load_fours(const RecordPointers<const double> &records, const unsigned int first, const unsigned int l)
     {
       FourDoubles four;
-      std::memcpy(&four, values, sizeof(four));
+      std::memcpy(&four, records[l] + first, sizeof(four));
+#  if defined(__AVX512F__) && defined(__AVX512DQ__)
+      FourDoubles other;
+      std::memcpy(&other, records[l + 4] + first, sizeof(other));
+      return __builtin_shufflevector(four, other, 0, 1, 2, 3, 4, 5, 6, 7);
+#  else
       return four;
+#  endif
     }
 
     /// Four batches of which lanes 4 i + j of batch k become lanes 4 i + k of batch j: lanes of records are those of
@@ -55,23 +75,21 @@ namespace scree
     template <unsigned int n>
     DEAL_II_ALWAYS_INLINE inline void load_records(const RecordPointers<const double> &records, Batch *batches)
     {
-      unsigned int c = 0;
 #if defined(__AVX2__)
-      for (; c + 4 <= n; c += 4)
+      if constexpr (n >= 4)
         {
-          for (unsigned int l = 0; l < 4; ++l)
+          // The last four may overlap those before them.
+          for (unsigned int c = 0; c < n; c += 4)
             {
-#  if defined(__AVX512F__) && defined(__AVX512DQ__)
-              batches[c + l] = __builtin_shufflevector(
-                  load_four(records[l] + c), load_four(records[l + 4] + c), 0, 1, 2, 3, 4, 5, 6, 7);
-#  else
-              batches[c + l] = load_four(records[l] + c);
-#  endif
+              const unsigned int first = std::min(c, n - 4);
+              for (unsigned int l = 0; l < 4; ++l)
+                batches[first + l] = load_fours(records, first, l);
+              transpose_fours(batches + first);
             }
-          transpose_fours(batches + c);
+          return;
         }
 #endif
-      for (; c < n; ++c)
+      for (unsigned int c = 0; c < n; ++c)
         for (unsigned int l = 0; l < batch_size; ++l)
           batches[c][l] = records[l][c];
     }
@@ -80,17 +98,22 @@ namespace scree
     template <unsigned int n>
     DEAL_II_ALWAYS_INLINE inline void store_records(const Batch *batches, const RecordPointers<double> &records)
     {
-      unsigned int c = 0;
 #if defined(__AVX2__)
-      for (; c + 4 <= n; c += 4)
+      if constexpr (n >= 4)
         {
-          Batch rows[4] = { batches[c], batches[c + 1], batches[c + 2], batches[c + 3] };
-          transpose_fours(rows);
-          for (unsigned int l = 0; l < batch_size; ++l)
-            std::memcpy(records[l] + c, reinterpret_cast<const double *>(&rows[l % 4]) + l / 4 * 4, 4 * sizeof(double));
+          for (unsigned int c = 0; c < n; c += 4)
+            {
+              const unsigned int first = std::min(c, n - 4);
+              Batch rows[4]            = { batches[first], batches[first + 1], batches[first + 2], batches[first + 3] };
+              transpose_fours(rows);
+              for (unsigned int l = 0; l < batch_size; ++l)
+                std::memcpy(
+                    records[l] + first, reinterpret_cast<const double *>(&rows[l % 4]) + l / 4 * 4, 4 * sizeof(double));
+            }
+          return;
         }
 #endif
-      for (; c < n; ++c)
+      for (unsigned int c = 0; c < n; ++c)
         for (unsigned int l = 0; l < batch_size; ++l)
           records[l][c] = batches[c][l];
     }
@@ -107,7 +130,32 @@ namespace scree
     {
       std::memcpy(values, &batch, sizeof(batch));
     }
+
+    /// The lanes below `n`.
+    DEAL_II_ALWAYS_INLINE inline Mask<Batch> first_lanes(const unsigned int n)
+    {
+      BatchBits numbers;
+      for (unsigned int l = 0; l < batch_size; ++l)
+        numbers[l] = l;
+      return numbers < static_cast<std::int64_t>(n);
+    }
   } // namespace simd
+
+
+  /// Calls `act(indices, n)` for batches of the numbers below `size`, in order. The last batch repeats its last number,
+  /// so that all lanes can be computed and stored; the first `n` of them count.
+  template <typename Act>
+  DEAL_II_ALWAYS_INLINE inline void for_each_batch(const unsigned int size, const Act &act)
+  {
+    for (unsigned int start = 0; start < size; start += batch_size)
+      {
+        const unsigned int n = std::min(size - start, batch_size);
+        BatchIndices indices;
+        for (unsigned int l = 0; l < batch_size; ++l)
+          indices[l] = start + std::min(l, n - 1);
+        act(indices, n);
+      }
+  }
 } // namespace scree
 
 #endif

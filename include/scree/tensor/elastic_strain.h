@@ -19,7 +19,7 @@ namespace scree
   class ElasticStrain<2, Number>
   {
   public:
-    explicit ElasticStrain(const Number *b)
+    DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
     {
       const Number mean       = 0.5 * (b[0] + b[1]);
       const Number difference = 0.5 * (b[0] - b[1]);
@@ -43,7 +43,8 @@ namespace scree
     }
 
     /// Components of b of this volume strain and `factor` times the deviator.
-    void left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
+    DEAL_II_ALWAYS_INLINE inline void
+    left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
     {
       Number values[3];
       for (unsigned int i = 0; i < 3; ++i)
@@ -84,7 +85,7 @@ namespace scree
   class ElasticStrain<3, Number>
   {
   public:
-    explicit ElasticStrain(const Number *b)
+    DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
     {
       const Number mean = (b[0] + b[1] + b[2]) * (1. / 3.), inverse = 1. / mean;
       Number D[6];
@@ -110,7 +111,8 @@ namespace scree
                2. * (deviator[3] * deviator[3] + deviator[4] * deviator[4] + deviator[5] * deviator[5]);
     }
 
-    void left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
+    DEAL_II_ALWAYS_INLINE inline void
+    left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
     {
       Number D[6];
       for (unsigned int c = 0; c < 6; ++c)
