@@ -17,12 +17,12 @@ namespace scree
 
     /// Reads b_e of points of the cell; returns where the records are.
     template <int dim>
-    RecordPointers<double>
+    DEAL_II_ALWAYS_INLINE inline RecordPointers<double>
     read_left_cauchy_green(const MaterialPoints<dim> &points, const BatchIndices &indices, Batch *b)
     {
       RecordPointers<double> records;
       for (unsigned int l = 0; l < batch_size; ++l)
-        records[l] = points.left_cauchy_green + points.offset(indices[l]);
+        records[l] = apart(points.left_cauchy_green + points.offset(indices[l]));
       simd::load_records<n_symmetric_components<dim>>(as_constant(records), b);
       return records;
     }

@@ -148,8 +148,8 @@ namespace scree
       for (unsigned int l = 0; l < batch_size; ++l)
         {
           const std::size_t offset = points.offset(indices[l]);
-          b[l]                     = points.left_cauchy_green + offset;
-          internal[l]              = points.internal_variables + offset;
+          b[l]                     = apart(points.left_cauchy_green + offset);
+          internal[l]              = apart(points.internal_variables + offset);
         }
       simd::load_records<n_components>(b, input.left_cauchy_green);
       simd::load_records<n_internal>(internal, input.internal_variables);
@@ -183,7 +183,7 @@ namespace scree
           double nothing[n];
           RecordPointers<double> records;
           for (unsigned int l = 0; l < batch_size; ++l)
-            records[l] = bits >> l & 1 ? of_record_0 + points.offset(indices[l]) : nothing;
+            records[l] = apart(bits >> l & 1 ? of_record_0 + points.offset(indices[l]) : nothing);
           simd::store_records<n>(batches, records);
         }
     }

@@ -18,9 +18,9 @@ namespace scree
     {
       for (unsigned int l = 0; l < batch_size; ++l)
         {
-          properties[l] = cell.properties_of(indices[l]);
-          locations[l]  = &cell.location_of(indices[l])[0];
-          places[l]     = &cell.reference_location_of(indices[l])[0];
+          properties[l] = apart(cell.properties_of(indices[l]));
+          locations[l]  = apart(&cell.location_of(indices[l])[0]);
+          places[l]     = apart(&cell.reference_location_of(indices[l])[0]);
         }
     }
 
@@ -29,7 +29,7 @@ namespace scree
     {
       RecordPointers<double> slots = properties;
       for (double *&pointer : slots)
-        pointer += slot;
+        pointer = apart(pointer + slot);
       return slots;
     }
   };

@@ -16,11 +16,21 @@ namespace scree
   template <typename Pointee>
   using RecordPointers = std::array<Pointee *, batch_size>;
 
+  /// The pointer itself. GCC would compute the pointers of a batch as a vector, only to take it apart again: a fifth of
+  /// the time of a pass over points.
+  template <typename Pointee>
+  DEAL_II_ALWAYS_INLINE inline Pointee *apart(Pointee *pointer)
+  {
+    asm("" : "+r"(pointer));
+    return pointer;
+  }
+
   /// The same records, to be read.
   inline RecordPointers<const double> as_constant(const RecordPointers<double> &records)
   {
     RecordPointers<const double> result;
-    std::copy(records.begin(), records.end(), result.begin());
+    for (unsigned int l = 0; l < batch_size; ++l)
+      result[l] = records[l];
     return result;
   }
 

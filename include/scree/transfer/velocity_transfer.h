@@ -302,7 +302,9 @@ namespace scree
           Batch line{}, lines[dim] = {}; // of the nodes with this i
           for (unsigned int j = 0; j < n; ++j)
             {
-              Batch column{}, other_column{}; // of those with this j, too
+              // A number in two dimensions: a vector of it would cost an addition.
+              std::conditional_t<dim == 2, double, Batch> column{};
+              Batch other_column{}; // of those with this j, too
               if constexpr (dim == 3)
                 for (unsigned int k = 0; k < n; ++k)
                   {
@@ -312,7 +314,7 @@ namespace scree
                       other_column += other[2][k] * u;
                   }
               else
-                column = simd::broadcast<Batch>(component[(j * n + i) * pitch]);
+                column = component[(j * n + i) * pitch];
               line += factor[1][j] * column;
               if constexpr (with_others)
                 {
