@@ -91,7 +91,7 @@ namespace scree
     next.volume_ratio *= determinant(increment);
     constexpr double one = 1;
     material->update({ 1, 0, next.left_cauchy_green.data(), next.stress.data(), next.internal_variables.data() },
-                     { &increment, &one, &next.volume_ratio, &one },
+                     { &increment[0][0], &one, &next.volume_ratio, &one },
                      report);
     return next;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
-#include <scree/material/nor_sand.h>
+#include <scree/material/nor_sand_return.h>
 
 using namespace dealii;
 
@@ -152,13 +152,15 @@ namespace scree
     internal_variables[1] = 0;
     if (pressure < parameters.minimum_pressure)
       {
-        const double volume_strain = (log_pressure_of(0) - log_minimum_pressure) * parameters.swelling_index;
-        separate(volume_strain, parameters.initial_specific_volume, strain, internal_variables, stress);
+        const double volume_strain = (log_pressure_of(0.) - log_minimum_pressure) * parameters.swelling_index;
+        strain.fill(volume_strain / 3);
+        stress.fill(0);
+        internal_variables[0] = image_of_separated(parameters.initial_specific_volume);
         return;
       }
 
     stress                     = wanted_stress;
-    const double volume_strain = (log_pressure_of(0) - std::log(pressure)) * parameters.swelling_index;
+    const double volume_strain = (log_pressure_of(0.) - std::log(pressure)) * parameters.swelling_index;
     double deviator_square     = 0;
     for (unsigned int i = 0; i < 3; ++i)
       {

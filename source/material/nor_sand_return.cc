@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <scree/material/nor_sand.h>
+#include <scree/material/nor_sand_return.h>
 
 #include <limits>
 
@@ -52,157 +52,7 @@ namespace scree
   } // namespace
 
 
-  DEAL_II_ALWAYS_INLINE inline double
-  NorSand::log_limit(const double log_image, const double volume, double &derivative) const
-  {
-    constexpr double smallest_argument = 0.15; // Below, the limit pressure runs away for very dense sand.
-
-    const double state = volume - parameters.critical_state_specific_volume +
-                         parameters.compression_index * (log_image - log_reference_pressure);
-    if (exponent == 0) // the limit N -> 0
-      {
-        const double factor =
-            parameters.dilatancy_multiplier * (1 - parameters.potential_constant) / parameters.critical_stress_ratio;
-        derivative = factor * parameters.compression_index;
-        return factor * state;
-      }
-    const double argument = 1 - limit_factor * state;
-    if (argument <= smallest_argument)
-      {
-        derivative = 0;
-        return -std::log(smallest_argument) * inverse_exponent;
-      }
-    derivative = limit_factor * parameters.compression_index * inverse_exponent / argument;
-    return -std::log(argument) * inverse_exponent;
-  }
-
-
-  DEAL_II_ALWAYS_INLINE inline NorSand::Residual
-  NorSand::residual(const Trial &trial, const double multiplier, const double log_ratio) const
-  {
-    const double M = parameters.critical_stress_ratio, h = parameters.hardening_coefficient;
-    const double E = exponent > 0 ? std::exp(exponent * log_ratio) : 1;
-    const double eta =
-        exponent > 0 ? M / parameters.yield_constant * (1 - (1 - parameters.yield_constant) * E) : M * (1 - log_ratio);
-    const double eta_ratio    = -M * E; // d eta/dr
-    const double D            = dilatancy(eta);
-    const double D_ratio      = eta_ratio / ((1 - parameters.potential_constant) * lode_factor);
-    const double log_pressure = trial.log_pressure + multiplier * D * inverse_swelling_index;
-
-    const double log_pressure_gamma = D * inverse_swelling_index;
-    const double log_pressure_ratio = multiplier * D_ratio * inverse_swelling_index;
-    const double log_image_ratio    = log_pressure_ratio - 1;
-
-    const double compliance     = std::exp(-log_pressure);
-    const double deviator_slope = 3 * parameters.shear_modulus * compliance;
-    const double deviator_ratio = trial.deviator * compliance - deviator_slope * multiplier; // q/P
-
-    // Pi (1 + h gamma) = Pi_n + h gamma Pi*, over P.
-    double limit_slope;
-    const double limit       = h * std::exp(log_limit(log_pressure - log_ratio, trial.volume, limit_slope)); // h Pi*/P
-    const double old         = trial.image * compliance;
-    const double hardening   = 1 + h * multiplier;
-    const double sum         = old + multiplier * limit;
-    const double inverse_sum = 1 / sum;
-
-    Residual r;
-    r.deviator_ratio = trial.deviator * compliance;
-    r.yield          = lode_factor * deviator_ratio - eta;
-    r.yield_gamma    = -lode_factor * (deviator_slope + deviator_ratio * log_pressure_gamma);
-    r.yield_ratio    = -lode_factor * deviator_ratio * log_pressure_ratio - eta_ratio;
-    r.image          = std::log(hardening * inverse_sum) - log_ratio;
-    r.image_gamma =
-        h / hardening - (limit + (multiplier * limit * limit_slope - old) * log_pressure_gamma) * inverse_sum;
-    r.image_ratio = -1 - (multiplier * limit * limit_slope * log_image_ratio - old * log_pressure_ratio) * inverse_sum;
-    return r;
-  }
-
-
-  NorSand::Residual NorSand::first_residual(const Trial &trial, const double log_ratio) const
-  {
-    const double compliance = 1 / trial.pressure;
-    const double D_slope    = dilatancy(trial.stress_ratio) * inverse_swelling_index;
-    double limit_slope;
-    const double limit = log_limit(trial.log_image, trial.volume, limit_slope);
-
-    Residual r;
-    r.deviator_ratio = trial.deviator * compliance;
-    r.yield          = lode_factor * r.deviator_ratio - trial.stress_ratio;
-    r.yield_gamma    = -lode_factor * (3 * parameters.shear_modulus * compliance + r.deviator_ratio * D_slope);
-    r.yield_ratio    = parameters.critical_stress_ratio - parameters.yield_constant * trial.stress_ratio;
-    if (parameters.yield_constant > 0) // M exp(r N/(1-N)), from eta
-      r.yield_ratio /= 1 - parameters.yield_constant;
-    r.image       = 0;
-    r.image_gamma = parameters.hardening_coefficient * (1 - std::exp(log_ratio + limit)) + D_slope;
-    r.image_ratio = -1;
-    return r;
-  }
-
-
-  bool NorSand::newton(const Trial &trial, Returned &returned) const
-  {
-    constexpr unsigned int largest_number_of_iterations = 14;
-    constexpr unsigned int largest_number_of_halvings   = 6;
-    constexpr double tolerance                          = 1e-7; // before the last step, which squares the residual
-    constexpr double largest_change_of_ratio            = 1;
-    constexpr double largest_part_of_the_way            = 0.9; // to a bound
-
-    const double largest_multiplier = trial.deviator / (3 * parameters.shear_modulus);
-    double multiplier               = 0;
-    double log_ratio                = std::min(trial.log_pressure - trial.log_image, largest_log_ratio);
-    Residual now = log_ratio < largest_log_ratio ? first_residual(trial, log_ratio) : residual(trial, 0, log_ratio);
-    for (unsigned int i = 0; i < largest_number_of_iterations; ++i)
-      {
-        const double inverse_determinant = 1 / (now.yield_gamma * now.image_ratio - now.yield_ratio * now.image_gamma);
-        const double step_multiplier =
-            (now.yield_ratio * now.image - now.image_ratio * now.yield) * inverse_determinant;
-        const double step_ratio = (now.image_gamma * now.yield - now.yield_gamma * now.image) * inverse_determinant;
-
-        // A branch, as it is nearly always taken: minima would hold up the next residual.
-        const double room = step_multiplier > 0 ? largest_multiplier - multiplier : multiplier;
-        double part       = 1;
-        if (!(std::abs(step_ratio) <= largest_change_of_ratio &&
-              step_ratio <= largest_part_of_the_way * (largest_log_ratio - log_ratio) &&
-              std::abs(step_multiplier) <= largest_part_of_the_way * room))
-          part = std::min(std::min(1., largest_change_of_ratio / std::abs(step_ratio)),
-                          largest_part_of_the_way *
-                              std::min(room / std::abs(step_multiplier),
-                                       step_ratio > 0 ? (largest_log_ratio - log_ratio) / step_ratio : 2.));
-
-        if (part == 1 && std::abs(now.yield) <= tolerance * (1 + now.deviator_ratio) &&
-            std::abs(now.image) <= tolerance)
-          {
-            multiplier += step_multiplier;
-            log_ratio += step_ratio;
-            // P from the flow rule, q from the yield surface: q_tr - 3 G gamma loses digits where gamma is large.
-            const double eta      = stress_ratio(log_ratio);
-            returned.log_ratio    = log_ratio;
-            returned.log_pressure = trial.log_pressure + multiplier * dilatancy(eta) * inverse_swelling_index;
-            returned.pressure     = std::exp(returned.log_pressure);
-            returned.deviator     = std::min(returned.pressure * eta / lode_factor, trial.deviator);
-            return true;
-          }
-
-        const double merit = now.yield * now.yield + now.image * now.image;
-        for (unsigned int halving = 0;; ++halving, part *= 0.5)
-          {
-            const Residual next = residual(trial, multiplier + part * step_multiplier, log_ratio + part * step_ratio);
-            if (next.yield * next.yield + next.image * next.image < merit)
-              {
-                now = next;
-                break;
-              }
-            if (halving == largest_number_of_halvings)
-              return false;
-          }
-        multiplier += part * step_multiplier;
-        log_ratio += part * step_ratio;
-      }
-    return false;
-  }
-
-
-  double NorSand::image_residual(const Trial &trial, const double multiplier, const double log_ratio) const
+  double NorSand::image_residual(const Trial<double> &trial, const double multiplier, const double log_ratio) const
   {
     const double log_pressure =
         trial.log_pressure + multiplier * dilatancy(stress_ratio(log_ratio)) * inverse_swelling_index;
@@ -214,7 +64,7 @@ namespace scree
   }
 
 
-  double NorSand::ratio_on_yield(const Trial &trial, const double log_deviator, const double multiplier) const
+  double NorSand::ratio_on_yield(const Trial<double> &trial, const double log_deviator, const double multiplier) const
   {
     // F = 0 in w = ln eta: g(w) = w + a exp(w) - c = 0, rising and convex: Newton from the right cannot miss.
     const double a = inverse_swelling_index * multiplier / ((1 - parameters.potential_constant) * lode_factor);
@@ -239,7 +89,7 @@ namespace scree
   }
 
 
-  NorSand::Returned NorSand::search(const Trial &trial, UpdateReport &report) const
+  NorSand::Returned<double> NorSand::search(const Trial<double> &trial, UpdateReport &report) const
   {
     ++report.n_fallbacks;
     const double largest_multiplier = trial.deviator / (3 * parameters.shear_modulus);
@@ -272,7 +122,7 @@ namespace scree
   }
 
 
-  NorSand::Returned NorSand::search_vertex(const Trial &trial, UpdateReport &report) const
+  NorSand::Returned<double> NorSand::search_vertex(const Trial<double> &trial, UpdateReport &report) const
   {
     ++report.n_vertices;
     const auto image = [&](const double multiplier) { return image_residual(trial, multiplier, largest_log_ratio); };
@@ -285,54 +135,31 @@ namespace scree
     const double multiplier = find_root(image, smallest, largest);
     if (!(std::abs(image(multiplier)) < 1e-6))
       ++report.n_unresolved;
-    const double log_pressure = trial.log_pressure + multiplier * dilatancy(0) * inverse_swelling_index;
+    const double log_pressure = trial.log_pressure + multiplier * dilatancy(0.) * inverse_swelling_index;
     return { log_pressure, std::exp(log_pressure), largest_log_ratio, 0 };
   }
 
 
-  void NorSand::separate(const double volume_strain,
-                         const double volume,
-                         PrincipalValues &strain,
-                         double *internal_variables,
-                         PrincipalValues &stress) const
-  {
-    double derivative;
-    strain.fill(volume_strain / 3);
-    stress.fill(0);
-    internal_variables[0] = std::exp(log_minimum_pressure + log_limit(log_minimum_pressure, volume, derivative));
-  }
-
-
-  Response NorSand::plastic_return(const Trial &trial,
+  Response NorSand::plastic_return(const Trial<double> &trial,
                                    PrincipalValues &strain,
                                    double *internal_variables,
                                    PrincipalValues &stress,
                                    UpdateReport &report) const
   {
-    Returned returned{ trial.log_pressure, trial.pressure, 0, 0 };
-    if (trial.log_pressure >= log_minimum_pressure && !newton(trial, returned))
+    Returned<double> returned{ trial.log_pressure, trial.pressure, 0, 0 };
+    if (trial.log_pressure >= log_minimum_pressure && !newton(trial, true, returned))
       returned = search(trial, report);
 
-    const double volume_strain = (log_pressure_of(0) - returned.log_pressure) * parameters.swelling_index;
-    if (returned.log_pressure < log_minimum_pressure)
-      {
-        ++report.n_separated;
-        separate(volume_strain, trial.volume, strain, internal_variables, stress);
-        return Response::plastic;
-      }
-
-    const double pressure = returned.pressure;
-    const double factor   = trial.deviator > 0 ? returned.deviator / trial.deviator : 0;
-    const double mean     = (strain[0] + strain[1] + strain[2]) / 3;
+    const InvariantReturn<double> result = finish(trial, returned, internal_variables);
+    report.n_separated += result.is_separated;
+    const double mean = (strain[0] + strain[1] + strain[2]) / 3;
     for (unsigned int i = 0; i < 3; ++i)
       {
-        const double elastic_deviator = factor * (strain[i] - mean);
-        strain[i]                     = volume_strain / 3 + elastic_deviator;
-        stress[i]                     = -pressure + 2 * parameters.shear_modulus * elastic_deviator;
+        const double elastic_deviator = result.deviator_factor * (strain[i] - mean);
+        strain[i]                     = result.volume_strain / 3 + elastic_deviator;
+        stress[i]                     = result.mean_stress + 2 * parameters.shear_modulus * elastic_deviator;
       }
-    internal_variables[0] = std::exp(returned.log_pressure - returned.log_ratio);
-    internal_variables[1] += (trial.deviator - returned.deviator) / (3 * parameters.shear_modulus);
-    report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, pressure * inverse_swelling_index);
+    report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, bulk_modulus_at(result.mean_stress));
     return Response::plastic;
   }
 } // namespace scree

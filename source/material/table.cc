@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
-#include <scree/material/hencky_material.h>
-#include <scree/material/linear_elastic_3d.h>
+#include <scree/material/batch_material.h>
+#include <scree/material/nor_sand_return.h>
 #include <scree/material/rigid.h>
 #include <scree/material/table.h>
 
@@ -97,16 +97,13 @@ namespace scree
     switch (parameters.law_kind())
       {
       case LawKind::linear_elastic:
-        if constexpr (dim == 3)
-          return std::make_unique<LinearElastic3D>(LinearElastic(parameters.linear_elastic));
-        else
-          return std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
+        return std::make_unique<BatchMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
       case LawKind::mohr_coulomb:
         return std::make_unique<HenckyMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
       case LawKind::rigid:
         return std::make_unique<Rigid<dim>>();
       default:
-        return std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(parameters.nor_sand));
+        return std::make_unique<BatchMaterial<dim, NorSand>>(NorSand(parameters.nor_sand));
       }
   }
 

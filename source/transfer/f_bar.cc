@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/transfer/f_bar.h>
 
+#include <scree/simd/records.h>
 #include <scree/tensor/matrix.h>
 
 #include <cmath>
@@ -11,78 +12,92 @@ namespace scree
 
   namespace
   {
-    /// Cube root of a ratio of volumes. Near 1 by two steps of Halley's method from the tangent, which is exact to
-    /// rounding and takes a quarter of the time of std::cbrt.
-    inline double cube_root(const double x)
+    using simd::load;
+    using simd::store;
+
+    /// Reads b_e of points of the cell; returns where the records are.
+    template <int dim>
+    DEAL_II_ALWAYS_INLINE inline RecordPointers<double>
+    read_left_cauchy_green(const MaterialPoints<dim> &points, const BatchIndices &indices, Batch *b)
     {
-      if (!(std::abs(x - 1.) < 0.1))
-        return std::cbrt(x);
-      double root = 1. + (x - 1.) / 3.;
-      for (unsigned int step = 0; step < 2; ++step)
-        {
-          const double cube = root * root * root;
-          root *= (cube + 2. * x) / (2. * cube + x);
-        }
-      return root;
+      RecordPointers<double> records;
+      for (unsigned int l = 0; l < batch_size; ++l)
+        records[l] = apart(points.left_cauchy_green + points.offset(indices[l]));
+      simd::load_records<n_symmetric_components<dim>>(as_constant(records), b);
+      return records;
     }
 
 
     /// Gives all points the cell's mean of ln J_e = 1/2 ln det b_e.
     template <int dim>
-    void average_elastic_volume_strain(const CellMotion<dim> &motion, const MaterialPoints<dim> &points)
+    void average_elastic_volume_strain(const double *volumes, const MaterialPoints<dim> &points)
     {
       if (points.n_points == 1)
         return;
-      double weighted = 0, volume = 0;
-      for (unsigned int p = 0; p < points.n_points; ++p)
-        {
-          const double *b = points.left_cauchy_green + points.offset(p);
-          weighted += motion.volume[p] * std::log(determinant_of_components<dim>(b));
-          volume += motion.volume[p];
-        }
+      const Batch zero = simd::broadcast<Batch>(0.);
+      Batch weighted = zero, volume = zero, b[n_symmetric_components<dim>];
+      for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+        read_left_cauchy_green(points, indices, b);
+        const Batch own = simd::select<Batch>(simd::first_lanes(n), load(volumes + indices[0]), zero);
+        weighted += own * simd::log<Batch>(determinant_of_components<dim>(b));
+        volume += own;
+      });
       // b scales by exp(2/3 (mean ln J_e - ln J_e)) = (exp(mean ln det b) / det b)^(1/3)
-      const double mean = std::exp(weighted / volume);
-      for (unsigned int p = 0; p < points.n_points; ++p)
-        {
-          double *b          = points.left_cauchy_green + points.offset(p);
-          const double scale = cube_root(mean / determinant_of_components<dim>(b));
-          for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
-            b[c] *= scale;
-        }
+      const double mean = std::exp(simd::sum_of_lanes(weighted) / simd::sum_of_lanes(volume));
+      for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int) {
+        const auto records = read_left_cauchy_green(points, indices, b);
+        const Batch scale  = simd::cube_root<Batch>(mean / determinant_of_components<dim>(b));
+        for (Batch &component : b)
+          component *= scale;
+        simd::store_records<n_symmetric_components<dim>>(b, records);
+      });
     }
 
+
     template <int dim>
-    void average_volume_change(const FBar kind, CellMotion<dim> &motion, const unsigned int n_points)
+    void average_volume_change(const FBar kind,
+                               const unsigned int first,
+                               const unsigned int n_points,
+                               BlockMotion<dim> &motion)
     {
-      double weighted = 0, volume = 0;
-      for (unsigned int p = 0; p < n_points; ++p)
-        {
-          weighted += motion.volume[p] * motion.volume_change[p];
-          volume += motion.volume[p];
-        }
-      const double mean = weighted / volume;
-      for (unsigned int p = 0; p < n_points; ++p)
-        {
-          const double scale = cube_root(mean / motion.volume_change[p]);
-          motion.deformation_increment[p] *= scale;
-          motion.out_of_plane_stretch[p] = scale;
-          if (kind == FBar::modified)
-            motion.volume_change[p] = mean;
-        }
+      double *volumes = &motion.volume[first], *changes = &motion.volume_change[first];
+      const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
+      Batch weighted = zero, volume = zero;
+      for_each_batch(n_points, [&](const BatchIndices &indices, const unsigned int n) {
+        const auto used = simd::first_lanes(n);
+        const Batch own = simd::select<Batch>(used, load(volumes + indices[0]), zero);
+        weighted += own * simd::select<Batch>(used, load(changes + indices[0]), one);
+        volume += own;
+      });
+      const double mean = simd::sum_of_lanes(weighted) / simd::sum_of_lanes(volume);
+      for_each_batch(n_points, [&](const BatchIndices &indices, const unsigned int n) {
+        const unsigned int p = indices[0];
+        const Batch change   = simd::select<Batch>(simd::first_lanes(n), load(changes + p), mean * one);
+        const Batch scale    = simd::cube_root<Batch>(mean / change);
+        for (unsigned int c = 0; c < dim * dim; ++c)
+          {
+            double *component = &motion.deformation_increment[c * motion.pitch + first + p];
+            store(scale * load(component), component);
+          }
+        store(scale, &motion.out_of_plane_stretch[first + p]);
+        if (kind == FBar::modified)
+          store(mean * one, changes + p);
+      });
     }
   } // namespace
 
 
   template <int dim>
-  void apply_f_bar(const FBar kind, CellMotion<dim> &motion, const MaterialPoints<dim> &points)
+  void
+  apply_f_bar(const FBar kind, const unsigned int first, const MaterialPoints<dim> &points, BlockMotion<dim> &motion)
   {
     if (kind == FBar::none)
       return;
     if (kind == FBar::modified)
-      average_elastic_volume_strain(motion, points);
-    average_volume_change(kind, motion, points.n_points);
+      average_elastic_volume_strain(&motion.volume[first], points);
+    average_volume_change(kind, first, points.n_points, motion);
   }
 
-  template void apply_f_bar(const FBar, CellMotion<2> &, const MaterialPoints<2> &);
-  template void apply_f_bar(const FBar, CellMotion<3> &, const MaterialPoints<3> &);
+  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<2> &, BlockMotion<2> &);
+  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<3> &, BlockMotion<3> &);
 } // namespace scree

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/batch_pointers.h>
 #include <scree/transfer/transfer.h>
 #include <scree/transfer/velocity_transfer.h>
 
@@ -23,59 +24,95 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
+  double Transfer<dim>::move_cell(const SoilBody<dim> &body,
+                                  const CellPoints<dim> &cell,
+                                  const NodalField<dim> &field,
+                                  const double time_step,
+                                  const unsigned int first)
+  {
+    using Layout         = PropertyLayout<dim>;
+    const double keep    = kept_velocity(method, pic_rate, time_step);
+    const OpenKnots open = grid.open_knots(cell.cell);
+    const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());
+
+    LargestSquare largest;
+    for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
+      const BatchPointers<dim> points(cell, indices);
+      const BatchShape<dim, n> shape(points.places, open);
+      const NodesAtPoints<dim> at_points = nodes.template at<method, true>(shape);
+
+      static_assert(Layout::velocity == 0 && Layout::mass == dim && Layout::volume == dim + 1, "These lie in a row.");
+      Batch own[dim + 2], affine[dim * dim], location[dim], increment[dim * dim];
+      simd::load_records<dim + 2>(as_constant(points.properties), own);
+      simd::load_records<dim>(as_constant(points.locations), location);
+      largest.include(at_points.template update<method>(own, affine, keep, time_step), n_used);
+      for (unsigned int c = 0; c < dim; ++c)
+        location[c] += time_step * at_points.velocity[c];
+      simd::store_records<dim>(own, points.slots_at(Layout::velocity));
+      simd::store_records<dim>(location, points.locations);
+      if constexpr (carries_affine(method))
+        simd::store_records<dim * dim>(affine, points.slots_at(body.layout.affine));
+
+      const unsigned int p = first + indices[0];
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        {
+          increment[c] = time_step * at_points.gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
+          simd::store(increment[c], &motion.deformation_increment[c * motion.pitch + p]);
+        }
+      simd::store(simd::broadcast<Batch>(1.), &motion.out_of_plane_stretch[p]);
+      simd::store(determinant_of_rows<dim>(increment), &motion.volume_change[p]);
+      simd::store(own[Layout::volume], &motion.volume[p]);
+      simd::store(own[Layout::mass] / body.density, &motion.reference_volume[p]);
+    });
+    return largest.value;
+  }
+
+
+  template <int dim>
+  template <int n, TransferMethod method>
   MotionReport Transfer<dim>::move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
   {
-    const double keep  = kept_velocity(method, pic_rate, time_step);
-    const auto &layout = body.layout;
-
+    const auto &cells = body.points.cells();
     MotionReport report;
-    double largest_square = 0;
-    CellCosts &costs      = body.points.costs();
+    LargestSquare largest;
+    CellCosts &costs = body.points.costs();
     costs.start_pass();
-    for (const auto &cell : body.points.cells())
+    for (auto begin = cells.begin(), end = begin; begin != cells.end(); begin = end)
       {
-        const OpenKnots open = grid.open_knots(cell.cell);
-        const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());
-        motion.resize(cell.n_points);
-        for (unsigned int p = 0; p < cell.n_points; ++p)
+        unsigned int n_points = 0;
+        while (end != cells.end() && (end == begin || n_points + end->n_points <= block_size))
+          n_points += (end++)->n_points;
+        motion.resize(n_points);
+        unsigned int first = 0;
+        for (auto cell = begin; cell != end; first += (cell++)->n_points)
           {
-            double *properties = cell.properties_of(p);
-            const PointShape<dim, n> shape(cell.reference_location_of(p), open);
-            Tensor<2, dim> gradient;
-            const double square = nodes.template move<method>(
-                shape,
-                { properties + layout.velocity, properties + layout.affine, &cell.location_of(p), &gradient },
-                keep,
-                time_step);
-            if (!(square <= largest_square)) // keeps a NaN
-              largest_square = square;
-
-            const Tensor<2, dim> increment  = Tensor<2, dim>(unit_symmetric_tensor<dim>()) + time_step * gradient;
-            motion.deformation_increment[p] = increment;
-            motion.out_of_plane_stretch[p]  = 1.;
-            motion.volume_change[p]         = determinant(increment);
-            motion.volume[p]                = properties[layout.volume];
-            motion.reference_volume[p]      = properties[layout.mass] / body.density;
+            largest.include(move_cell<n, method>(body, *cell, field, time_step, first));
+            apply_f_bar(f_bar, first, body.material_points(*cell), motion);
           }
-        update_state(body, cell, report.material);
-        costs.finish_cell(cell.cell, cell.n_points);
+        update_state(body, *begin, n_points, report.material);
+        costs.finish_cells(begin, end, n_points);
       }
-    report.largest_speed = std::sqrt(largest_square);
+    report.largest_speed = std::sqrt(largest.value);
     return report;
   }
 
 
   template <int dim>
-  void Transfer<dim>::update_state(const SoilBody<dim> &body, const CellPoints<dim> &cell, UpdateReport &report)
+  void Transfer<dim>::update_state(const SoilBody<dim> &body,
+                                   const CellPoints<dim> &cell,
+                                   const unsigned int n_points,
+                                   UpdateReport &report)
   {
-    const auto points = body.material_points(cell);
-    apply_f_bar(f_bar, motion, points);
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      {
-        double &volume = cell.properties_of(p)[body.layout.volume];
-        volume *= motion.volume_change[p];
-        motion.volume_ratio[p] = volume / motion.reference_volume[p];
-      }
+    // The slots of cells lie one behind the other.
+    auto points     = body.material_points(cell);
+    points.n_points = n_points;
+    for_each_batch(n_points, [&](const BatchIndices &indices, const unsigned int n) {
+      const unsigned int p = indices[0];
+      const Batch volume   = simd::load(&motion.volume[p]) * simd::load(&motion.volume_change[p]);
+      simd::store(volume / simd::load(&motion.reference_volume[p]), &motion.volume_ratio[p]);
+      for (unsigned int l = 0; l < n; ++l)
+        cell.properties_of(p + l)[body.layout.volume] = volume[l];
+    });
     body.material->update(points, motion.material_motion(), report);
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/batch_pointers.h>
 #include <scree/transfer/pore_velocity.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -27,12 +28,12 @@ namespace scree
       return values;
     }
 
-    /// The monomials x^m of a place of a cell, bit a of m standing for x_a.
-    template <int dim>
-    std::array<double, Mixture<dim>::n_moments> monomials(const Point<dim> &x)
+    /// The monomials x^m of places of a cell, bit a of m standing for x_a.
+    template <int dim, typename Number, typename Place>
+    std::array<Number, Mixture<dim>::n_moments> monomials(const Place &x)
     {
-      std::array<double, Mixture<dim>::n_moments> values;
-      values[0] = 1.;
+      std::array<Number, Mixture<dim>::n_moments> values;
+      values[0] = simd::broadcast<Number>(1.);
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int m = 0; m < (1u << a); ++m)
           if (const unsigned int with = m | (1 << a); with < values.size())
@@ -45,7 +46,7 @@ namespace scree
     void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
     {
       const NodeRow volume_x = shape.value_x * volume;
-      const auto powers      = monomials(shape.x);
+      const auto powers      = monomials<dim, double>(shape.x);
       for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
         {
           const NodeRow volume_of_row = volume_x * shape.rows.value[r];
@@ -100,28 +101,42 @@ namespace scree
         }
     }
 
-    /// Value, Pa, and gradient, Pa/m, of a multilinear pressure at a place of a cell, into a point's slots.
+    /// Value, Pa, and gradient, Pa/m, of a multilinear pressure at places of a cell: 1 + dim batches.
     template <int dim>
-    void set_pressure(const Multilinear<dim> &pressure,
-                      const Point<dim> &x,
-                      const double width,
-                      double &value,
-                      double *gradient)
+    void
+    find_pressure(const Multilinear<dim> &pressure, const std::array<Batch, dim> &x, const double width, Batch *result)
     {
-      const auto powers = monomials(x);
-      value             = pressure.back();
+      const auto powers = monomials<dim, Batch>(x);
+      result[0]         = simd::broadcast<Batch>(pressure.back());
       for (unsigned int a = 0; a < dim; ++a)
-        value *= x[a];
+        result[0] *= x[a];
       for (unsigned int m = 0; m < powers.size(); ++m)
-        value += pressure[m] * powers[m];
+        result[0] += pressure[m] * powers[m];
       for (unsigned int a = 0; a < dim; ++a)
         {
-          double slope = 0;
+          Batch slope{};
           for (unsigned int m = 0; m < powers.size(); ++m)
             if (!((m >> a) & 1))
               slope += pressure[m | (1 << a)] * powers[m];
-          gradient[a] = slope / width;
+          result[1 + a] = slope / width;
         }
+    }
+
+
+    /// 1 over the porosity about the points of a batch; 1 without soil.
+    template <int dim>
+    Batch inverse_porosity_at(const PorosityOfParts<dim> *porosity, const std::array<Batch, dim> &x)
+    {
+      Batch result = simd::broadcast<Batch>(1.);
+      if (porosity != nullptr)
+        for (unsigned int l = 0; l < batch_size; ++l)
+          {
+            Point<dim> place;
+            for (unsigned int a = 0; a < dim; ++a)
+              place[a] = x[a][l];
+            result[l] = porosity->inverse_at(place);
+          }
+      return result;
     }
   } // namespace
 
@@ -253,50 +268,74 @@ namespace scree
                                         const PressureOfCell<dim> &corner_pressure,
                                         const double time_step) const
   {
-    const double keep         = kept_velocity(method, pic_rate, time_step);
-    const auto &layout        = water.layout;
-    const SoilBody<dim> *soil = water.carrier();
-
-    double largest_square = 0;
-    CellCosts &costs      = water.points().costs();
+    LargestSquare largest;
+    CellCosts &costs = water.points().costs();
     costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
-        const OpenKnots open    = grid.open_knots(cell.cell);
-        const unsigned int *ids = grid.nodes(cell.cell);
-        const CellVelocity<dim, n> velocity(ids, nodes.water, grid.cell_size());
-        std::optional<PoreVelocity<dim, n>> by_place;
-        if (soil == nullptr && PoreVelocity<dim, n>::differs(ids, nodes.pores))
-          by_place.emplace(ids, velocity, nodes, water.density, grid.cell_size());
-        const PorosityOfParts<dim> *porosity = mixture.porosity_of_parts(cell.cell);
-        const Multilinear<dim> pressure      = multilinear_of<dim>(corner_pressure(cell.cell));
-
-        for_each_point(cell, [&](const auto &point) {
-          const PointShape<dim, n> shape(point.reference_location, open);
-          double *properties = point.properties;
-          const PointMotion<dim> motion{ properties + layout.velocity,
-                                         properties + layout.affine,
-                                         soil == nullptr ? &point.location : nullptr,
-                                         nullptr };
-          double square;
-          if (by_place)
-            square = by_place->template at<method>(porosity != nullptr ? porosity->inverse_at(shape.x) : 1.)
-                         .template move<method>(shape, motion, keep, time_step);
-          else
-            square = velocity.template move<method>(shape, motion, keep, time_step);
-          if (!(square <= largest_square)) // keeps a NaN
-            largest_square = square;
-          set_pressure(
-              pressure, shape.x, grid.cell_size(), properties[layout.pressure], properties + layout.pressure_gradient);
-          if (soil != nullptr)
-            {
-              properties[layout.volume] = std::max(soil->pore_volume(properties), 0.);
-              properties[layout.mass]   = water.density * properties[layout.volume];
-            }
-        });
+        const Multilinear<dim> pressure = multilinear_of<dim>(corner_pressure(cell.cell));
+        largest.include(
+            move_cell<n, method>(water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step));
+        if (const SoilBody<dim> *soil = water.carrier())
+          for_each_point(cell, [&](const auto &point) {
+            double &volume                      = point.properties[water.layout.volume];
+            volume                              = std::max(soil->pore_volume(point.properties), 0.);
+            point.properties[water.layout.mass] = water.density * volume;
+          });
         costs.finish_cell(cell.cell, cell.n_points);
       }
-    return std::sqrt(largest_square);
+    return std::sqrt(largest.value);
+  }
+
+
+  template <int dim>
+  template <int n, TransferMethod method>
+  double WaterTransfer<dim>::move_cell(const WaterPhase<dim> &water,
+                                       const CellPoints<dim> &cell,
+                                       const MixtureNodes<dim> &nodes,
+                                       const PorosityOfParts<dim> *porosity,
+                                       const Multilinear<dim> &pressure,
+                                       const double time_step) const
+  {
+    const double keep       = kept_velocity(method, pic_rate, time_step);
+    const double width      = grid.cell_size();
+    const auto &layout      = water.layout;
+    const OpenKnots open    = grid.open_knots(cell.cell);
+    const unsigned int *ids = grid.nodes(cell.cell);
+    const bool is_alone     = water.carrier() == nullptr;
+    const CellVelocity<dim, n> velocity(ids, nodes.water, width);
+    std::optional<PoreVelocity<dim, n>> by_place;
+    if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes.pores))
+      by_place.emplace(ids, velocity, nodes, water.density, width);
+
+    LargestSquare largest;
+    for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
+      const BatchPointers<dim> points(cell, indices);
+      const BatchShape<dim, n> shape(points.places, open);
+      const NodesAtPoints<dim> at_points =
+          by_place ? by_place->template at<method>(shape, inverse_porosity_at<dim>(porosity, shape.x))
+                   : velocity.template at<method, false>(shape);
+
+      Batch own[dim], affine[dim * dim], pressure_there[1 + dim];
+      const auto own_slots = points.slots_at(layout.velocity);
+      simd::load_records<dim>(as_constant(own_slots), own);
+      largest.include(at_points.template update<method>(own, affine, keep, time_step), n_used);
+      simd::store_records<dim>(own, own_slots);
+      if constexpr (carries_affine(method))
+        simd::store_records<dim * dim>(affine, points.slots_at(layout.affine));
+      if (is_alone)
+        {
+          Batch location[dim];
+          simd::load_records<dim>(as_constant(points.locations), location);
+          for (unsigned int c = 0; c < dim; ++c)
+            location[c] += time_step * at_points.velocity[c];
+          simd::store_records<dim>(location, points.locations);
+        }
+      // The gradient's slots are behind the pressure.
+      find_pressure<dim>(pressure, shape.x, width, pressure_there);
+      simd::store_records<1 + dim>(pressure_there, points.slots_at(layout.pressure));
+    });
+    return largest.value;
   }
 
 

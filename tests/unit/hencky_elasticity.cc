@@ -67,8 +67,9 @@ void test_plane_strain(const std::string &name, RandomNumbers &random)
       const double stretch = 1 + 1e-3 * random.uniform(-1, 1), one = 1;
       full[2][2] = stretch;
       J *= determinant(full);
-      plane->update({ 1, 0, plane_b, plane_stress, plane_internal }, { &in_plane, &stretch, &J, &one }, plane_report);
-      solid->update({ 1, 0, solid_b, solid_stress, solid_internal }, { &full, nullptr, &J, &one }, solid_report);
+      plane->update(
+          { 1, 0, plane_b, plane_stress, plane_internal }, { &in_plane[0][0], &stretch, &J, &one }, plane_report);
+      solid->update({ 1, 0, solid_b, solid_stress, solid_internal }, { &full[0][0], nullptr, &J, &one }, solid_report);
       double scale = 1;
       for (unsigned int c = 0; c < 4; ++c)
         scale = std::max(scale, std::abs(plane_stress[c]));

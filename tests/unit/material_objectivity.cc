@@ -49,10 +49,10 @@ double error(const Material<3> &material, const double angle, const double strai
       before                  = now;
       J *= determinant(increment);
       material.update({ 1, 0, still.left_cauchy_green, still.stress, still.internal_variables },
-                      { &increment, nullptr, &J, &one },
+                      { &increment[0][0], nullptr, &J, &one },
                       report);
       material.update({ 1, 0, turning.left_cauchy_green, turning.stress, turning.internal_variables },
-                      { &seen, nullptr, &J, &one },
+                      { &seen[0][0], nullptr, &J, &one },
                       report);
       const Tensor<2, 3> wanted = now * matrix(still.stress) * transpose(now);
       largest                   = std::max(largest, (matrix(turning.stress) - wanted).norm() / wanted.norm());

@@ -30,7 +30,7 @@ int main()
     volume_strain += 3 * strain;
     const double J = std::exp(volume_strain);
     material->update(
-        { 1, 0, left_cauchy_green, stress, internal_variables }, { &increment, &out_of_plane, &J, &one }, report);
+        { 1, 0, left_cauchy_green, stress, internal_variables }, { &increment[0][0], &out_of_plane, &J, &one }, report);
   };
 
   // From 10 kPa to the minimum pressure the sand swells by kappa ln(10 kPa/1 Pa).

@@ -2,6 +2,8 @@
 #ifndef scree_grid_cell_basis_h
 #define scree_grid_cell_basis_h
 
+#include <scree/simd/batch.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/utilities.h>
 
@@ -18,25 +20,29 @@ namespace scree
   ///
   /// With n = 3 these are quadratic B-splines: B are the Bernstein polynomials of the cell, l and r are 1 at an open
   /// knot and 1/2 inside, N_0 = l B_0, N_1 = (1 - l) B_0 + B_1 + (1 - r) B_2, N_2 = r B_2. With all knots open this is
-  /// the C0 quadratic Bernstein basis. With n = 2 they are the linear functions. All are non-negative and sum to one. The
-  /// lexicographic tensor products (first axis fastest) are the n^dim shape functions of the cell.
-  template <int dim, int n>
+  /// the C0 quadratic Bernstein basis. With n = 2 they are the linear functions. All are non-negative and sum to one.
+  /// The lexicographic tensor products (first axis fastest) are the n^dim shape functions of the cell.
+  ///
+  /// @tparam Number double, or Batch for as many points
+  template <int dim, int n, typename Number = double>
   struct CellBasis
   {
     static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
 
-    std::array<std::array<double, n>, dim> value;
-    std::array<std::array<double, n>, dim> derivative; ///< per cell width
+    std::array<std::array<Number, n>, dim> value;
+    std::array<std::array<Number, n>, dim> derivative; ///< per cell width
 
-    CellBasis(const dealii::Point<dim> &x, const OpenKnots open)
+    /// @param x place in the cell: a Point, or an array of `dim` batches
+    template <typename Place>
+    CellBasis(const Place &x, const OpenKnots open)
     {
       for (unsigned int a = 0; a < dim; ++a)
         {
-          const double s = x[a], t = 1. - s;
+          const Number s = x[a], t = 1. - s;
           if constexpr (n == 2)
             {
               value[a]      = { { t, s } };
-              derivative[a] = { { -1., 1. } };
+              derivative[a] = { { simd::broadcast<Number>(-1.), simd::broadcast<Number>(1.) } };
             }
           else
             {

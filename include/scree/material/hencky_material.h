@@ -92,7 +92,7 @@ namespace scree
                                                   UpdateReport &report) const
   {
     double trial[n_components];
-    trial_left_cauchy_green(f, out_of_plane_stretch, left_cauchy_green, trial);
+    trial_left_cauchy_green<dim>(&f[0][0], out_of_plane_stretch, left_cauchy_green, trial);
     const PrincipalFrame<dim> frame(trial);
     const PrincipalValues trial_strain = log_strain(frame.values());
     AssertThrow(std::isfinite(trial_strain[0] + trial_strain[1] + trial_strain[2]),
@@ -206,7 +206,7 @@ namespace scree
                                                      UpdateReport &report) const
   {
     report.plastic_dissipation +=
-        motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment[p],
+        motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment_of(p),
                                                          dim == 2 ? motion.out_of_plane_stretch[p] : 1,
                                                          motion.volume_ratio[p],
                                                          points.left_cauchy_green + points.offset(p),

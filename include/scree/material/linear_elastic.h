@@ -29,6 +29,7 @@ namespace scree
   class LinearElastic
   {
   public:
+    static constexpr unsigned int n_internal_variables     = 0;
     static constexpr bool is_elastic                       = true;
     static constexpr bool has_pressure_dependent_stiffness = false;
 
@@ -42,6 +43,39 @@ namespace scree
 
     /// Tangent at a mean compressive Kirchhoff stress, Pa.
     double bulk_modulus(const double pressure) const;
+
+    /// The trial state, see law.h.
+    template <typename Number>
+    struct Trial
+    {
+      Number volume_strain;
+    };
+    template <typename Number>
+    Trial<Number> trial(const Number &volume_strain, const Number &, const Number &, const Number *) const
+    {
+      return { volume_strain };
+    }
+    template <typename Number>
+    simd::Mask<Number> is_admissible(const Trial<Number> &trial) const
+    {
+      return trial.volume_strain == trial.volume_strain;
+    }
+    template <typename Number>
+    Number mean_stress(const Trial<Number> &trial) const
+    {
+      return bulk * trial.volume_strain;
+    }
+    template <typename Number>
+    Number bulk_modulus_at(const Number &) const
+    {
+      return simd::broadcast<Number>(bulk);
+    }
+    template <typename Number>
+    simd::Mask<Number>
+    return_to_surface(const Trial<Number> &, const simd::Mask<Number> &todo, Number *, InvariantReturn<Number> &) const
+    {
+      return todo & !todo; // has none
+    }
 
     /// J per m^3 of reference volume.
     double energy(const PrincipalValues &strain) const;

@@ -21,7 +21,7 @@ namespace scree
     std::string unit; ///< "-" without
   };
 
-  /// Where a law finds the state of a cell's points: records `stride` doubles apart, of which `slots` says which ones;
+  /// Where a law finds the state of points: records `stride` doubles apart, of which `slots` says which ones;
   /// each pointer is into record 0. Tensors are stored as in tensor/components.h.
   template <int dim>
   struct MaterialPoints
@@ -33,21 +33,33 @@ namespace scree
     double *internal_variables = nullptr; ///< As named by Material::internal_quantities()
     const unsigned int *slots  = nullptr; ///< Records of the points; null: one behind the other
 
-    /// From record 0 to the one of the cell's point `p`, doubles.
+    /// From record 0 to the one of point `p`, doubles.
     std::size_t offset(const unsigned int p) const
     {
       return stride * (slots != nullptr ? slots[p] : p);
     }
   };
 
-  /// The motion of a cell's points over a step; arrays of MaterialPoints::n_points.
+  /// The motion of points over a step; arrays of MaterialPoints::n_points.
   template <int dim>
   struct MaterialMotion
   {
-    const dealii::Tensor<2, dim> *deformation_increment = nullptr; ///< dF of the step, after F-bar, in-plane part
-    const double *out_of_plane_stretch = nullptr; ///< dF_zz after F-bar, which scales all three axes; read if dim = 2
-    const double *volume_ratio         = nullptr; ///< J = V/V_0 at the end of the step
-    const double *reference_volume     = nullptr; ///< V_0, m^3 (dim = 2: per metre of depth)
+    /// dF of the step, after F-bar, in-plane part: dim x dim arrays, row-major, `pitch` doubles apart. (Of one point:
+    /// its components one behind the other.)
+    const double *deformation_increment = nullptr;
+    const double *out_of_plane_stretch  = nullptr; ///< dF_zz after F-bar, which scales all three axes; read if dim = 2
+    const double *volume_ratio          = nullptr; ///< J = V/V_0 at the end of the step
+    const double *reference_volume      = nullptr; ///< V_0, m^3 (dim = 2: per metre of depth)
+    std::size_t pitch                   = 1;
+
+    /// dF of a point.
+    dealii::Tensor<2, dim> deformation_increment_of(const unsigned int p) const
+    {
+      dealii::Tensor<2, dim> increment;
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        increment[c / dim][c % dim] = deformation_increment[c * pitch + p];
+      return increment;
+    }
   };
 
   /// What came out of a step's updates. The reports of cells and ranks add up.
@@ -69,7 +81,7 @@ namespace scree
 
   /// A constitutive law of a point in finite strain: logarithmic elastic strain, Kirchhoff stress tau = J sigma.
   ///
-  /// One virtual call serves all points of a cell. A law holds no state of points, so threads may share it.
+  /// One virtual call serves the points of several cells. A law holds no state of points, so threads may share it.
   template <int dim>
   class Material
   {

@@ -55,6 +55,7 @@ namespace scree
   class NorSand
   {
   public:
+    static constexpr unsigned int n_internal_variables     = 2;
     static constexpr bool is_elastic                       = false;
     static constexpr bool has_pressure_dependent_stiffness = true;
 
@@ -68,6 +69,35 @@ namespace scree
 
     /// Tangent at a mean compressive Kirchhoff stress, Pa.
     double bulk_modulus(const double pressure) const;
+
+    /// Invariants of the trial state.
+    template <typename Number>
+    struct Trial
+    {
+      Number pressure, log_pressure; // P, Pa, and ln P
+      Number deviator;               // q, Pa
+      Number stress_ratio;           // eta
+      Number image, log_image;       // Pi at the start, Pa, and ln Pi
+      Number volume;                 // v
+    };
+
+    /// See law.h.
+    template <typename Number>
+    Trial<Number> trial(const Number &volume_strain,
+                        const Number &deviator_square,
+                        const Number &volume_ratio,
+                        const Number *internal_variables) const;
+    template <typename Number>
+    simd::Mask<Number> is_admissible(const Trial<Number> &trial) const;
+    template <typename Number>
+    Number mean_stress(const Trial<Number> &trial) const;
+    template <typename Number>
+    Number bulk_modulus_at(const Number &mean_stress) const;
+    template <typename Number>
+    simd::Mask<Number> return_to_surface(const Trial<Number> &trial,
+                                         const simd::Mask<Number> &todo,
+                                         Number *internal_variables,
+                                         InvariantReturn<Number> &result) const;
 
     /// J per m^3 of reference volume.
     double energy(const PrincipalValues &strain) const;
@@ -104,57 +134,88 @@ namespace scree
     /// zeta. The data know no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
     static constexpr double lode_factor = 1;
 
-    /// Invariants of the trial state.
-    struct Trial
-    {
-      double pressure, log_pressure; // P, Pa, and ln P
-      double deviator;               // q, Pa
-      double stress_ratio;           // eta
-      double image, log_image;       // Pi at the start, Pa, and ln Pi
-      double volume;                 // v
-    };
-
     /// Invariants after the return.
+    template <typename Number>
     struct Returned
     {
-      double log_pressure; // ln P
-      double pressure;     // P, Pa
-      double log_ratio;    // r
-      double deviator;     // q, Pa
+      Number log_pressure; // ln P
+      Number pressure;     // P, Pa
+      Number log_ratio;    // r
+      Number deviator;     // q, Pa
     };
 
     /// Residuals of (gamma, r) and their derivatives.
+    template <typename Number>
     struct Residual
     {
-      double deviator_ratio; // q_tr/P
-      double yield, yield_gamma, yield_ratio;
-      double image, image_gamma, image_ratio;
+      Number deviator_ratio; // q_tr/P
+      Number yield, yield_gamma, yield_ratio;
+      Number image, image_gamma, image_ratio;
     };
 
-    double log_pressure_of(const double volume_strain) const;
-    double stress_ratio(const double log_ratio) const;
-    double dilatancy(const double stress_ratio) const;
+    /// A step of Newton's method, and the part of it that keeps gamma and r within their bounds.
+    template <typename Number>
+    struct NewtonStep
+    {
+      Number multiplier, log_ratio, part;
+    };
+
+    template <typename Number>
+    Number log_pressure_of(const Number &volume_strain) const;
+    template <typename Number>
+    Number stress_ratio(const Number &log_ratio) const;
+    template <typename Number>
+    Number dilatancy(const Number &stress_ratio) const;
 
     /// ln(Pi*/P) and its derivative in ln Pi.
-    double log_limit(const double log_image, const double volume, double &derivative) const;
+    template <typename Number>
+    Number log_limit(const Number &log_image, const Number &volume, Number &derivative) const;
 
-    Response plastic_return(const Trial &trial,
+    template <typename Number>
+    Residual<Number> residual(const Trial<Number> &trial, const Number &multiplier, const Number &log_ratio) const;
+
+    /// The same at gamma = 0, cheap.
+    template <typename Number>
+    Residual<Number> first_residual(const Trial<Number> &trial, const Number &log_ratio) const;
+
+    template <typename Number>
+    NewtonStep<Number> newton_step(const Residual<Number> &residual,
+                                   const Number &multiplier,
+                                   const Number &log_ratio,
+                                   const Number &largest_multiplier) const;
+
+    /// Where the residual falls along a step, which is halved where it does not: the first such place in `part`. Lanes
+    /// that find none leave `todo`.
+    template <typename Number>
+    Residual<Number> residual_after(NewtonStep<Number> &step,
+                                    const Trial<Number> &trial,
+                                    const Number &multiplier,
+                                    const Number &log_ratio,
+                                    const Residual<Number> &now,
+                                    simd::Mask<Number> &todo) const;
+
+    /// The return of the lanes `todo`; says which of them converged.
+    template <typename Number>
+    simd::Mask<Number> newton(const Trial<Number> &trial, simd::Mask<Number> todo, Returned<Number> &returned) const;
+
+    /// Where both residuals vanish, or the state of grains that are apart.
+    template <typename Number>
+    InvariantReturn<Number>
+    finish(const Trial<Number> &trial, const Returned<Number> &returned, Number *internal_variables) const;
+
+    Response plastic_return(const Trial<double> &trial,
                             PrincipalValues &strain,
                             double *internal_variables,
                             PrincipalValues &stress,
                             UpdateReport &report) const;
-    Residual residual(const Trial &trial, const double multiplier, const double log_ratio) const;
-    Residual first_residual(const Trial &trial, const double log_ratio) const; // at gamma = 0, cheap
-    bool newton(const Trial &trial, Returned &returned) const;
-    Returned search(const Trial &trial, UpdateReport &report) const;
-    Returned search_vertex(const Trial &trial, UpdateReport &report) const;
-    double ratio_on_yield(const Trial &trial, const double log_deviator, const double multiplier) const;
-    double image_residual(const Trial &trial, const double multiplier, const double log_ratio) const;
-    void separate(const double volume_strain,
-                  const double volume,
-                  PrincipalValues &strain,
-                  double *internal_variables,
-                  PrincipalValues &stress) const;
+    Returned<double> search(const Trial<double> &trial, UpdateReport &report) const;
+    Returned<double> search_vertex(const Trial<double> &trial, UpdateReport &report) const;
+    double ratio_on_yield(const Trial<double> &trial, const double log_deviator, const double multiplier) const;
+    double image_residual(const Trial<double> &trial, const double multiplier, const double log_ratio) const;
+
+    /// Pi of grains that are apart, Pa.
+    template <typename Number>
+    Number image_of_separated(const Number &volume) const;
 
     const NorSandParameters parameters;
     const double inverse_swelling_index;
@@ -173,23 +234,68 @@ namespace scree
   }
 
 
-  inline double NorSand::log_pressure_of(const double volume_strain) const
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number NorSand::log_pressure_of(const Number &volume_strain) const
   {
     constexpr double log_zero_strain_pressure = 6.907755278982137; // ln(1 kPa/1 Pa)
     return log_zero_strain_pressure - volume_strain * inverse_swelling_index;
   }
 
 
-  inline double NorSand::stress_ratio(const double log_ratio) const
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number NorSand::stress_ratio(const Number &log_ratio) const
   {
     const double N = parameters.yield_constant, M = parameters.critical_stress_ratio;
-    return N > 0 ? M / N * (1 - (1 - N) * std::exp(exponent * log_ratio)) : M * (1 - log_ratio);
+    if (N > 0)
+      return M / N * (1. - (1. - N) * simd::exp<Number>(exponent * log_ratio));
+    return M * (1. - log_ratio);
   }
 
 
-  inline double NorSand::dilatancy(const double stress_ratio) const
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number NorSand::dilatancy(const Number &stress_ratio) const
   {
     return (stress_ratio - parameters.critical_stress_ratio) * dilatancy_factor;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline NorSand::Trial<Number> NorSand::trial(const Number &volume_strain,
+                                                                     const Number &deviator_square,
+                                                                     const Number &volume_ratio,
+                                                                     const Number *internal_variables) const
+  {
+    Trial<Number> trial;
+    trial.deviator     = 3 * parameters.shear_modulus * simd::sqrt<Number>(2. / 3. * deviator_square);
+    trial.log_pressure = log_pressure_of(volume_strain);
+    trial.pressure     = simd::exp<Number>(trial.log_pressure);
+    trial.image        = internal_variables[0];
+    trial.log_image    = simd::log<Number>(trial.image);
+    trial.stress_ratio = stress_ratio<Number>(trial.log_pressure - trial.log_image);
+    trial.volume       = parameters.initial_specific_volume * volume_ratio;
+    return trial;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number> NorSand::is_admissible(const Trial<Number> &trial) const
+  {
+    return (trial.log_pressure >= log_minimum_pressure) &
+           (lode_factor * trial.deviator <= trial.pressure * trial.stress_ratio);
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number NorSand::mean_stress(const Trial<Number> &trial) const
+  {
+    return -trial.pressure;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number NorSand::bulk_modulus_at(const Number &mean_stress) const
+  {
+    return -mean_stress * inverse_swelling_index;
   }
 
 
@@ -205,28 +311,13 @@ namespace scree
     for (unsigned int i = 0; i < 3; ++i)
       deviator_square += (strain[i] - mean) * (strain[i] - mean);
 
-    const double deviator     = 3 * parameters.shear_modulus * std::sqrt(2. / 3. * deviator_square);
-    const double log_pressure = log_pressure_of(volume_strain);
-    const double pressure     = std::exp(log_pressure);
-    const double log_image    = std::log(internal_variables[0]);
-    const double eta          = stress_ratio(log_pressure - log_image);
-
-    if (!(log_pressure >= log_minimum_pressure && lode_factor * deviator <= pressure * eta))
-      return plastic_return({ pressure,
-                              log_pressure,
-                              deviator,
-                              eta,
-                              internal_variables[0],
-                              log_image,
-                              parameters.initial_specific_volume * volume_ratio },
-                            strain,
-                            internal_variables,
-                            stress,
-                            report);
+    const Trial<double> state = trial(volume_strain, deviator_square, volume_ratio, internal_variables);
+    if (!is_admissible(state))
+      return plastic_return(state, strain, internal_variables, stress, report);
 
     for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = -pressure + 2 * parameters.shear_modulus * (strain[i] - mean);
-    report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, pressure * inverse_swelling_index);
+      stress[i] = -state.pressure + 2 * parameters.shear_modulus * (strain[i] - mean);
+    report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, bulk_modulus_at(-state.pressure));
     return Response::elastic;
   }
 } // namespace scree

@@ -39,6 +39,18 @@ namespace scree
       last = now;
     }
 
+    /// The same for a range of cells that hold `n_points` in all.
+    template <typename Iterator>
+    void finish_cells(const Iterator &begin, const Iterator &end, const unsigned int n_points)
+    {
+      if (!is_timed)
+        return;
+      const auto now = Clock::now();
+      for (auto cell = begin; cell != end; ++cell)
+        add(cell->cell, std::chrono::duration<double>(now - last).count() / n_points);
+      last = now;
+    }
+
     /// Adds a measurement, s a point.
     void add(const unsigned int cell, const double seconds);
 

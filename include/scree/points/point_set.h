@@ -28,10 +28,10 @@ namespace scree
 
     unsigned int cell; ///< active cell index
     unsigned int n_points;
-    const unsigned int *slots;                     ///< of the points
-    unsigned int stride;                           ///< doubles from one slot's properties to the next one's
-    Number *properties;                            ///< of slot 0
-    Location *locations;                           ///< of slot 0, m
+    const unsigned int *slots; ///< of the points; those of the cell that follows in cells() lie behind them
+    unsigned int stride;       ///< doubles from one slot's properties to the next one's
+    Number *properties;        ///< of slot 0
+    Location *locations;       ///< of slot 0, m
     const dealii::Point<dim> *reference_locations; ///< of slot 0
 
     /// Properties of the cell's point `p`.

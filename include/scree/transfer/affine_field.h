@@ -60,27 +60,24 @@ namespace scree
   }
 
 
-  /// A component of sum phi_i v_i (x_i - x)^T at a point, m^2/s: `dim` numbers, what APIC stores.
+  /// phi_i (x_i - x) along each axis, m: what takes the place of an axis' shape functions in sum phi_i v_i (x_i - x)^T,
+  /// which APIC stores.
+  ///
+  /// @param x places in the cell
   template <int dim, int n>
-  void affine_moment(const PointShape<dim, n> &shape,
-                     const double width,
-                     const NodeRow (&velocity)[RowFactors<dim, n>::n_rows],
-                     double *moment)
+  std::array<std::array<Batch, n>, dim> moment_factors(const CellBasis<dim, n, Batch> &basis,
+                                                       const std::array<Batch, dim> &x,
+                                                       const OpenKnots open,
+                                                       const double width)
   {
-    const auto offset = [&](const unsigned int a, const unsigned int i) {
-      return width * (CellBasis<dim, n>::node_positions(shape.open, a)[i] - shape.x[a]);
-    };
-    std::array<double, n> along_x;
-    for (unsigned int i = 0; i < n; ++i)
-      along_x[i] = offset(0, i) * shape.basis.value[0][i];
-    moment[0] = sum(contract(shape.rows.value, velocity) * make_row(along_x));
-    for (unsigned int a = 1; a < dim; ++a)
+    std::array<std::array<Batch, n>, dim> factors;
+    for (unsigned int a = 0; a < dim; ++a)
       {
-        auto factor = shape.rows.value;
-        for (unsigned int r = 0; r < factor.size(); ++r)
-          factor[r] *= offset(a, a == 1 ? r % n : r / n);
-        moment[a] = sum(contract(factor, velocity) * shape.value_x);
+        const auto positions = CellBasis<dim, n>::node_positions(open, a);
+        for (unsigned int i = 0; i < n; ++i)
+          factors[a][i] = basis.value[a][i] * (width * (positions[i] - x[a]));
       }
+    return factors;
   }
 } // namespace scree
 

@@ -3,39 +3,41 @@
 #define scree_transfer_f_bar_h
 
 #include <scree/material/material.h>
+#include <scree/simd/records.h>
 #include <scree/transfer/transfer_parameters.h>
-
-#include <deal.II/base/tensor.h>
 
 #include <vector>
 
 namespace scree
 {
-  /// The motion of one cell's points over a step: what the material update reads.
+  /// The motion of a block of points over a step, cell by cell: what the material update reads. Behind the last point
+  /// there is room for a batch, so that the last one of a cell may be stored whole; the next cell writes over it.
   template <int dim>
-  struct CellMotion
+  struct BlockMotion
   {
-    std::vector<dealii::Tensor<2, dim>> deformation_increment; ///< dF
-    std::vector<double> out_of_plane_stretch;                  ///< dF_zz
-    std::vector<double> volume_change;                         ///< dJ of the points' volume
-    std::vector<double> volume;                                ///< V at the start of the step, m^3
-    std::vector<double> volume_ratio;                          ///< J = V/V_0 at its end
-    std::vector<double> reference_volume;                      ///< V_0, m^3
+    std::vector<double> deformation_increment; ///< dF, dim x dim arrays of `pitch`, row-major
+    std::vector<double> out_of_plane_stretch;  ///< dF_zz
+    std::vector<double> volume_change;         ///< dJ of the points' volume
+    std::vector<double> volume;                ///< V at the start of the step, m^3
+    std::vector<double> volume_ratio;          ///< J = V/V_0 at its end
+    std::vector<double> reference_volume;      ///< V_0, m^3
+    std::size_t pitch = 0;
 
-    /// Makes room for the points of a cell; memory only grows.
+    /// Makes room for the points of a block; memory only grows.
     void resize(const unsigned int n_points)
     {
-      if (n_points <= deformation_increment.size())
+      if (n_points + batch_size <= pitch)
         return;
-      deformation_increment.resize(n_points);
+      pitch = n_points + batch_size;
+      deformation_increment.resize(dim * dim * pitch);
       for (auto *list : { &out_of_plane_stretch, &volume_change, &volume, &volume_ratio, &reference_volume })
-        list->resize(n_points);
+        list->resize(pitch);
     }
 
     MaterialMotion<dim> material_motion() const
     {
       return {
-        deformation_increment.data(), out_of_plane_stretch.data(), volume_ratio.data(), reference_volume.data()
+        deformation_increment.data(), out_of_plane_stretch.data(), volume_ratio.data(), reference_volume.data(), pitch
       };
     }
   };
@@ -47,8 +49,11 @@ namespace scree
   /// volume-weighted mean; the deviator stays. Separated points count in the mean: their gap has to close. The points'
   /// volume follows the mean dJ, too: with the points' own dJ the volumes of a cell drift apart unfelt, until dense
   /// points dilate against loose ones (doc/verification.md has the measurement).
+  ///
+  /// @param first of the cell's points in the block
   template <int dim>
-  void apply_f_bar(const FBar kind, CellMotion<dim> &motion, const MaterialPoints<dim> &points);
+  void
+  apply_f_bar(const FBar kind, const unsigned int first, const MaterialPoints<dim> &points, BlockMotion<dim> &motion);
 } // namespace scree
 
 #endif

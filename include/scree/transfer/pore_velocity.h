@@ -19,7 +19,7 @@ namespace scree
     static bool differs(const unsigned int *nodes, const PoreField<dim> &pores)
     {
       bool any = false;
-      for (unsigned int i = 0; i < n_rows * n; ++i)
+      for (unsigned int i = 0; i < n_nodes; ++i)
         any |= pores[nodes[i]][PoreField<dim>::grains_about_water] > 0.;
       return any;
     }
@@ -38,30 +38,30 @@ namespace scree
     {
     }
 
-    /// What a point takes that has 1 over this porosity about it.
+    /// What points take that have 1 over this porosity about them.
     template <TransferMethod method>
-    CellVelocity<dim, n> at(const double inverse_porosity) const
+    NodesAtPoints<dim> at(const BatchShape<dim, n> &shape, const Batch &inverse_porosity) const
     {
-      return soil.template plus<method>(inverse_porosity, flux);
+      NodesAtPoints<dim> result = soil.template at<method, false>(shape);
+      result.template add<method>(inverse_porosity, flux.template at<method, false>(shape));
+      return result;
     }
 
   private:
-    static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
 
     /// n_i
-    static std::array<NodeRow, n_rows>
+    static std::array<double, n_nodes>
     porosities(const unsigned int *ids, const MixtureNodes<dim> &nodes, const double water_density)
     {
-      std::array<NodeRow, n_rows> rows{};
-      for (unsigned int r = 0; r < n_rows; ++r)
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const unsigned int node = ids[r * n + i];
-            const double volume     = nodes.water[node][NodalField<dim>::mass] / water_density;
-            const double grains     = nodes.pores[node][PoreField<dim>::grains_about_water];
-            rows[r][i]              = grains > 0. ? volume / (volume + grains) : 1.;
-          }
-      return rows;
+      std::array<double, n_nodes> result;
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        {
+          const double volume = nodes.water[ids[i]][NodalField<dim>::mass] / water_density;
+          const double grains = nodes.pores[ids[i]][PoreField<dim>::grains_about_water];
+          result[i]           = grains > 0. ? volume / (volume + grains) : 1.;
+        }
+      return result;
     }
 
     const CellVelocity<dim, n> soil; // v_s

@@ -43,14 +43,29 @@ namespace scree
     template <int n, TransferMethod method>
     MotionReport move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
 
-    /// F-bar, volume, stress and state of a cell's points from `motion`.
-    void update_state(const SoilBody<dim> &body, const CellPoints<dim> &cell, UpdateReport &report);
+    /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
+    /// Returns the largest square of a speed, m^2/s^2; not a number if any point's is not.
+    template <int n, TransferMethod method>
+    double move_cell(const SoilBody<dim> &body,
+                     const CellPoints<dim> &cell,
+                     const NodalField<dim> &field,
+                     const double time_step,
+                     const unsigned int first);
+
+    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`.
+    void update_state(const SoilBody<dim> &body,
+                      const CellPoints<dim> &cell,
+                      const unsigned int n_points,
+                      UpdateReport &report);
+
+    /// Points whose stress is updated in one go, unless a cell has more.
+    static constexpr unsigned int block_size = 128;
 
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
     const double pic_rate;
     const FBar f_bar;
-    CellMotion<dim> motion; // of the cell at hand; kept for its memory
+    BlockMotion<dim> motion; // of the points at hand; kept for its memory
   };
 } // namespace scree
 

@@ -3,12 +3,13 @@
 #define scree_transfer_velocity_transfer_h
 
 #include <scree/grid/nodal_field.h>
+#include <scree/simd/records.h>
+#include <scree/tensor/matrix.h>
 #include <scree/transfer/affine_field.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/base/tensor.h>
-
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace scree
 {
@@ -118,14 +119,28 @@ namespace scree
   };
 
 
-  /// What a point takes from the nodes.
-  template <int dim>
-  struct PointMotion
+  /// A batch of points as the nodes of their cell see it.
+  template <int dim, int n>
+  struct BatchShape
   {
-    double *velocity;                 ///< slots, m/s: changed
-    double *affine;                   ///< slots of APIC, TPIC and AFLIP; else not touched
-    dealii::Point<dim> *location;     ///< m: moved, unless null
-    dealii::Tensor<2, dim> *gradient; ///< of the velocity, 1/s: set, unless null
+    const OpenKnots open;
+    const std::array<Batch, dim> x; ///< places in the cell
+    const CellBasis<dim, n, Batch> basis;
+
+    BatchShape(const RecordPointers<const double> &places, const OpenKnots open)
+        : open(open)
+        , x(read(places))
+        , basis(x, open)
+    {
+    }
+
+  private:
+    static std::array<Batch, dim> read(const RecordPointers<const double> &places)
+    {
+      std::array<Batch, dim> x;
+      simd::load_records<dim>(places, x.data());
+      return x;
+    }
   };
 
 
@@ -133,55 +148,102 @@ namespace scree
   /// L (I + dt L)^-1, if it is smaller: so a lone point, to which no node says anything new, does not stretch for ever
   /// at the same rate, and one that is compressed does not shrink to nothing in a finite time.
   template <int dim>
-  void carry_along(double *gradient, const double time_step)
+  void carry_along(Batch *gradient, const double time_step)
   {
-    dealii::Tensor<2, dim> L;
+    Batch stretch[dim * dim], inverse[dim * dim], carried[dim * dim];
+    Batch square = simd::broadcast<Batch>(0.), carried_square = square;
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      stretch[c] = time_step * gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
+    invert_rows<dim>(stretch, inverse);
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int a = 0; a < dim; ++a)
-        L[c][a] = gradient[c * dim + a];
-    const dealii::Tensor<2, dim> stretch = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) + time_step * L;
-    if (!(determinant(stretch) > 0))
-      return;
-    const dealii::Tensor<2, dim> carried = L * invert(stretch);
-    if (!(carried.norm_square() < L.norm_square()))
-      return;
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int a = 0; a < dim; ++a)
-        gradient[c * dim + a] = carried[c][a];
+        {
+          Batch &sum = carried[c * dim + a];
+          sum        = gradient[c * dim] * inverse[a];
+          for (unsigned int m = 1; m < dim; ++m)
+            sum += gradient[c * dim + m] * inverse[m * dim + a];
+          carried_square += sum * sum;
+          square += gradient[c * dim + a] * gradient[c * dim + a];
+        }
+    const simd::Mask<Batch> is_smaller = (determinant_of_rows<dim>(stretch) > 0.) & (carried_square < square);
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      gradient[c] = simd::select<Batch>(is_smaller, carried[c], gradient[c]);
   }
 
 
-  /// End-of-step velocity and its change at a cell's nodes, and what they do to its points: one kernel for points of
+  /// What nodes say to a batch of points; what nobody reads is not set.
+  template <int dim>
+  struct NodesAtPoints
+  {
+    Batch velocity[dim];       ///< at the end of the step, m/s
+    Batch change[dim];         ///< over the step, m/s: for methods that keep their velocity
+    Batch gradient[dim * dim]; ///< of the velocity, 1/s, row-major
+    Batch moment[dim * dim];   ///< sum phi_i v_i (x_i - x)^T, m^2/s: for APIC
+
+    /// Adds `factor` times others.
+    template <TransferMethod method>
+    void add(const Batch &factor, const NodesAtPoints &other)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          velocity[c] += factor * other.velocity[c];
+          if constexpr (keeps_velocity(method))
+            change[c] += factor * other.change[c];
+        }
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        {
+          if constexpr (carries_gradient(method))
+            gradient[c] += factor * other.gradient[c];
+          if constexpr (method == TransferMethod::apic)
+            moment[c] += factor * other.moment[c];
+        }
+    }
+
+    /// Gives points their velocity and affine field at the end of a step of `time_step` s; returns the squares of their
+    /// speeds, m^2/s^2.
+    ///
+    /// @param keep see kept_velocity()
+    template <TransferMethod method>
+    Batch update(Batch *own_velocity, Batch *affine, const double keep, const double time_step) const
+    {
+      Batch square = simd::broadcast<Batch>(0.);
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          if constexpr (keeps_velocity(method))
+            own_velocity[c] = keep * (own_velocity[c] + change[c]) + (1. - keep) * velocity[c];
+          else
+            own_velocity[c] = velocity[c];
+          square += own_velocity[c] * own_velocity[c];
+        }
+      if constexpr (method == TransferMethod::apic)
+        std::copy_n(moment, dim * dim, affine);
+      if constexpr (carries_gradient(method))
+        std::copy_n(gradient, dim * dim, affine);
+      if constexpr (method == TransferMethod::aflip)
+        carry_along<dim>(affine, time_step);
+      return square;
+    }
+  };
+
+
+  /// End-of-step velocity and its change at a cell's nodes, and what they say to its points: one kernel for points of
   /// soil and of water.
   template <int dim, int n>
   class CellVelocity
   {
-    static constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
+    static constexpr unsigned int pitch   = 2 * dim; // of nodes: velocity, then change
+    using Factors                         = std::array<std::array<Batch, n>, dim>;
 
   public:
     /// @param nodes of the cell
     /// @param width of the cell, m
     CellVelocity(const unsigned int *nodes, const NodalField<dim> &field, const double width)
         : width(width)
-        , inverse_width(1. / width)
     {
-      for (unsigned int r = 0; r < n_rows; ++r)
-        {
-          std::array<const double *, n> node;
-          for (unsigned int i = 0; i < n; ++i)
-            node[i] = field[nodes[r * n + i]];
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              std::array<double, n> v, dv;
-              for (unsigned int i = 0; i < n; ++i)
-                {
-                  v[i]  = node[i][NodalField<dim>::velocity + c];
-                  dv[i] = node[i][NodalField<dim>::velocity_change + c];
-                }
-              velocity[c][r] = make_row(v);
-              change[c][r]   = make_row(dv);
-            }
-        }
+      static_assert(NodalField<dim>::velocity_change == NodalField<dim>::velocity + dim, "The two lie together.");
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        std::memcpy(values + i * pitch, field[nodes[i]] + NodalField<dim>::velocity, pitch * sizeof(double));
     }
 
     /// Gradient at a point, 1/s.
@@ -198,91 +260,97 @@ namespace scree
     }
 
     /// This velocity less another one, times a weight of each node.
-    CellVelocity weighted_difference(const std::array<NodeRow, n_rows> &weight, const CellVelocity &other) const
+    CellVelocity weighted_difference(const std::array<double, n_nodes> &weight, const CellVelocity &other) const
     {
       CellVelocity difference(width);
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int r = 0; r < n_rows; ++r)
-          {
-            difference.velocity[c][r] = weight[r] * (velocity[c][r] - other.velocity[c][r]);
-            difference.change[c][r]   = weight[r] * (change[c][r] - other.change[c][r]);
-          }
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        for (unsigned int c = 0; c < pitch; ++c)
+          difference.values[i * pitch + c] = weight[i] * (values[i * pitch + c] - other.values[i * pitch + c]);
       return difference;
     }
 
-    /// This velocity and `factor` times another one; its change is set only where move<method>() reads it.
-    template <TransferMethod method>
-    CellVelocity plus(const double factor, const CellVelocity &other) const
+    /// What points take by a method, and the gradient if that or the caller reads it.
+    template <TransferMethod method, bool with_gradient>
+    DEAL_II_ALWAYS_INLINE inline NodesAtPoints<dim> at(const BatchShape<dim, n> &shape) const
     {
-      CellVelocity sum(width);
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int r = 0; r < n_rows; ++r)
-          {
-            sum.velocity[c][r] = velocity[c][r] + factor * other.velocity[c][r];
-            if constexpr (keeps_velocity(method))
-              sum.change[c][r] = change[c][r] + factor * other.change[c][r];
-          }
-      return sum;
-    }
-
-    /// Gives a point its velocity, affine field and place at the end of a step of `time_step` s; returns the square of
-    /// its speed, m^2/s^2.
-    ///
-    /// @param keep see kept_velocity()
-    template <TransferMethod method>
-    double move(const PointShape<dim, n> &shape,
-                const PointMotion<dim> &point,
-                const double keep,
-                const double time_step) const
-    {
-      double square = 0;
+      NodesAtPoints<dim> result;
+      [[maybe_unused]] Factors moments;
+      if constexpr (method == TransferMethod::apic)
+        moments = moment_factors<dim, n>(shape.basis, shape.x, shape.open, width);
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const NodeRow along       = contract(shape.rows.value, velocity[c]);
-          const double new_velocity = sum(along * shape.value_x);
-          double &own               = point.velocity[c];
-          if constexpr (keeps_velocity(method))
-            own =
-                keep * (own + sum(contract(shape.rows.value, change[c]) * shape.value_x)) + (1. - keep) * new_velocity;
-          else
-            own = new_velocity;
-          if (point.location != nullptr)
-            (*point.location)[c] += time_step * new_velocity;
-          square += own * own;
-
-          if constexpr (method == TransferMethod::apic)
-            affine_moment<dim, n>(shape, width, velocity[c], point.affine + c * dim);
-          if (carries_gradient(method) || point.gradient != nullptr)
+          if constexpr (with_gradient || carries_gradient(method))
             {
-              double slope[dim];
-              slope[0] = inverse_width * sum(along * shape.derivative_x);
-              for (unsigned int a = 1; a < dim; ++a)
-                slope[a] = inverse_width * sum(contract(shape.rows.derivative[a - 1], velocity[c]) * shape.value_x);
+              result.velocity[c] =
+                  contract<true>(values + c, shape.basis.value, shape.basis.derivative, result.gradient + c * dim);
               for (unsigned int a = 0; a < dim; ++a)
-                {
-                  if constexpr (carries_gradient(method))
-                    point.affine[c * dim + a] = slope[a];
-                  if (point.gradient != nullptr)
-                    (*point.gradient)[c][a] = slope[a];
-                }
+                result.gradient[c * dim + a] *= 1. / width;
             }
+          else
+            result.velocity[c] = contract<false>(values + c, shape.basis.value, shape.basis.value, nullptr);
+          if constexpr (method == TransferMethod::apic)
+            contract<true>(values + c, shape.basis.value, moments, result.moment + c * dim);
+          if constexpr (keeps_velocity(method))
+            result.change[c] = contract<false>(values + dim + c, shape.basis.value, shape.basis.value, nullptr);
         }
-      if constexpr (method == TransferMethod::aflip)
-        carry_along<dim>(point.affine, time_step);
-      return square;
+      return result;
     }
 
   private:
     /// To be filled.
     explicit CellVelocity(const double width)
         : width(width)
-        , inverse_width(1. / width)
     {
     }
 
-    double width, inverse_width;
-    NodeRow velocity[dim][n_rows];
-    NodeRow change[dim][n_rows];
+    /// sum phi_i u_i of a component u. With others: into `sums` the same with the factors of one axis replaced by
+    /// others, axis by axis.
+    template <bool with_others>
+    DEAL_II_ALWAYS_INLINE static inline Batch
+    contract(const double *component, const Factors &factor, const Factors &other, Batch *sums)
+    {
+      Batch total{}, totals[dim] = {};
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          Batch line{}, lines[dim] = {}; // of the nodes with this i
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              // A number in two dimensions: a vector of it would cost an addition.
+              std::conditional_t<dim == 2, double, Batch> column{};
+              Batch other_column{}; // of those with this j, too
+              if constexpr (dim == 3)
+                for (unsigned int k = 0; k < n; ++k)
+                  {
+                    const double u = component[((k * n + j) * n + i) * pitch];
+                    column += factor[2][k] * u;
+                    if constexpr (with_others)
+                      other_column += other[2][k] * u;
+                  }
+              else
+                column = component[(j * n + i) * pitch];
+              line += factor[1][j] * column;
+              if constexpr (with_others)
+                {
+                  lines[1] += other[1][j] * column;
+                  if constexpr (dim == 3)
+                    lines[2] += factor[1][j] * other_column;
+                }
+            }
+          total += factor[0][i] * line;
+          if constexpr (with_others)
+            {
+              totals[0] += other[0][i] * line;
+              for (unsigned int a = 1; a < dim; ++a)
+                totals[a] += factor[0][i] * lines[a];
+            }
+        }
+      if constexpr (with_others)
+        std::copy_n(totals, dim, sums);
+      return total;
+    }
+
+    double width;
+    double values[n_nodes * pitch];
   };
 
 

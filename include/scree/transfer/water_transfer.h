@@ -83,6 +83,18 @@ namespace scree
                       const PressureOfCell<dim> &pressure,
                       const double time_step) const;
 
+    /// Velocity, pressure and, if the points are the water's own, place of a cell's points. Returns the largest square
+    /// of a speed, m^2/s^2; not a number if any point's is not.
+    ///
+    /// @param porosity about the cell's points; may be null
+    template <int n, TransferMethod method>
+    double move_cell(const WaterPhase<dim> &water,
+                     const CellPoints<dim> &cell,
+                     const MixtureNodes<dim> &nodes,
+                     const PorosityOfParts<dim> *porosity,
+                     const Multilinear<dim> &pressure,
+                     const double time_step) const;
+
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
     const double pic_rate;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_simd_records_h
+#define scree_simd_records_h
+
+#include <scree/simd/batch.h>
+
+#include <algorithm>
+#include <array>
+
+namespace scree
+{
+  /// The numbers of the things that a batch is about.
+  using BatchIndices = std::array<unsigned int, batch_size>;
+
+  /// Where each lane finds its record of doubles.
+  template <typename Pointee>
+  using RecordPointers = std::array<Pointee *, batch_size>;
+
+  /// The pointer itself. GCC would compute the pointers of a batch as a vector, only to take it apart again: a fifth of
+  /// the time of a pass over points.
+  template <typename Pointee>
+  DEAL_II_ALWAYS_INLINE inline Pointee *apart(Pointee *pointer)
+  {
+    asm("" : "+r"(pointer));
+    return pointer;
+  }
+
+  /// The same records, to be read.
+  inline RecordPointers<const double> as_constant(const RecordPointers<double> &records)
+  {
+    RecordPointers<const double> result;
+    for (unsigned int l = 0; l < batch_size; ++l)
+      result[l] = records[l];
+    return result;
+  }
+
+  namespace simd
+  {
+#if defined(__AVX2__)
+    using FourDoubles = double __attribute__((vector_size(4 * sizeof(double))));
+
+    /// Four doubles from `first` on of the records of lanes `l`, l + 4, ...
+    DEAL_II_ALWAYS_INLINE inline Batch
+    load_fours(const RecordPointers<const double> &records, const unsigned int first, const unsigned int l)
+    {
+      FourDoubles four;
+      std::memcpy(&four, records[l] + first, sizeof(four));
+#  if defined(__AVX512F__) && defined(__AVX512DQ__)
+      FourDoubles other;
+      std::memcpy(&other, records[l + 4] + first, sizeof(other));
+      return __builtin_shufflevector(four, other, 0, 1, 2, 3, 4, 5, 6, 7);
+#  else
+      return four;
+#  endif
+    }
+
+    /// Four batches of which lanes 4 i + j of batch k become lanes 4 i + k of batch j: lanes of records are those of
+    /// quantities then, and the other way round.
+    DEAL_II_ALWAYS_INLINE inline void transpose_fours(Batch *rows)
+    {
+      const Batch a = rows[0], b = rows[1], c = rows[2], d = rows[3];
+#  if defined(__AVX512F__) && defined(__AVX512DQ__)
+      const Batch e = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+      const Batch f = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+      const Batch g = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+      const Batch h = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+      rows[0]       = __builtin_shufflevector(e, g, 0, 1, 8, 9, 4, 5, 12, 13);
+      rows[1]       = __builtin_shufflevector(f, h, 0, 1, 8, 9, 4, 5, 12, 13);
+      rows[2]       = __builtin_shufflevector(e, g, 2, 3, 10, 11, 6, 7, 14, 15);
+      rows[3]       = __builtin_shufflevector(f, h, 2, 3, 10, 11, 6, 7, 14, 15);
+#  else
+      const Batch e = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+      const Batch f = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+      const Batch g = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+      const Batch h = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+      rows[0]       = __builtin_shufflevector(e, g, 0, 1, 4, 5);
+      rows[1]       = __builtin_shufflevector(f, h, 0, 1, 4, 5);
+      rows[2]       = __builtin_shufflevector(e, g, 2, 3, 6, 7);
+      rows[3]       = __builtin_shufflevector(f, h, 2, 3, 6, 7);
+#  endif
+    }
+#endif
+
+    /// Reads the first `n` doubles of each lane's record into `n` batches.
+    template <unsigned int n>
+    DEAL_II_ALWAYS_INLINE inline void load_records(const RecordPointers<const double> &records, Batch *batches)
+    {
+#if defined(__AVX2__)
+      if constexpr (n >= 4)
+        {
+          // The last four may overlap those before them.
+          for (unsigned int c = 0; c < n; c += 4)
+            {
+              const unsigned int first = std::min(c, n - 4);
+              for (unsigned int l = 0; l < 4; ++l)
+                batches[first + l] = load_fours(records, first, l);
+              transpose_fours(batches + first);
+            }
+          return;
+        }
+#endif
+      for (unsigned int c = 0; c < n; ++c)
+        for (unsigned int l = 0; l < batch_size; ++l)
+          batches[c][l] = records[l][c];
+    }
+
+    /// The other way round. Lanes that share a record have to hold the same numbers.
+    template <unsigned int n>
+    DEAL_II_ALWAYS_INLINE inline void store_records(const Batch *batches, const RecordPointers<double> &records)
+    {
+#if defined(__AVX2__)
+      if constexpr (n >= 4)
+        {
+          for (unsigned int c = 0; c < n; c += 4)
+            {
+              const unsigned int first = std::min(c, n - 4);
+              Batch rows[4]            = { batches[first], batches[first + 1], batches[first + 2], batches[first + 3] };
+              transpose_fours(rows);
+              for (unsigned int l = 0; l < batch_size; ++l)
+                std::memcpy(
+                    records[l] + first, reinterpret_cast<const double *>(&rows[l % 4]) + l / 4 * 4, 4 * sizeof(double));
+            }
+          return;
+        }
+#endif
+      for (unsigned int c = 0; c < n; ++c)
+        for (unsigned int l = 0; l < batch_size; ++l)
+          records[l][c] = batches[c][l];
+    }
+
+    /// Reads `batch_size` doubles one behind the other.
+    DEAL_II_ALWAYS_INLINE inline Batch load(const double *values)
+    {
+      Batch batch;
+      std::memcpy(&batch, values, sizeof(batch));
+      return batch;
+    }
+
+    DEAL_II_ALWAYS_INLINE inline void store(const Batch &batch, double *values)
+    {
+      std::memcpy(values, &batch, sizeof(batch));
+    }
+
+    /// The lanes below `n`.
+    DEAL_II_ALWAYS_INLINE inline Mask<Batch> first_lanes(const unsigned int n)
+    {
+      BatchBits numbers;
+      for (unsigned int l = 0; l < batch_size; ++l)
+        numbers[l] = l;
+      return numbers < static_cast<std::int64_t>(n);
+    }
+  } // namespace simd
+
+
+  /// Calls `act(indices, n)` for batches of the numbers below `size`, in order. The last batch repeats its last number,
+  /// so that all lanes can be computed and stored; the first `n` of them count.
+  template <typename Act>
+  DEAL_II_ALWAYS_INLINE inline void for_each_batch(const unsigned int size, const Act &act)
+  {
+    for (unsigned int start = 0; start < size; start += batch_size)
+      {
+        const unsigned int n = std::min(size - start, batch_size);
+        BatchIndices indices;
+        for (unsigned int l = 0; l < batch_size; ++l)
+          indices[l] = start + std::min(l, n - 1);
+        act(indices, n);
+      }
+  }
+} // namespace scree
+
+#endif

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_tensor_elastic_strain_h
+#define scree_tensor_elastic_strain_h
+
+#include <scree/simd/batch.h>
+#include <scree/tensor/components.h>
+#include <scree/tensor/matrix.h>
+
+namespace scree
+{
+  /// Logarithmic elastic strain 1/2 ln b as volume strain and deviator, and the way back to b along the same axes: what
+  /// isotropic laws without corners need.
+  template <int dim, typename Number>
+  class ElasticStrain;
+
+
+  /// Plane strain, by principal values in closed form.
+  template <typename Number>
+  class ElasticStrain<2, Number>
+  {
+  public:
+    DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
+    {
+      const Number mean       = 0.5 * (b[0] + b[1]);
+      const Number difference = 0.5 * (b[0] - b[1]);
+      const Number radius     = simd::sqrt<Number>(difference * difference + b[3] * b[3]);
+      const Number inverse    = 1. / simd::max<Number>(radius, simd::broadcast<Number>(1e-300));
+      cosine                  = difference * inverse;
+      sine                    = b[3] * inverse;
+
+      principal[0] = 0.5 * simd::log<Number>(mean + radius);
+      principal[1] = 0.5 * simd::log<Number>(mean - radius);
+      principal[2] = 0.5 * simd::log<Number>(b[2]);
+      volume       = principal[0] + principal[1] + principal[2];
+      square       = simd::broadcast<Number>(0.);
+      for (Number &value : principal)
+        {
+          value -= volume * (1. / 3.);
+          square += value * value;
+        }
+      compose(principal[0], principal[1], principal[2], deviator);
+      is_valid = simd::abs<Number>(volume) <= std::numeric_limits<double>::max();
+    }
+
+    /// Components of b of this volume strain and `factor` times the deviator.
+    DEAL_II_ALWAYS_INLINE inline void
+    left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
+    {
+      Number values[3];
+      for (unsigned int i = 0; i < 3; ++i)
+        values[i] = simd::exp<Number>(2. * (volume_strain * (1. / 3.) + factor * principal[i]));
+      compose(values[0], values[1], values[2], b);
+    }
+
+    /// Smallest principal value of the deviator.
+    Number least_deviator() const
+    {
+      return simd::min<Number>(principal[0], simd::min<Number>(principal[1], principal[2]));
+    }
+
+    Number volume;               ///< tr
+    Number deviator[4], square;  ///< components, and their |dev|^2
+    simd::Mask<Number> is_valid; ///< else b is no left Cauchy-Green tensor
+
+  private:
+    void compose(const Number &first, const Number &second, const Number &third, Number *tensor) const
+    {
+      const Number mean   = 0.5 * (first + second);
+      const Number radius = 0.5 * (first - second);
+      tensor[0]           = mean + radius * cosine;
+      tensor[1]           = mean - radius * cosine;
+      tensor[2]           = third;
+      tensor[3]           = radius * sine;
+    }
+
+    Number principal[3]; // of the deviator
+    Number cosine, sine; // of twice the angle of the in-plane axes
+  };
+
+
+  /// Three dimensions, without principal directions: b = m (I + D) with the trace-free D has ln b = ln m I + D - D^2/2
+  /// + D^3/3 - ... . By Cayley and Hamilton D^3 = J_2 D + J_3 I, so that every power is a combination of I, D and D^2,
+  /// and the series is one of scalars; exp likewise. Valid where principal values differ by less than a fifth or so.
+  template <typename Number>
+  class ElasticStrain<3, Number>
+  {
+  public:
+    DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
+    {
+      const Number mean = (b[0] + b[1] + b[2]) * (1. / 3.), inverse = 1. / mean;
+      Number D[6];
+      for (unsigned int c = 0; c < 6; ++c)
+        D[c] = (c < 3 ? b[c] - mean : b[c]) * inverse;
+      const Powers powers(D);
+      is_valid = (powers.J2 < 1e-2) & (mean > 0.);
+
+      // No principal value of D is above sqrt(4/3 J2), here .0115 and .116: what is left out is below rounding.
+      constexpr double factors[] = { 0.,     1.,       -1. / 2, 1. / 3,   -1. / 4, 1. / 5,   -1. / 6, 1. / 7,  -1. / 8,
+                                     1. / 9, -1. / 10, 1. / 11, -1. / 12, 1. / 13, -1. / 14, 1. / 15, -1. / 16 };
+      const Series sum           = powers.template sum<8, 16>(factors);
+      const Number trace         = 3. * sum.identity + 2. * powers.J2 * sum.squared;
+      volume                     = 0.5 * (3. * simd::log<Number>(mean) + trace);
+      for (unsigned int c = 0; c < 6; ++c)
+        {
+          deviator[c] = sum.linear * D[c] + sum.squared * powers.squared[c];
+          if (c < 3)
+            deviator[c] += sum.identity - trace * (1. / 3.);
+          deviator[c] *= 0.5;
+        }
+      square = deviator[0] * deviator[0] + deviator[1] * deviator[1] + deviator[2] * deviator[2] +
+               2. * (deviator[3] * deviator[3] + deviator[4] * deviator[4] + deviator[5] * deviator[5]);
+    }
+
+    DEAL_II_ALWAYS_INLINE inline void
+    left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
+    {
+      Number D[6];
+      for (unsigned int c = 0; c < 6; ++c)
+        D[c] = 2. * factor * deviator[c];
+      const Powers powers(D);
+      constexpr double factors[] = { 1.,       1.,        1. / 2,     1. / 6,      1. / 24,      1. / 120,
+                                     1. / 720, 1. / 5040, 1. / 40320, 1. / 362880, 1. / 3628800, 1. / 39916800 };
+      const Series sum           = powers.template sum<7, 11>(factors);
+      const Number size          = simd::exp<Number>(volume_strain * (2. / 3.));
+      for (unsigned int c = 0; c < 6; ++c)
+        {
+          b[c] = sum.linear * D[c] + sum.squared * powers.squared[c];
+          if (c < 3)
+            b[c] += 1. + sum.identity;
+          b[c] *= size;
+        }
+    }
+
+    /// By Newton's method on the characteristic cubic from below its smallest root, which it cannot pass.
+    Number least_deviator() const
+    {
+      constexpr unsigned int largest_number_of_steps = 60; // a double root: half the way each
+      const Number J2 = 0.5 * square, J3 = determinant_of_components<3>(deviator);
+      Number root = -1.1547005383792517 * simd::sqrt<Number>(J2); // -sqrt(4/3 J2)
+      for (unsigned int i = 0; i < largest_number_of_steps; ++i)
+        {
+          const Number value = (root * root - J2) * root - J3, slope = 3. * root * root - J2;
+          const Number next = root - value / simd::max<Number>(slope, simd::broadcast<Number>(1e-300));
+          const auto moves  = (value < 0.) & (next - root > -1e-12 * root);
+          root              = simd::select<Number>(moves, next, root);
+          if (!simd::any(moves))
+            break;
+        }
+      return root;
+    }
+
+    Number volume;
+    Number deviator[6], square;
+    simd::Mask<Number> is_valid; ///< else b is far from a sphere, or no left Cauchy-Green tensor
+
+  private:
+    /// Factors of I, D and D^2.
+    struct Series
+    {
+      Number identity, linear, squared;
+    };
+
+    struct Powers
+    {
+      Number squared[6], J2, J3;
+
+      explicit Powers(const Number *D)
+      {
+        squared[0] = D[0] * D[0] + D[3] * D[3] + D[4] * D[4];
+        squared[1] = D[1] * D[1] + D[3] * D[3] + D[5] * D[5];
+        squared[2] = D[2] * D[2] + D[4] * D[4] + D[5] * D[5];
+        squared[3] = D[3] * (D[0] + D[1]) + D[4] * D[5];
+        squared[4] = D[4] * (D[0] + D[2]) + D[3] * D[5];
+        squared[5] = D[5] * (D[1] + D[2]) + D[3] * D[4];
+        J2         = 0.5 * (squared[0] + squared[1] + squared[2]);
+        J3         = determinant_of_components<3>(D);
+      }
+
+      /// D + sum of factors[n] D^n, n from 2 to `few`, or to `many` in the lanes that need them.
+      template <unsigned int few, unsigned int many>
+      DEAL_II_ALWAYS_INLINE Series sum(const double *factors) const
+      {
+        Series sum                        = terms<few>(factors);
+        const simd::Mask<Number> is_large = J2 >= 1e-4;
+        if (simd::any(is_large))
+          {
+            const Series more = terms<many>(factors);
+            sum.identity      = simd::select<Number>(is_large, more.identity, sum.identity);
+            sum.linear        = simd::select<Number>(is_large, more.linear, sum.linear);
+            sum.squared       = simd::select<Number>(is_large, more.squared, sum.squared);
+          }
+        return sum;
+      }
+
+      template <unsigned int last>
+      DEAL_II_ALWAYS_INLINE Series terms(const double *factors) const
+      {
+        const Number zero = simd::broadcast<Number>(0.), one = simd::broadcast<Number>(1.);
+        Series power{ zero, one, zero }, sum{ zero, one, zero };
+        for (unsigned int n = 2; n <= last; ++n)
+          {
+            power = { power.squared * J3, power.identity + power.squared * J2, power.linear };
+            sum.identity += factors[n] * power.identity;
+            sum.linear += factors[n] * power.linear;
+            sum.squared += factors[n] * power.squared;
+          }
+        return sum;
+      }
+    };
+  };
+} // namespace scree
+
+#endif
