@@ -103,10 +103,22 @@ namespace scree
         const unsigned int *nodes = grid.nodes(cell.cell);
         const CellVelocity<dim, n> velocity(nodes, motion, grid.cell_size());
         CellSums<dim, n> sums(grid.cell_size());
-        for_each_point(cell, [&](const auto &point) {
-          const PointShape<dim, n> shape(point.reference_location, open);
-          sums.add(shape, sums.force_part(shape, *coefficient++, twice_deviatoric_rate(velocity.gradient(shape))));
+        for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
+          RecordPointers<const double> places;
+          for (unsigned int l = 0; l < batch_size; ++l)
+            places[l] = &cell.reference_location_of(indices[l])[0];
+          const auto at_points = velocity.template at<TransferMethod::pic, true>(BatchShape<dim, n>(places, open));
+          for (unsigned int l = 0; l < n_used; ++l)
+            {
+              const PointShape<dim, n> shape(cell.reference_location_of(indices[l]), open);
+              Tensor<2, dim> gradient;
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  gradient[c][d] = at_points.gradient[c * dim + d][l];
+              sums.add(shape, sums.force_part(shape, coefficient[indices[l]], twice_deviatoric_rate(gradient)));
+            }
         });
+        coefficient = end;
         field.activate_cell(cell.cell);
         sums.scatter(nodes, field);
       }

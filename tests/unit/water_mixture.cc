@@ -44,7 +44,7 @@ void test(const std::string &basis, std::ostream &out)
   grid_parameters.upper_corner.assign(dim, 0.6);
   const BackgroundGrid<dim> grid(grid_parameters, MPI_COMM_WORLD);
   NodeNumbering<dim> corners(Basis::linear);
-  corners.distribute(grid.triangulation(), grid.cell_size());
+  corners.distribute(grid.fine_cells());
 
   // Soil stands in water; the surface of the water lies inside the cells.
   MaterialParameters material;

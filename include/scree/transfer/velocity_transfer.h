@@ -246,19 +246,6 @@ namespace scree
         std::memcpy(values + i * pitch, field[nodes[i]] + NodalField<dim>::velocity, pitch * sizeof(double));
     }
 
-    /// Gradient at a point, 1/s.
-    dealii::Tensor<2, dim> gradient(const PointShape<dim, n> &shape) const
-    {
-      dealii::Tensor<2, dim> result;
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          result[c][0] = inverse_width * sum(contract(shape.rows.value, velocity[c]) * shape.derivative_x);
-          for (unsigned int a = 1; a < dim; ++a)
-            result[c][a] = inverse_width * sum(contract(shape.rows.derivative[a - 1], velocity[c]) * shape.value_x);
-        }
-      return result;
-    }
-
     /// This velocity less another one, times a weight of each node.
     CellVelocity weighted_difference(const std::array<double, n_nodes> &weight, const CellVelocity &other) const
     {
