@@ -76,6 +76,8 @@ namespace scree
     values.update_ghost_values();
   }
 
+  template class NodeValues<2, 2>; // change of the pressure at the corners
+  template class NodeValues<3, 2>;
   template class NodeValues<2, 3>; // surroundings of a corner beside the water's surface
   template class NodeValues<3, 3>;
   template class NodeValues<2, 4>; // fill of the corners; pressure forces on soil and water

@@ -34,7 +34,7 @@ namespace scree
       , mixture(grid, soil_points)
       , pores(grid)
       , water_field(grid)
-      , pressure(grid, water_walls, pressure_parameters, water_parameters.bulk_modulus, timer)
+      , pressure(grid, water_walls, pressure_parameters, water_density, water_parameters.bulk_modulus, timer)
       , step(grid, constraints, forcing, water_density, pressure_parameters.splitting_kind())
   {
     for (const auto &body : bodies)
@@ -166,7 +166,7 @@ namespace scree
     pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, report.balance);
     const TimedPart part(timer, StepPart::nodes);
     step.correct(nodes, mixture, pressure, time_step, report.balance);
-    pressure.accept_change();
+    pressure.accept_change(mixture, time_step);
     if (viscosity)
       viscosity->count_dissipation(nodes, report.balance);
     soil.field.update_ghosts();
@@ -213,6 +213,7 @@ namespace scree
             { soil.field, water_field, pores },
             mixture,
             [this](const unsigned int cell) { return pressure.pressure_of(cell); },
+            [this](const unsigned int cell) { return pressure.forgotten_of(cell); },
             time_step));
         if (volume_correction)
           volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);

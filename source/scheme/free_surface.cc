@@ -93,6 +93,7 @@ namespace scree
               node[water] += cell.water_at_corner[v];
               node[filled] += cell.water_at_corner[v] + cell.effective_saturation * cell.grains_at_corner[v];
               node[weighted_pressure] += cell.pressure_at_corner[v];
+              node[weighted_forgotten] += cell.forgotten_at_corner[v];
               node[wet_cells] += 1.;
             }
         }

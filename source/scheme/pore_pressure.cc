@@ -41,12 +41,14 @@ namespace scree
   PorePressure<dim>::PorePressure(const BackgroundGrid<dim> &grid,
                                   const WaterBoundaryConditions<dim> &walls,
                                   const PressureParameters &parameters,
+                                  const double water_density,
                                   const double bulk_modulus,
                                   TimerOutput &timer)
       : grid(grid)
       , splitting(parameters.splitting_kind())
       , previous_pressure(parameters.previous_pressure_kind())
       , projection(parameters.projection)
+      , water_density(water_density)
       , bulk_modulus(bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
@@ -54,6 +56,7 @@ namespace scree
       , surface(grid, corners, walls, parameters.free_surface_kind())
       , divergence(grid, corners, parameters.divergence_kind())
       , solver(grid, corners, parameters)
+      , memory(corners, previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading)
   {
     reinit_vectors();
   }
@@ -75,6 +78,7 @@ namespace scree
     corners.distribute(grid.fine_cells());
     surface.reinit();
     solver.reinit();
+    memory.reinit();
     reinit_vectors();
     if (kept.empty())
       return;
@@ -128,6 +132,7 @@ namespace scree
         if (surface.kind(corner) == CornerKind::unknown)
           pressure.local_element(corner) = keeps ? kept_pressure.local_element(corner) : 0.;
     has_grid_pressure = true;
+    memory.fade(surface, pressure);
     pressure.update_ghost_values();
     surface.extrapolate(mixture, pressure);
   }
@@ -215,12 +220,14 @@ namespace scree
 
 
   template <int dim>
-  void PorePressure<dim>::accept_change()
+  void PorePressure<dim>::accept_change(const Mixture<dim> &mixture, const double time_step)
   {
     for (const unsigned int corner : surface.wet_corners())
       if (surface.kind(corner) != CornerKind::dry)
         pressure.local_element(corner) += change.local_element(corner);
     pressure.update_ghost_values();
+    const double speed = grid.cell_size() / time_step;
+    memory.find_forgotten(mixture, surface, pressure, 2e-3 * water_density * speed * speed);
   }
 
 

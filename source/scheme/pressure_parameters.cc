@@ -41,6 +41,12 @@ namespace scree
         "Pressure at the start of a step: affine (from the points, with their gradient); average (from the "
         "points); grid (kept there); dropped (0).",
         Patterns::Selection("affine|average|grid|dropped"));
+    prm.add_parameter(
+        "Fading",
+        fading,
+        "Where the pressure changes by a part r of itself in a step, as where a gap closes, the next step "
+        "starts from 1 - (Fading r)^2 of it, at least from .3; 0: from all of it.",
+        Patterns::Double(0, 1000));
     prm.add_parameter("Projection",
                       projection,
                       "Pressure projection tau, in units of 1/(2 G) of the soil's shear modulus G; 0: none.",
@@ -57,6 +63,11 @@ namespace scree
   {
     const PressureParameters defaults;
     const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
+    require_entry(previous_pressure != "dropped" || fading == defaults.fading,
+                  "Water/Pressure",
+                  "Fading",
+                  fading,
+                  "nothing reads it, as entry \"Previous pressure\" is dropped. Remove it.");
     require_entry(n_bodies > 0 || splitting == defaults.splitting, "Water/Pressure", "Splitting", splitting, remedy);
     require_entry(
         n_bodies > 0 || projection == defaults.projection, "Water/Pressure", "Projection", projection, remedy);

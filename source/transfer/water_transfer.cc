@@ -78,12 +78,14 @@ namespace scree
 
     /// Adds volume and pressure of a point of water to the corners of its cell.
     ///
+    /// @param forgotten part of the pressure that the step does not start from
     /// @param rise of the pressure along each axis over the cell's width, Pa
     template <int dim>
     DEAL_II_ALWAYS_INLINE inline void add_to_corners(const Point<dim> &x,
                                                      const double volume,
                                                      const double pressure,
                                                      const std::array<double, dim> &rise,
+                                                     const double forgotten,
                                                      MixtureCell<dim> &sums)
     {
       double pressure_at_lower = pressure;
@@ -98,26 +100,33 @@ namespace scree
               pressure_at_corner += rise[a];
           sums.water_at_corner[v] += volume * corners[v];
           sums.pressure_at_corner[v] += volume * corners[v] * pressure_at_corner;
+          sums.forgotten_at_corner[v] += volume * corners[v] * forgotten;
         }
     }
 
-    /// Value, Pa, and gradient, Pa/m, of a multilinear pressure at places of a cell: 1 + dim batches.
+    /// Value, Pa, and gradient, Pa/m, of a cell's pressure at places in it, and what the next step forgets of it: 2 +
+    /// dim batches.
     template <int dim>
     void
-    find_pressure(const Multilinear<dim> &pressure, const std::array<Batch, dim> &x, const double width, Batch *result)
+    find_pressure(const CellPressure<dim> &pressure, const std::array<Batch, dim> &x, const double width, Batch *result)
     {
-      const auto powers = monomials<dim, Batch>(x);
-      result[0]         = simd::broadcast<Batch>(pressure.back());
-      for (unsigned int a = 0; a < dim; ++a)
-        result[0] *= x[a];
-      for (unsigned int m = 0; m < powers.size(); ++m)
-        result[0] += pressure[m] * powers[m];
+      const auto powers   = monomials<dim, Batch>(x);
+      const auto value_of = [&](const Multilinear<dim> &function) {
+        Batch value = simd::broadcast<Batch>(function.back());
+        for (unsigned int a = 0; a < dim; ++a)
+          value *= x[a];
+        for (unsigned int m = 0; m < powers.size(); ++m)
+          value += function[m] * powers[m];
+        return value;
+      };
+      result[0]       = value_of(pressure.value);
+      result[1 + dim] = value_of(pressure.forgotten);
       for (unsigned int a = 0; a < dim; ++a)
         {
           Batch slope{};
           for (unsigned int m = 0; m < powers.size(); ++m)
             if (!((m >> a) & 1))
-              slope += pressure[m | (1 << a)] * powers[m];
+              slope += pressure.value[m | (1 << a)] * powers[m];
           result[1 + a] = slope / width;
         }
     }
@@ -244,7 +253,7 @@ namespace scree
           std::array<double, dim> rise;
           for (unsigned int a = 0; a < dim; ++a)
             rise[a] = pressure_slope * width * properties[layout.pressure_gradient + a];
-          add_to_corners<dim>(shape.x, volume, properties[layout.pressure], rise, totals);
+          add_to_corners<dim>(shape.x, volume, properties[layout.pressure], rise, properties[layout.forgotten], totals);
           totals.water_mass += mass;
         });
         mixture.cells()[record] = totals;
@@ -266,6 +275,7 @@ namespace scree
                                         const MixtureNodes<dim> &nodes,
                                         const Mixture<dim> &mixture,
                                         const PressureOfCell<dim> &corner_pressure,
+                                        const ForgottenOfCell<dim> &corner_forgotten,
                                         const double time_step) const
   {
     LargestSquare largest;
@@ -273,7 +283,8 @@ namespace scree
     costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
-        const Multilinear<dim> pressure = multilinear_of<dim>(corner_pressure(cell.cell));
+        const CellPressure<dim> pressure{ multilinear_of<dim>(corner_pressure(cell.cell)),
+                                          multilinear_of<dim>(corner_forgotten(cell.cell)) };
         largest.include(
             move_cell<n, method>(water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step));
         if (const SoilBody<dim> *soil = water.carrier())
@@ -294,7 +305,7 @@ namespace scree
                                        const CellPoints<dim> &cell,
                                        const MixtureNodes<dim> &nodes,
                                        const PorosityOfParts<dim> *porosity,
-                                       const Multilinear<dim> &pressure,
+                                       const CellPressure<dim> &pressure,
                                        const double time_step) const
   {
     const double keep       = kept_velocity(method, pic_rate, time_step);
@@ -316,7 +327,7 @@ namespace scree
           by_place ? by_place->template at<method>(shape, inverse_porosity_at<dim>(porosity, shape.x))
                    : velocity.template at<method, false>(shape);
 
-      Batch own[dim], affine[dim * dim], pressure_there[1 + dim];
+      Batch own[dim], affine[dim * dim], pressure_there[2 + dim];
       const auto own_slots = points.slots_at(layout.velocity);
       simd::load_records<dim>(as_constant(own_slots), own);
       largest.include(at_points.template update<method>(own, affine, keep, time_step), n_used);
@@ -331,9 +342,9 @@ namespace scree
             location[c] += time_step * at_points.velocity[c];
           simd::store_records<dim>(location, points.locations);
         }
-      // The gradient's slots are behind the pressure.
+      // The slots of the gradient and of what is forgotten are behind the pressure.
       find_pressure<dim>(pressure, shape.x, width, pressure_there);
-      simd::store_records<1 + dim>(pressure_there, points.slots_at(layout.pressure));
+      simd::store_records<2 + dim>(pressure_there, points.slots_at(layout.pressure));
     });
     return largest.value;
   }
@@ -379,21 +390,22 @@ namespace scree
                                        const MixtureNodes<dim> &nodes,
                                        const Mixture<dim> &mixture,
                                        const PressureOfCell<dim> &pressure,
+                                       const ForgottenOfCell<dim> &forgotten,
                                        const double time_step) const
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::flip:
-          return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, time_step);
+          return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, forgotten, time_step);
         case TransferMethod::pic:
-          return move_water<n, TransferMethod::pic>(water, nodes, mixture, pressure, time_step);
+          return move_water<n, TransferMethod::pic>(water, nodes, mixture, pressure, forgotten, time_step);
         case TransferMethod::apic:
-          return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, time_step);
+          return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, forgotten, time_step);
         case TransferMethod::aflip:
-          return move_water<n, TransferMethod::aflip>(water, nodes, mixture, pressure, time_step);
+          return move_water<n, TransferMethod::aflip>(water, nodes, mixture, pressure, forgotten, time_step);
         default:
-          return move_water<n, TransferMethod::tpic>(water, nodes, mixture, pressure, time_step);
+          return move_water<n, TransferMethod::tpic>(water, nodes, mixture, pressure, forgotten, time_step);
         }
     };
     if (grid.n_nodes_1d() == 2)

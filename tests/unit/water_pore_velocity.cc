@@ -117,6 +117,7 @@ namespace
           { soil_field, water_field, pores },
           mixture,
           [](const unsigned int) { return std::array<double, (1 << dim)>(); },
+          [](const unsigned int) { return std::array<double, (1 << dim)>(); },
           time_step);
     }
 

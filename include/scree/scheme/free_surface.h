@@ -65,6 +65,12 @@ namespace scree
       return filling[corner][Filling::water];
     }
 
+    /// What the water's points forget of the pressure under the linear function of an owned corner, 0 to 1.
+    double forgotten(const unsigned int corner) const
+    {
+      return filling[corner][Filling::weighted_forgotten] / water_volume(corner);
+    }
+
     /// Whether no grains are under the linear function of an owned corner.
     bool is_free_water(const unsigned int corner) const
     {
@@ -90,9 +96,10 @@ namespace scree
     /// Sums over the points under a corner's linear function; the number of wet cells around it.
     enum Filling : unsigned int
     {
-      water,             // m^3
-      filled,            // by water and wet grains, m^3
-      weighted_pressure, // Pa m^3
+      water,              // m^3
+      filled,             // by water and wet grains, m^3
+      weighted_pressure,  // Pa m^3
+      weighted_forgotten, // m^3
       wet_cells
     };
 
@@ -147,7 +154,7 @@ namespace scree
     const NodeNumbering<dim> &corners;
     const WaterBoundaryConditions<dim> &walls;
     const FreeSurface rule;
-    NodeValues<dim, 4> filling;    // Filling
+    NodeValues<dim, 5> filling;    // Filling
     NodeValues<dim, 3> neighbours; // Neighbours
     std::vector<CornerKind> kinds;
     std::vector<double> distances; // cells; positive in the water

@@ -4,6 +4,7 @@
 
 #include <scree/scheme/free_surface.h>
 #include <scree/scheme/mixture_divergence.h>
+#include <scree/scheme/pressure_memory.h>
 #include <scree/scheme/pressure_solver.h>
 #include <scree/scheme/step_balance.h>
 #include <scree/scheme/step_part.h>
@@ -19,10 +20,12 @@ namespace scree
   public:
     using AtCorners = std::array<double, (1 << dim)>;
 
+    /// @param water_density kg/m^3
     /// @param bulk_modulus of the water, Pa; 0: incompressible
     PorePressure(const BackgroundGrid<dim> &grid,
                  const WaterBoundaryConditions<dim> &walls,
                  const PressureParameters &parameters,
+                 const double water_density,
                  const double bulk_modulus,
                  dealii::TimerOutput &timer);
 
@@ -45,7 +48,7 @@ namespace scree
                StepBalance<dim> &balance);
 
     /// Adds the change to the pressure, which is that of the end of the step from here on. Collective.
-    void accept_change();
+    void accept_change(const Mixture<dim> &mixture, const double time_step);
 
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
     /// @param potential what it holds is the first guess; its ghosts hold values afterwards
@@ -54,7 +57,8 @@ namespace scree
                          CornerVector &potential,
                          StepBalance<dim> &balance);
 
-    /// Pressure at the corners of a cell with points, Pa, in deal.II's order; its change; any other vector.
+    /// Pressure at the corners of a cell with points, Pa, in deal.II's order; its change; what the next step forgets of
+    /// it, 0 to 1; any other vector.
     AtCorners pressure_of(const unsigned int cell) const
     {
       return at_corners(pressure, cell);
@@ -62,6 +66,10 @@ namespace scree
     AtCorners change_of(const unsigned int cell) const
     {
       return at_corners(change, cell);
+    }
+    AtCorners forgotten_of(const unsigned int cell) const
+    {
+      return memory.forgotten_at(corners_of(cell));
     }
     AtCorners at_corners(const CornerVector &values, const unsigned int cell) const;
 
@@ -104,13 +112,14 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const Splitting splitting;
     const PreviousPressure previous_pressure;
-    const double projection, bulk_modulus, cavitation_pressure;
+    const double projection, water_density, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
     NodeNumbering<dim> corners;
     FreeSurfaceLocator<dim> surface;
     MixtureDivergence<dim> divergence;
     PressureSolver<dim> solver;
+    PressureMemory<dim> memory;
     CornerVector pressure, kept_pressure, change, source;
 
     bool has_grid_pressure = false; // of the last step, in the current partition

@@ -52,6 +52,7 @@ namespace scree
     // Sums weighted with the linear functions of the corners.
     AtCorners grains_at_corner{}, water_at_corner{}; ///< volume, m^3
     AtCorners pressure_at_corner{};                  ///< volume of water times pressure there, Pa m^3
+    AtCorners forgotten_at_corner{};                 ///< volume of water times what its pressure has lost, m^3
 
     double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
     double fill                 = 0; ///< volume of water and wet grains over that of the cell
@@ -73,6 +74,10 @@ namespace scree
   /// The pressure at a cell's corners, Pa, in deal.II's order.
   template <int dim>
   using PressureOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
+
+  /// What the next step does not start from of the pressure at a cell's corners, in the same order, 0 to 1.
+  template <int dim>
+  using ForgottenOfCell = PressureOfCell<dim>;
 
   /// A pressure that is linear along each axis of a cell: coefficients of the monomials of the cell's coordinates from
   /// 0 to 1; bit a of the index stands for a factor x_a.

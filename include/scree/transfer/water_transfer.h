@@ -37,6 +37,13 @@ namespace scree
     PoreField<dim> &pores;
   };
 
+  /// The pressure in a cell, Pa, and the part of it that the next step does not start from.
+  template <int dim>
+  struct CellPressure
+  {
+    Multilinear<dim> value, forgotten;
+  };
+
   /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
   template <int dim>
   class WaterTransfer
@@ -56,9 +63,9 @@ namespace scree
     void
     to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field, PoreField<dim> &pores) const;
 
-    /// One pass over the water's points at the end of a step: velocity, pressure with its gradient, and place, if they
-    /// are the water's own; else the volume of the pores. Points of the water's own take the velocity of PoreVelocity.
-    /// Returns the largest speed, m/s; not a number if any point's is not.
+    /// One pass over the water's points at the end of a step: velocity, pressure with its gradient and what the next
+    /// step forgets of it, and place, if they are the water's own; else the volume of the pores. Points of the water's
+    /// own take the velocity of PoreVelocity. Returns the largest speed, m/s; not a number if any point's is not.
     ///
     /// @param nodes velocities of both phases; masses and pores as to_grid() has left them, summed over ranks
     /// @param mixture as to_grid() has left it
@@ -66,6 +73,7 @@ namespace scree
                      const MixtureNodes<dim> &nodes,
                      const Mixture<dim> &mixture,
                      const PressureOfCell<dim> &pressure,
+                     const ForgottenOfCell<dim> &forgotten,
                      const double time_step) const;
 
   private:
@@ -81,6 +89,7 @@ namespace scree
                       const MixtureNodes<dim> &nodes,
                       const Mixture<dim> &mixture,
                       const PressureOfCell<dim> &pressure,
+                      const ForgottenOfCell<dim> &forgotten,
                       const double time_step) const;
 
     /// Velocity, pressure and, if the points are the water's own, place of a cell's points. Returns the largest square
@@ -92,7 +101,7 @@ namespace scree
                      const CellPoints<dim> &cell,
                      const MixtureNodes<dim> &nodes,
                      const PorosityOfParts<dim> *porosity,
-                     const Multilinear<dim> &pressure,
+                     const CellPressure<dim> &pressure,
                      const double time_step) const;
 
     const BackgroundGrid<dim> &grid;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/pressure_memory.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  PressureMemory<dim>::PressureMemory(const NodeNumbering<dim> &corners, const double steepness)
+      : steepness(steepness)
+      , changed(corners)
+      , corners(corners)
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void PressureMemory<dim>::reinit()
+  {
+    start.reinit(corners.partitioner());
+    changed.reinit();
+  }
+
+
+  template <int dim>
+  void PressureMemory<dim>::fade(const FreeSurfaceLocator<dim> &surface, CornerVector &pressure)
+  {
+    if (steepness == 0.)
+      return;
+    start.zero_out_ghost_values();
+    for (const unsigned int corner : surface.wet_corners())
+      if (surface.kind(corner) == CornerKind::unknown)
+        {
+          start.local_element(corner) = pressure.local_element(corner);
+          pressure.local_element(corner) *= 1. - surface.forgotten(corner);
+        }
+    start.update_ghost_values();
+  }
+
+
+  template <int dim>
+  void PressureMemory<dim>::find_forgotten(const Mixture<dim> &mixture,
+                                           const FreeSurfaceLocator<dim> &surface,
+                                           const CornerVector &pressure,
+                                           const double least)
+  {
+    if (steepness == 0.)
+      return;
+    changed.clear();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0)
+        {
+          changed.activate_cell(cell.cell);
+          const unsigned int *nodes = corners.nodes(cell.cell);
+          double change = 0, size = 0;
+          for (unsigned int v = 0; v < cell.n_corners; ++v)
+            if (surface.kind(nodes[v]) == CornerKind::unknown)
+              {
+                const double before = start.local_element(nodes[v]), after = pressure.local_element(nodes[v]);
+                change += std::abs(after - before);
+                size += std::max(std::abs(after), std::abs(before)) + least;
+              }
+          for (unsigned int v = 0; v < cell.n_corners; ++v)
+            {
+              changed[nodes[v]][changes] += change;
+              changed[nodes[v]][sizes] += size;
+            }
+        }
+    changed.add_contributions();
+    changed.update_ghosts();
+  }
+
+
+  template <int dim>
+  typename PressureMemory<dim>::AtCorners PressureMemory<dim>::forgotten_at(const unsigned int *corners_of_cell) const
+  {
+    constexpr double most = 0.7;
+    AtCorners result{};
+    if (steepness > 0.)
+      for (unsigned int v = 0; v < result.size(); ++v)
+        if (const double *sums = changed[corners_of_cell[v]]; sums[changes] > 0.)
+          {
+            const double rate = steepness * sums[changes] / sums[sizes];
+            result[v]         = std::min(most, rate * rate);
+          }
+    return result;
+  }
+
+  template class PressureMemory<2>;
+  template class PressureMemory<3>;
+} // namespace scree
