@@ -166,11 +166,11 @@ namespace scree
     pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, report.balance);
     const TimedPart part(timer, StepPart::nodes);
     step.correct(nodes, mixture, pressure, time_step, report.balance);
-    pressure.accept_change(mixture, time_step);
     if (viscosity)
       viscosity->count_dissipation(nodes, report.balance);
     soil.field.update_ghosts();
     water_field.update_ghosts();
+    pressure.accept_change(mixture, soil.field, water_field, pores);
     // The predictor has counted the load among the forces.
     report.balance.load_impulse += soil.load_impulse(time_step);
     report.balance.pressure_impulse -= soil.load_impulse(time_step);

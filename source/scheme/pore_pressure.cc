@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -34,6 +35,40 @@ namespace scree
         }
       return sum / cell.grain_volume;
     }
+
+
+    /// Square of the largest differences between the nodes of a cell, axis by axis, of the mixture's velocity at the
+    /// start of the step, m^2/s^2.
+    template <int dim>
+    double largest_difference(const BackgroundGrid<dim> &grid,
+                              const unsigned int cell,
+                              const NodalField<dim> &soil,
+                              const NodalField<dim> &water,
+                              const PoreField<dim> &pores)
+    {
+      const unsigned int *nodes = grid.nodes(cell);
+      double square             = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const auto at_start = [&](const double *values) {
+            return values[NodalField<dim>::velocity + c] - values[NodalField<dim>::velocity_change + c];
+          };
+          double least = std::numeric_limits<double>::max(), most = -least;
+          for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+            {
+              const unsigned int node = nodes[i];
+              if (soil[node][NodalField<dim>::mass] + water[node][NodalField<dim>::mass] <= 0.)
+                continue;
+              const double grains   = pores[node][PoreField<dim>::grain_fraction];
+              const double velocity = grains * at_start(soil[node]) + (1. - grains) * at_start(water[node]);
+              least                 = std::min(least, velocity);
+              most                  = std::max(most, velocity);
+            }
+          if (most > least)
+            square += (most - least) * (most - least);
+        }
+      return square;
+    }
   } // namespace
 
 
@@ -48,7 +83,6 @@ namespace scree
       , splitting(parameters.splitting_kind())
       , previous_pressure(parameters.previous_pressure_kind())
       , projection(parameters.projection)
-      , water_density(water_density)
       , bulk_modulus(bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
@@ -56,7 +90,7 @@ namespace scree
       , surface(grid, corners, walls, parameters.free_surface_kind())
       , divergence(grid, corners, parameters.divergence_kind())
       , solver(grid, corners, parameters)
-      , memory(corners, previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading)
+      , memory(corners, previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading, water_density)
   {
     reinit_vectors();
   }
@@ -220,14 +254,18 @@ namespace scree
 
 
   template <int dim>
-  void PorePressure<dim>::accept_change(const Mixture<dim> &mixture, const double time_step)
+  void PorePressure<dim>::accept_change(const Mixture<dim> &mixture,
+                                        const NodalField<dim> &soil,
+                                        const NodalField<dim> &water,
+                                        const PoreField<dim> &pores)
   {
     for (const unsigned int corner : surface.wet_corners())
       if (surface.kind(corner) != CornerKind::dry)
         pressure.local_element(corner) += change.local_element(corner);
     pressure.update_ghost_values();
-    const double speed = grid.cell_size() / time_step;
-    memory.find_forgotten(mixture, surface, pressure, 2e-3 * water_density * speed * speed);
+    memory.find_forgotten(mixture, surface, pressure, [&](const unsigned int cell) {
+      return largest_difference(grid, cell, soil, water, pores);
+    });
   }
 
 

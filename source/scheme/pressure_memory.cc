@@ -9,8 +9,11 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  PressureMemory<dim>::PressureMemory(const NodeNumbering<dim> &corners, const double steepness)
+  PressureMemory<dim>::PressureMemory(const NodeNumbering<dim> &corners,
+                                      const double steepness,
+                                      const double water_density)
       : steepness(steepness)
+      , water_density(water_density)
       , changed(corners)
       , corners(corners)
   {
@@ -46,8 +49,9 @@ namespace scree
   void PressureMemory<dim>::find_forgotten(const Mixture<dim> &mixture,
                                            const FreeSurfaceLocator<dim> &surface,
                                            const CornerVector &pressure,
-                                           const double least)
+                                           const SpeedOfCell &difference)
   {
+    constexpr double enough = 100.; // times rho v^2: p may be made by what moves
     if (steepness == 0.)
       return;
     changed.clear();
@@ -56,14 +60,18 @@ namespace scree
         {
           changed.activate_cell(cell.cell);
           const unsigned int *nodes = corners.nodes(cell.cell);
-          double change = 0, size = 0;
+          double change = 0, size = 0, largest = 0;
           for (unsigned int v = 0; v < cell.n_corners; ++v)
             if (surface.kind(nodes[v]) == CornerKind::unknown)
               {
                 const double before = start.local_element(nodes[v]), after = pressure.local_element(nodes[v]);
                 change += std::abs(after - before);
-                size += std::max(std::abs(after), std::abs(before)) + least;
+                const double larger = std::max(std::abs(after), std::abs(before));
+                size += larger;
+                largest = std::max(largest, larger);
               }
+          if (change > 0.)
+            change *= std::sqrt(std::min(1., enough * water_density * difference(cell.cell) / largest));
           for (unsigned int v = 0; v < cell.n_corners; ++v)
             {
               changed[nodes[v]][changes] += change;
@@ -78,7 +86,7 @@ namespace scree
   template <int dim>
   typename PressureMemory<dim>::AtCorners PressureMemory<dim>::forgotten_at(const unsigned int *corners_of_cell) const
   {
-    constexpr double most = 0.7;
+    constexpr double most = 0.8;
     AtCorners result{};
     if (steepness > 0.)
       for (unsigned int v = 0; v < result.size(); ++v)

@@ -44,8 +44,8 @@ namespace scree
     prm.add_parameter(
         "Fading",
         fading,
-        "Where the pressure changes by a part r of itself in a step, as where a gap closes, the next step "
-        "starts from 1 - (Fading r)^2 of it, at least from .3; 0: from all of it.",
+        "Where the pressure changes by a part r of itself in a step as matter comes together, as where a gap "
+        "closes, the next step starts from 1 - (Fading r)^2 of it, at least from .2; 0: from all of it.",
         Patterns::Double(0, 1000));
     prm.add_parameter("Projection",
                       projection,

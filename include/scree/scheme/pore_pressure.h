@@ -48,7 +48,11 @@ namespace scree
                StepBalance<dim> &balance);
 
     /// Adds the change to the pressure, which is that of the end of the step from here on. Collective.
-    void accept_change(const Mixture<dim> &mixture, const double time_step);
+    /// @param soil velocity and its change over the step, as `water`, at nodes whose ghosts hold values
+    void accept_change(const Mixture<dim> &mixture,
+                       const NodalField<dim> &soil,
+                       const NodalField<dim> &water,
+                       const PoreField<dim> &pores);
 
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
     /// @param potential what it holds is the first guess; its ghosts hold values afterwards
@@ -112,7 +116,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const Splitting splitting;
     const PreviousPressure previous_pressure;
-    const double projection, water_density, bulk_modulus, cavitation_pressure;
+    const double projection, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
     NodeNumbering<dim> corners;

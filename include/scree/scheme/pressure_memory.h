@@ -4,24 +4,29 @@
 
 #include <scree/scheme/free_surface.h>
 
+#include <functional>
+
 namespace scree
 {
   /// What part of a step's pressure the next one starts from.
   ///
   /// p^n is a spring: a solve leaves a part of the divergence in partly full cells, p builds up over several steps, and
   /// gives back what an impact has lost. Then p changes by a good part of itself in each step. So does the next step
-  /// start from (1 - f) p, f = min(.7, (s r)^2), with r = sum |p - p^n| / sum (max(|p|, |p^n|) + p_0) over the unknown
-  /// corners of the cells around a corner, and p_0 = .002 rho_w (h/dt)^2, which moves water by .002 h in a step. A
-  /// steady pressure is kept whole, and so is any as dt goes to 0; f varies smoothly, as a step of it between corners
-  /// is a force of its own.
+  /// start from (1 - f) p, f = min(.8, (s r)^2), with r = sum m |p - p^n| / sum max(|p|, |p^n|) over the unknown
+  /// corners of the cells around a corner. m^2 = min(1, 100 rho_w v^2/p) of a cell, with the largest p of its corners
+  /// and v the differences of the mixture's velocity between its nodes, says whether what moves could have made p:
+  /// where soil bears a load or water seeps, p is kept however it changes. f varies smoothly, as a step of it between
+  /// corners is a force of its own.
   template <int dim>
   class PressureMemory
   {
   public:
-    using AtCorners = std::array<double, (1 << dim)>;
+    using AtCorners   = std::array<double, (1 << dim)>;
+    using SpeedOfCell = std::function<double(const unsigned int cell)>;
 
     /// @param steepness s; 0: nothing is forgotten
-    PressureMemory(const NodeNumbering<dim> &corners, const double steepness);
+    /// @param water_density kg/m^3
+    PressureMemory(const NodeNumbering<dim> &corners, const double steepness, const double water_density);
 
     /// Fits the memory to the grid's current corners.
     void reinit();
@@ -31,11 +36,11 @@ namespace scree
 
     /// Finds what is to be forgotten of the `pressure` at the end of the step, Pa, whose ghosts hold values.
     /// Collective.
-    /// @param least p_0, Pa
+    /// @param difference v^2 of a cell, m^2/s^2
     void find_forgotten(const Mixture<dim> &mixture,
                         const FreeSurfaceLocator<dim> &surface,
                         const CornerVector &pressure,
-                        const double least);
+                        const SpeedOfCell &difference);
 
     /// f at corners (local indices of a cell's).
     AtCorners forgotten_at(const unsigned int *corners_of_cell) const;
@@ -48,7 +53,7 @@ namespace scree
       sizes
     };
 
-    const double steepness;
+    const double steepness, water_density;
     CornerVector start;         // p^n before anything is forgotten
     NodeValues<dim, 2> changed; // Sums
     const NodeNumbering<dim> &corners;
