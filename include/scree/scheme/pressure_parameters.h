@@ -48,7 +48,7 @@ namespace scree
     std::string free_surface        = "distance";
     std::string divergence          = "expanded";
     std::string previous_pressure   = "affine";
-    double fading                   = 5;    ///< steepness s of PressureMemory
+    double fading                   = 0;    ///< steepness s of PressureMemory
     double projection               = 0;    ///< tau of the pressure projection, in units of 1/(2 G)
     double cavitation_pressure      = -1e5; ///< Pa
 
