@@ -1,6 +1,6 @@
 """Closure of an air gap: a body 0.4 m high falls on another one, 0.4 m high, between smooth walls, so that the exact end is known: all is at rest, the gap
 is gone. Water on water, saturated soil on water, water on saturated soil, and soil on soil; the gap (in cells of 0.05 m) and the speed at the start
-vary. Air has no pressure here. The second row of panels drops the pressure of the previous step.
+vary. Air has no pressure here. Further rows of panels: `Fading = 5`, and the pressure of the previous step dropped.
 State: `measures.BOUNDS`; the oscillation of p is its roughness at the end (`measures.roughness`) over rho_w g 0.8 m. The number is the air that stays in the
 closed gap, as a height in cells."""
 import numpy as np
@@ -10,6 +10,7 @@ from measures import classify, roughness
 from study import Claim, Study, axis, product
 
 CELL, HEIGHT = 0.05, 0.4  # m
+PRESSURES = {"default": {}, "fading": {"Water/Pressure/Fading": 5}, "dropped": {"Water/Pressure/Previous pressure": "dropped"}}
 PAIRS = ["water on water", "soil on water", "water on soil", "soil on soil"]
 
 
@@ -54,13 +55,14 @@ def verdict(rows):
     ended = [row for row in rows if row["ended"]]
     water = of("water on water", "default")
     gaining = {pair: [row for row in of(pair, "default") if row["state"] == "energy gain"] for pair in PAIRS}
-    dropped = [row for row in rows if row["old p"] == "dropped"]
+    faded, dropped = ([row for row in rows if row["old p"] == pressure] for pressure in ("fading", "dropped"))
     return [
         Claim("Energy is gained by " + ", ".join(f"{pair} in {len(gaining[pair])} of {len(of(pair, 'default'))} (up to {gain(of(pair, 'default')):.2g} % of what is released)"
                                                  for pair in PAIRS if gaining[pair])
               + ". Water that falls on soil bounces: in a cell that holds the soil's surface and a gap, p builds up over several steps, as in a spring, and is carried from "
               "step to step, so that it gives back what the impact had taken. Without the pressure of the previous step (Previous pressure = dropped) the gain is at most "
-              f"{gain(dropped):.2g} %, for all pairs.", len(gaining["water on soil"]) > 0 and gain(dropped) < 0.5),
+              f"{gain(dropped):.2g} %, for all pairs. With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of {len(faded)} are stable, and the gain is at most "
+              f"{gain(faded):.2g} %.", len(gaining["water on soil"]) > 0 and gain(dropped) < 0.5),
         Claim(f"Water on water gains no energy (at most {gain(water):.2g} %) and keeps {min(row['air left, cells'] for row in water):.2g} to "
               f"{max(row['air left, cells'] for row in water):.2g} of a cell of air: bodies feel each other before they touch, and nothing "
               "closes what is left.", gain(water) < 0.5 and max(row["air left, cells"] for row in water) < 0.5),
@@ -71,7 +73,7 @@ def verdict(rows):
 STUDY = Study(title="Closure of an air gap", base="prm/column_saturated.prm", needs_end=False,
               entries={"Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": CELL, "Water/Initial pressure": "none", "Water/Points per cell": 3,
                        "End time": 0.5, "Output/Interval": 0.25, "Output/Statistics interval": 0.005},
-              variants=with_case(product(axis("old p", lambda p: {} if p == "default" else {"Water/Pressure/Previous pressure": p}, ["default", "dropped"]),
+              variants=with_case(product(axis("old p", PRESSURES.get, list(PRESSURES)),
                                          axis("pair", lambda _: {}, PAIRS), axis("gap", lambda _: {}, [0.5, 1., 2., 4.]),
                                          axis("v", lambda _: {}, [0., 1., 5.]))),
               quick=lambda labels: labels["pair"] in PAIRS[0:3:2] and labels["gap"] in (1., 4.) and labels["v"] in (0., 5.),
