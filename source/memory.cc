@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -28,49 +29,47 @@ namespace scree
     constexpr double bytes_of_program        = 1.7e8;
 
 
-    /// Part of the box that a region covers.
     template <int dim>
-    double part_of_box(const Region<dim> &region, const GridParameters &grid)
+    constexpr unsigned int samples_of_axis = dim == 2 ? 200 : 40;
+
+    /// Whether a region holds the samples of the box, x first.
+    template <int dim>
+    std::vector<char> samples_in(const Region<dim> &region, const GridParameters &grid)
     {
-      constexpr unsigned int n         = dim == 2 ? 200 : 40; // samples an axis
-      constexpr unsigned int n_samples = Utilities::pow(n, dim);
-      unsigned int n_inside            = 0;
-      for (unsigned int i = 0; i < n_samples; ++i)
+      constexpr unsigned int n = samples_of_axis<dim>;
+      std::vector<char> is_inside(Utilities::pow(n, dim));
+      for (unsigned int i = 0; i < is_inside.size(); ++i)
         {
           Point<dim> x;
           for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
             x[a] = grid.lower_corner[a] + (grid.upper_corner[a] - grid.lower_corner[a]) * (rest % n + 0.5) / double(n);
-          n_inside += region.contains(x);
+          is_inside[i] = region.contains(x);
         }
-      return n_inside / double(n_samples);
+      return is_inside;
     }
 
 
-    /// Cells in which one of the regions is and those of the margin around them, by sampling: at most all of the box.
-    template <int dim>
-    double cells_around(const std::vector<Region<dim>> &regions, const GridParameters &grid)
+    /// Cells of the mesh that the samples inside stand for.
+    double cells_of(const std::vector<char> &is_inside, const GridParameters &grid)
     {
-      constexpr int n                  = dim == 2 ? 200 : 40; // samples an axis
-      constexpr unsigned int n_samples = Utilities::pow(n, dim);
-      std::array<double, dim> length;
-      std::vector<char> is_inside(n_samples);
-      for (unsigned int i = 0; i < n_samples; ++i)
-        {
-          Point<dim> x;
-          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-            {
-              length[a] = grid.upper_corner[a] - grid.lower_corner[a];
-              x[a]      = grid.lower_corner[a] + length[a] * (rest % n + 0.5) / n;
-            }
-          is_inside[i] =
-              std::any_of(regions.begin(), regions.end(), [&](const Region<dim> &one) { return one.contains(x); });
-        }
-      const double cells_of_sample = grid.n_cells() / n_samples;
-      double cells                 = cells_of_sample * std::count(is_inside.begin(), is_inside.end(), 1);
+      return grid.n_cells() * (std::count(is_inside.begin(), is_inside.end(), 1) / double(is_inside.size()));
+    }
+
+
+    /// The same with the cells of the margin around them: at most all of the box.
+    template <int dim>
+    double cells_around(const std::vector<char> &is_inside, const GridParameters &grid)
+    {
+      constexpr unsigned int n     = samples_of_axis<dim>;
+      const double cells_of_sample = grid.n_cells() / is_inside.size();
+      double cells                 = cells_of(is_inside, grid);
       for (unsigned int a = 0, stride = 1; a < dim; ++a, stride *= n)
-        for (unsigned int i = 0; i < n_samples; ++i)
-          if (i / stride % n + 1 < n && is_inside[i] != is_inside[i + stride]) // a face of the regions
-            cells += (GridParameters::margin + 1) * cells_of_sample * n * grid.cell_size / length[a];
+        {
+          const double cells_of_axis = (grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size;
+          for (unsigned int i = 0; i < is_inside.size(); ++i)
+            if (i / stride % n + 1 < n && is_inside[i] != is_inside[i + stride]) // a face of the regions
+              cells += (GridParameters::margin + 1) * cells_of_sample * n / cells_of_axis;
+        }
       return cells > GridParameters::most_of_box * grid.n_cells() ? grid.n_cells() : cells;
     }
 
@@ -186,22 +185,22 @@ namespace scree
         --n_halvings;
     const double n_coarse_cells = grid.is_adaptive() ? 0. : n_cells / std::pow(1l << n_halvings, dim);
 
-    std::vector<Region<dim>> regions;
+    std::vector<char> is_inside(Utilities::pow(samples_of_axis<dim>, dim)); // any of the regions
+    const auto cells_in = [&](const std::string &subsection, const std::string &region) {
+      const std::vector<char> is_inside_this = samples_in(Region<dim>(entry_name(subsection, "Region"), region), grid);
+      std::transform(
+          is_inside.begin(), is_inside.end(), is_inside_this.begin(), is_inside.begin(), std::logical_or<char>());
+      return cells_of(is_inside_this, grid);
+    };
     const auto soil = parameters.soil_regions();
     for (unsigned int i = 0; i < soil.size(); ++i)
-      {
-        regions.emplace_back(entry_name(soil[i].name, "Region"), soil[i].region);
-        estimate.n_soil_points +=
-            n_cells * std::pow(parameters.bodies[i].seeding.points_per_cell, dim) * part_of_box(regions.back(), grid);
-      }
+      estimate.n_soil_points +=
+          cells_in(soil[i].name, soil[i].region) * std::pow(parameters.bodies[i].seeding.points_per_cell, dim);
     double n_wet_cells = 0;
     if (parameters.has_water)
       for (const WaterPart &part : water_parts(parameters.water, soil))
-        {
-          regions.emplace_back(entry_name("Water", "Region"), part.region);
-          n_wet_cells += n_cells * part_of_box(regions.back(), grid);
-        }
-    estimate.n_cells = grid.is_adaptive() ? cells_around(regions, grid) : n_cells;
+        n_wet_cells += cells_in("Water", part.region);
+    estimate.n_cells = grid.is_adaptive() ? cells_around<dim>(is_inside, grid) : n_cells;
     if (parameters.water.point_sets_kind() == PointSets::double_point)
       estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim);
 
@@ -221,7 +220,7 @@ namespace scree
 
 
   template <int dim>
-  void require_memory(const Parameters &parameters, const MPI_Comm communicator)
+  MemoryEstimate require_memory(const Parameters &parameters, const MPI_Comm communicator)
   {
     MemoryEstimate estimate;
     on_all_ranks(communicator, [&] { estimate = estimate_memory<dim>(parameters); });
@@ -248,10 +247,11 @@ namespace scree
                                   ". Write larger cells or fewer points per cell, or use more hosts.");
       }
     throw_on_all_ranks(fault, communicator);
+    return estimate;
   }
 
   template MemoryEstimate estimate_memory<2>(const Parameters &);
   template MemoryEstimate estimate_memory<3>(const Parameters &);
-  template void require_memory<2>(const Parameters &, const MPI_Comm);
-  template void require_memory<3>(const Parameters &, const MPI_Comm);
+  template MemoryEstimate require_memory<2>(const Parameters &, const MPI_Comm);
+  template MemoryEstimate require_memory<3>(const Parameters &, const MPI_Comm);
 } // namespace scree

@@ -122,8 +122,9 @@ namespace scree
   void Parameters::name_bodies()
   {
     // The names of the bodies are names of subsections: the declarations need them.
-    static const std::set<std::string> taken{ "Mesh",     "Time step", "Transfer", "Stabilisation", "Boundaries",
-                                              "Settling", "Output",    "Water",    "Surface load",  "Probes" };
+    static const std::set<std::string> taken{ "Mesh",         "Time step", "Transfer", "Stabilisation",
+                                              "Boundaries",   "Settling",  "Output",   "Water",
+                                              "Surface load", "Probes",    "Bed",      "Base motion" };
     const std::string names = file.value("", "Bodies", "Soil");
     if (names == "none")
       return;
@@ -170,6 +171,7 @@ namespace scree
                       "Names of the bodies of soil, separated by commas; each has a subsection of its name; or none.",
                       Patterns::List(Patterns::Anything(), 1));
     body_force.add_parameters(prm);
+    base_motion.add_parameters(prm);
     grid.add_parameters(prm);
     time_step.add_parameters(prm);
     transfer.add_parameters(prm);
@@ -177,6 +179,7 @@ namespace scree
     for (auto &body : bodies)
       body.add_parameters(prm);
     boundaries.add_parameters(prm);
+    bed.add_parameters(prm);
     surface_load.add_parameters(prm);
     settling.add_parameters(prm);
     output.add_parameters(prm);
@@ -206,9 +209,12 @@ namespace scree
     grid.check(dimension);
     transfer.check();
     output.check(end_time);
+    output.maps.check(dimension, !bodies.empty());
     boundaries.check(dimension);
+    bed.check(dimension, has_water);
     surface_load.check(grid, dimension);
     body_force.check(dimension);
+    base_motion.check(dimension);
     settling.check(gravity);
     probes.check(grid, dimension, !bodies.empty());
     require_entry(transfer.transfer_method() != TransferMethod::apic || grid.basis_kind() == Basis::spline,

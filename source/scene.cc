@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
 #include <scree/initial/water_start.h>
-#include <scree/memory.h>
 #include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
 #include <scree/scene.h>
@@ -21,17 +20,9 @@ namespace scree
 
   namespace
   {
-    /// The entries of the mesh, if there is memory for the case. Collective.
-    template <int dim>
-    const GridParameters &grid_that_fits(const Parameters &parameters, const MPI_Comm communicator)
-    {
-      require_memory<dim>(parameters, communicator);
-      return parameters.grid;
-    }
-
     /// Where the case puts points at the start.
     template <int dim>
-    HoldsPoints<dim> places_of_points(const Parameters &parameters)
+    PlacesOfPoints<dim> places_of_points(const Parameters &parameters)
     {
       struct Part
       {
@@ -47,7 +38,13 @@ namespace scree
         for (const WaterPart &part : water_parts(parameters.water, soil))
           parts->push_back(
               { Region<dim>(entry_name("Water", "Region"), part.region), parameters.water.points_per_cell });
-      return [parts, &parameters](const Point<dim> &cell) {
+      unsigned int n_places = 0;
+      for (const Part &part : *parts)
+        n_places += Utilities::fixed_power<dim>(part.points_per_cell) * Region<dim>::n_places_of_cube;
+      const auto loaded = [&parameters](const Point<dim> &cell) {
+        return parameters.surface_load.touches_cell(cell.begin_raw(), parameters.grid, dim);
+      };
+      const auto in_cell = [parts, loaded, &parameters](const Point<dim> &cell) {
         const auto touches_cell = [&](const Part &part) {
           const unsigned int n = part.points_per_cell;
           const double width   = parameters.grid.cell_size / n;
@@ -61,9 +58,13 @@ namespace scree
             }
           return false;
         };
-        return parameters.surface_load.touches_cell(cell.begin_raw(), parameters.grid, dim) ||
-               std::any_of(parts->begin(), parts->end(), touches_cell);
+        return loaded(cell) || std::any_of(parts->begin(), parts->end(), touches_cell);
       };
+      const auto at_place = [parts, loaded](const Point<dim> &cell, const Point<dim> &x) {
+        return loaded(cell) ||
+               std::any_of(parts->begin(), parts->end(), [&](const Part &part) { return part.region.contains(x); });
+      };
+      return { in_cell, at_place, n_places };
     }
 
     /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
@@ -82,17 +83,22 @@ namespace scree
 
   template <int dim>
   Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm communicator)
-      : grid(grid_that_fits<dim>(parameters, communicator), places_of_points<dim>(parameters), communicator)
+      : expected_memory(require_memory<dim>(parameters, communicator))
+      , grid(parameters.grid, places_of_points<dim>(parameters), communicator)
       , walls(grid, parameters.boundaries)
       , water_walls(parameters.has_water
                         ? std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries)
                         : nullptr)
       , constraints(grid, walls, water_walls.get())
-      , forcing(grid, parameters.gravity, parameters.body_force)
+      , forcing(grid, parameters.gravity, parameters.body_force, parameters.base_motion)
       , parameters(parameters)
       , communicator(communicator)
   {
     make_bodies();
+    ground = make_bed<dim>(
+        parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner, parameters.grid.cell_size);
+    if (ground)
+      bed = std::make_unique<SampledSurface<dim>>(grid, *ground);
     if (parameters.surface_load.is_set())
       loads.emplace_back(grid, parameters.surface_load, points_per_cell(parameters).second);
   }
@@ -110,7 +116,8 @@ namespace scree
         const PropertyLayout<dim> layout(material->internal_quantities().size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
-                                         parameters.probes.displacement);
+                                         parameters.probes.displacement,
+                                         parameters.bed.is_set());
         bodies.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -119,6 +126,7 @@ namespace scree
                             grid.triangulation(),
                             grid.mapping());
         bodies.back().is_rigid = body.is_rigid();
+        bodies.back().spacing  = grid.cell_size() / body.seeding.points_per_cell;
         if (parameters.has_water)
           bodies.back().drag.emplace(body.seepage.in_place_of(parameters.water), body.initial_porosity());
         if (water_rides)
@@ -134,7 +142,20 @@ namespace scree
   {
     if (!parameters.has_water)
       return std::make_unique<DryScheme<dim>>(
-          grid, constraints, forcing, parameters.transfer, parameters.stabilisation, bodies, loads, timer);
+          grid,
+          constraints,
+          forcing,
+          parameters.transfer,
+          parameters.stabilisation,
+          bodies,
+          loads,
+          bed ? std::make_unique<BedContact<dim>>(grid,
+                                                  constraints,
+                                                  Bed<dim>{ *bed, parameters.bed.friction_coefficient() },
+                                                  forcing.gravity().norm(),
+                                                  bodies)
+              : nullptr,
+          timer);
     return std::make_unique<CoupledScheme<dim>>(grid,
                                                 constraints,
                                                 *water_walls,
@@ -156,6 +177,8 @@ namespace scree
   {
     grid.distribute_nodes();
     constraints.hold_soil(rigid_nodes());
+    if (bed)
+      bed->reinit();
   }
 
 
@@ -196,7 +219,8 @@ namespace scree
               field[grid.nodes(cell.cell)[i]][NodalField<dim>::mass] = 1.;
           }
     field.add_contributions();
-    std::vector<char> is_rigid(grid.n_owned_nodes());
+    field.update_ghosts();
+    std::vector<char> is_rigid(grid.numbering().n_local());
     for (unsigned int node = 0; node < is_rigid.size(); ++node)
       is_rigid[node] = field[node][NodalField<dim>::mass] > 0.;
     return is_rigid;
@@ -220,7 +244,7 @@ namespace scree
       require_apart(soil, points_per_cell(parameters).second, grid.triangulation(), grid.cell_size());
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
-      seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size());
+      seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get());
     for (auto &part : water)
       seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
     for (const auto &load : loads)
@@ -228,6 +252,27 @@ namespace scree
     // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.
     if (parameters.transfer.transfer_method() == TransferMethod::aflip)
       set_velocity_gradients();
+    if (bed)
+      set_touching_distances();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::set_touching_distances()
+  {
+    for (auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) {
+        double &distance = point.properties[body.layout.touching_distance];
+        distance         = 0.5 * body.spacing;
+        if (!bed->is_near(point.cell))
+          return;
+        const SurfaceView<dim> view = bed->view(point.cell, point.reference_location);
+        double largest              = 0.; // component of the normal
+        for (unsigned int a = 0; a < dim; ++a)
+          largest = std::max(largest, std::abs(view.normal[a]));
+        if (view.distance < body.spacing * largest * (1. + 1e-9)) // the lattice's lowest point over the bed
+          distance = std::max(0., view.distance);
+      });
   }
 
 

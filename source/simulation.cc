@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case_changes.h>
 #include <scree/input/input_error.h>
-#include <scree/memory.h>
 #include <scree/output/checkpoint.h>
 #include <scree/output/log_header.h>
 #include <scree/simulation.h>
@@ -38,12 +37,15 @@ namespace scree
       , clock(parameters.time_step)
       , output_times(parameters.output, parameters.end_time)
       , graphics(scene.grid, parameters.output, parameters.output_directory)
-      , statistics(
-            scene.grid,
-            scene.forcing.gravity(),
-            { !scene.loads.empty(), parameters.water.volume_correction_rate > 0., parameters.water.viscosity > 0. })
+      , statistics(scene.grid,
+                   scene.forcing.gravity(),
+                   { !scene.loads.empty(),
+                     parameters.water.volume_correction_rate > 0.,
+                     parameters.water.viscosity > 0.,
+                     scene.bed.get() })
       , rows(folder.file("statistics"))
       , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
+      , maps(parameters.output.maps, scene.grid, folder)
   {
     if (start == Start::resume)
       resume();
@@ -119,8 +121,13 @@ namespace scree
              scene.grid,
              scene.bodies,
              scene.water,
-             estimate_memory<dim>(parameters).bytes(Utilities::MPI::n_mpi_processes(communicator)));
+             scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator)));
     folder.log("Transfer: " + parameters.transfer.text());
+    if (scene.ground)
+      if (const std::string remark = scene.ground->remark(); !remark.empty())
+        folder.log(remark);
+    if (const std::string base = scene.forcing.text_of_base(); !base.empty())
+      folder.log(base);
   }
 
 
@@ -158,6 +165,7 @@ namespace scree
       {
         const double largest_step = stable_step();
         check_step(largest_step, first_step);
+        progress.count(clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points));
         const double due = output_times.next(largest_step);
         last_time_step   = clock.next_step(largest_step, due);
         advance(last_time_step);
@@ -207,7 +215,8 @@ namespace scree
   template <int dim>
   void Simulation<dim>::summarise(Progress &progress, const double point_updates_before)
   {
-    progress.summarise(timer,
+    progress.summarise(clock.time(),
+                       timer,
                        Utilities::MPI::sum(point_updates - point_updates_before, communicator),
                        Utilities::MPI::n_mpi_processes(communicator),
                        scene.name_of_a_point());
@@ -240,7 +249,10 @@ namespace scree
       Assert(points->is_in_inner_cells(), ExcMessage("A point lies beside cells without nodes."));
     partition.begin_step();
     StepReport<dim> step;
-    scene.forcing.set_time(clock.time());
+    if (is_released)
+      scene.forcing.set_step(clock.time(), time_step);
+    else
+      scene.forcing.set_start();
     scheme->to_grid(clock.time());
     partition.finish(Work::to_nodes);
     wait();
@@ -376,6 +388,7 @@ namespace scree
       scene.constraints.close_gate(std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), settling.gate));
     scene.forcing.set_damping(settling.damping_rate);
     stop.listen();
+    is_released = false;
 
     Clock settling_clock(parameters.time_step);
     const double ratio        = settle_down(settling_clock);
@@ -475,6 +488,8 @@ namespace scree
       folder.require_presence();
     if (row_is_due)
       write_row();
+    if (row_is_due || picture_is_due)
+      maps.sample(scene.bodies, time);
     if (picture_is_due)
       write_picture();
     if (output_times.checkpoint_is_due(time))
@@ -499,6 +514,7 @@ namespace scree
     const std::unique_ptr<WaterView<dim>> view = scheme->water_view();
     graphics.write(scene.bodies, scheme->soil_field(), clock.time(), view.get());
     probes.write_lines(probed_state(view.get()));
+    maps.write(clock.time());
   }
 
 
@@ -516,7 +532,7 @@ namespace scree
     double time             = clock.time();
     unsigned long long step = clock.step();
     archive &time &step &speeds.wave &speeds.points &last_time_step;
-    archive &totals &statistics &graphics &rows &probes;
+    archive &totals &statistics &graphics &rows &probes &maps;
     clock.set(time, step);
   }
 

@@ -9,6 +9,13 @@
 # Two tests at a time on whatever cores there are: waiting ranks give way.
 export OMPI_MCA_mpi_yield_when_idle=1
 
+# The last of Open MPI's programs to end removes the folder ompi.HOST.USER that another one is just about to use. Here something lies in it.
+TMPDIR=$(mktemp -d) || exit 1
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+host=$(uname -n)
+mkdir -p "$TMPDIR/ompi.$host.$(id -u)/kept" "$TMPDIR/ompi.${host%%.*}.$(id -u)/kept"
+
 # run_tests FOLDER [ctest arguments]: also keeps what ctest says in FOLDER/tests.log.
 run_tests()
 {

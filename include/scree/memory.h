@@ -28,9 +28,10 @@ namespace scree
   /// Bytes that this host still has for this process: what is free, and what its control groups and limits let it take.
   double available_memory();
 
-  /// Throws EntryError, with the estimate, if the hosts of the ranks have not enough memory for the case. Collective.
+  /// The estimate; throws EntryError, with it, if the hosts of the ranks have not enough memory for the case.
+  /// Collective.
   template <int dim>
-  void require_memory(const Parameters &parameters, const MPI_Comm communicator);
+  MemoryEstimate require_memory(const Parameters &parameters, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

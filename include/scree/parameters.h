@@ -12,6 +12,7 @@
 #include <scree/output/output_parameters.h>
 #include <scree/output/probe_parameters.h>
 #include <scree/points/seeding.h>
+#include <scree/geometry/bed_parameters.h>
 #include <scree/points/seepage_parameters.h>
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
@@ -74,8 +75,10 @@ namespace scree
     TransferParameters transfer;
     StabilisationParameters stabilisation;
     BodyForceParameters body_force;
+    BaseMotionParameters base_motion;
     std::vector<BodyParameters> bodies;
     BoundaryParameters boundaries;
+    BedParameters bed;
     SurfaceLoadParameters surface_load;
     SettlingParameters settling;
     OutputParameters output;

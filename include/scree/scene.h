@@ -3,6 +3,8 @@
 #define scree_scene_h
 
 #include <scree/grid/constraints.h>
+#include <scree/grid/sampled_surface.h>
+#include <scree/memory.h>
 #include <scree/output/statistics.h>
 #include <scree/parameters.h>
 #include <scree/scheme/forcing.h>
@@ -30,7 +32,8 @@ namespace scree
     /// Fits what depends on the mesh and its partition to them. Collective.
     void reinit();
 
-    /// The blocks in which this rank's points are, and those they come through in the next `time`, s, at their velocity.
+    /// The blocks in which this rank's points are, and those they come through in the next `time`, s, at their
+    /// velocity.
     Blocks blocks_of_points(const double time) const;
 
     /// The scheme that moves the points of this scene, to which it refers: chosen here and nowhere else.
@@ -61,6 +64,7 @@ namespace scree
       return water.empty() ? "point" : "soil or water point";
     }
 
+    const MemoryEstimate expected_memory;
     BackgroundGrid<dim> grid;
     BoundaryConditions<dim> walls;
     std::unique_ptr<WaterBoundaryConditions<dim>> water_walls; ///< null in a dry scene
@@ -69,15 +73,18 @@ namespace scree
     std::list<SoilBody<dim>> bodies;
     std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
     std::list<SurfaceLoad<dim>> loads;
+    std::unique_ptr<LevelSet<dim>> ground;    ///< null without a bed
+    std::unique_ptr<SampledSurface<dim>> bed; ///< the same as the mesh sees it
 
   private:
     void make_bodies();
     void fill_with_points();
     void set_velocity_gradients();
+    void set_touching_distances();
     void set_initial_state();
     void require_viscosity(const double stable_step) const;
 
-    /// Whether points of rigid bodies act on the owned nodes; empty without such bodies. Collective.
+    /// Whether points of rigid bodies act on the nodes of this rank's cells; empty without such bodies. Collective.
     std::vector<char> rigid_nodes() const;
 
     /// Adds one that left the box through the face of this name.

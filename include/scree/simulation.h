@@ -3,6 +3,7 @@
 #define scree_simulation_h
 
 #include <scree/output/graphics.h>
+#include <scree/output/maps.h>
 #include <scree/output/output_times.h>
 #include <scree/output/probes.h>
 #include <scree/output/progress.h>
@@ -162,6 +163,7 @@ namespace scree
     Statistics<dim> statistics;
     RowFile rows; // of the statistics
     Probes<dim> probes;
+    Maps<dim> maps;
 
     RunTotals<dim> totals;
     double point_updates = 0;                  // points times steps, of this rank

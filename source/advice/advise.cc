@@ -3,6 +3,8 @@
 #include <scree/advice/measure.h>
 #include <scree/advice/report.h>
 #include <scree/advice/survey.h>
+#include <scree/input/input_error.h>
+#include <scree/memory.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -48,20 +50,15 @@ namespace scree
     };
 
 
-    /// How many times as wide cells keep a case to what can be looked at in seconds: points and cells of the box are
-    /// counted as if soil and water filled it.
-    unsigned int coarsening(const Parameters &parameters)
+    /// How many times as wide cells keep a case to what can be looked at in seconds. Collective.
+    template <int dim>
+    unsigned int coarsening(const Parameters &parameters, const MPI_Comm communicator)
     {
-      constexpr double most = 2e6; // points and cells
-      double n_cells        = 1;
-      for (unsigned int a = 0; a < parameters.dimension; ++a)
-        n_cells *= (parameters.grid.upper_corner[a] - parameters.grid.lower_corner[a]) / parameters.grid.cell_size;
-      double points_per_cell = 1;
-      for (const auto &body : parameters.bodies)
-        points_per_cell = std::max(points_per_cell, std::pow(body.seeding.points_per_cell, parameters.dimension));
-      if (parameters.has_water)
-        points_per_cell += std::pow(parameters.water.points_per_cell, parameters.dimension);
-      return std::max(1., std::ceil(std::pow(n_cells * points_per_cell / most, 1. / parameters.dimension)));
+      constexpr double most = 2e6; // points and fine cells
+      MemoryEstimate size;
+      on_all_ranks(communicator, [&] { size = estimate_memory<dim>(parameters); });
+      const double n = size.n_soil_points + size.n_water_points + size.n_cells;
+      return std::max(1., std::ceil(std::pow(n / most, 1. / dim)));
     }
 
     /// Widens the cells; the box grows by less than one of them an axis.
@@ -91,7 +88,7 @@ namespace scree
     advice.schedule.output    = parameters.output;
     advice.settling_time      = parameters.settling.maximum_time;
     advice.n_ranks            = Utilities::MPI::n_mpi_processes(communicator);
-    advice.coarser            = coarsening(parameters);
+    advice.coarser            = coarsening<dim>(parameters, communicator);
 
     parameters.output_directory      = folder.path();
     parameters.output.screen         = "nothing";

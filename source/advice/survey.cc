@@ -92,10 +92,10 @@ namespace scree
         scene.n_cells   = grid.n_cells_of_box();
         scene.has_soil  = std::any_of(
             parameters.bodies.begin(), parameters.bodies.end(), [](const auto &body) { return !body.is_rigid(); });
-        scene.is_elastic = scene.has_soil;
-        scene.has_water  = parameters.has_water;
-        scene.has_changing_forces =
-            parameters.surface_load.changes_with_time() || !parameters.body_force.expression.empty();
+        scene.is_elastic          = scene.has_soil;
+        scene.has_water           = parameters.has_water;
+        scene.has_changing_forces = parameters.surface_load.changes_with_time() ||
+                                    !parameters.body_force.expression.empty() || !parameters.base_motion.record.empty();
         if (!scene.has_water)
           return;
         scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;

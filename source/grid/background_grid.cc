@@ -223,12 +223,12 @@ namespace scree
 
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
-                                      const HoldsPoints<dim> &holds_points,
+                                      const PlacesOfPoints<dim> &places,
                                       const MPI_Comm communicator)
       : BackgroundGrid(parameters, levels<dim>(parameters), communicator)
   {
     if (follows)
-      refine(with_surroundings(occupied_blocks(holds_points)), Shares::even);
+      refine(with_surroundings(occupied_blocks(box, places, communicator)), Shares::even);
     else
       {
         mesh.refine_global(n_levels);
@@ -242,53 +242,6 @@ namespace scree
   void BackgroundGrid<dim>::distribute_nodes()
   {
     nodes_of_mesh.distribute(cells);
-  }
-
-
-  template <int dim>
-  CellPlace<dim> BackgroundGrid<dim>::n_blocks() const
-  {
-    CellPlace<dim> n;
-    for (unsigned int a = 0; a < dim; ++a)
-      n[a] = (box.n[a] + 1) / 2;
-    return n;
-  }
-
-
-  template <int dim>
-  Blocks BackgroundGrid<dim>::occupied_blocks(const HoldsPoints<dim> &holds_points) const
-  {
-    const MPI_Comm communicator = mesh.get_communicator();
-    const CellPlace<dim> n      = n_blocks();
-    std::uint64_t n_all         = 1;
-    for (const int along : n)
-      n_all *= along;
-    const auto is_occupied = [&](const CellPlace<dim> &block) {
-      for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
-        {
-          CellPlace<dim> cell;
-          for (unsigned int a = 0; a < dim; ++a)
-            cell[a] = 2 * block[a] + (v >> a & 1);
-          if (box.contains(cell) && holds_points(box.corner(cell)))
-            return true;
-        }
-      return false;
-    };
-    const std::uint64_t rank = Utilities::MPI::this_mpi_process(communicator);
-    const std::uint64_t end  = n_all * (rank + 1) / Utilities::MPI::n_mpi_processes(communicator);
-    Blocks blocks;
-    on_all_ranks(communicator, [&] {
-      for (std::uint64_t i = n_all * rank / Utilities::MPI::n_mpi_processes(communicator); i < end; ++i)
-        {
-          CellPlace<dim> block;
-          std::uint64_t rest = i;
-          for (unsigned int a = 0; a < dim; ++a, rest /= n[a - 1])
-            block[a] = rest % n[a];
-          if (is_occupied(block))
-            blocks.push_back(curve_number<dim>(block));
-        }
-    });
-    return blocks;
   }
 
 
@@ -330,7 +283,7 @@ namespace scree
   template <int dim>
   Blocks BackgroundGrid<dim>::with_surroundings(const Blocks &blocks) const
   {
-    const CellPlace<dim> n = n_blocks();
+    const CellPlace<dim> n = box.n_blocks();
     double n_all           = 1;
     for (const int along : n)
       n_all *= along;

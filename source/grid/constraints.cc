@@ -58,7 +58,7 @@ namespace scree
   template <int dim>
   void Constraints<dim>::reinit()
   {
-    set_of_node.assign(grid.n_owned_nodes(), free);
+    set_of_node.assign(grid.numbering().n_local(), free);
     sets.clear();
     // Nodes on the same faces share a set.
     std::map<std::pair<std::uint8_t, bool>, unsigned int> set_of_kind;

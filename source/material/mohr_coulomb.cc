@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
-#include <scree/material/mohr_coulomb.h>
+#include <scree/material/mohr_coulomb_return.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -72,6 +72,7 @@ namespace scree
 
   MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters)
       : elastic(LinearElasticParameters{ parameters.young_modulus, parameters.poisson_ratio })
+      , shear(elastic.shear_modulus())
       , bulk(elastic.bulk_modulus(0))
       , vertex(std::min(parameters.tension_cut_off, apex(parameters)))
       , cohesionless(apex(parameters) == 0)
@@ -120,9 +121,9 @@ namespace scree
   void MohrCoulomb::add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit)
   {
     Surface surface{ normal, flow, {}, limit };
-    const double volume_part = (bulk - 2. / 3. * elastic.shear_modulus()) * (flow[0] + flow[1] + flow[2]);
+    const double volume_part = (bulk - 2. / 3. * shear) * (flow[0] + flow[1] + flow[2]);
     for (unsigned int i = 0; i < 3; ++i)
-      surface.relaxation[i] = volume_part + 2 * elastic.shear_modulus() * flow[i];
+      surface.relaxation[i] = volume_part + 2 * shear * flow[i];
     surfaces.push_back(surface);
   }
 
@@ -141,7 +142,7 @@ namespace scree
 
   double MohrCoulomb::shear_modulus() const
   {
-    return elastic.shear_modulus();
+    return shear;
   }
 
 
@@ -166,76 +167,18 @@ namespace scree
   }
 
 
-  bool MohrCoulomb::return_to(const ActiveSet &set, const PrincipalValues &trial, PrincipalValues &stress) const
+  Response MohrCoulomb::return_map(PrincipalValues &strain,
+                                   double *internal_variables,
+                                   const double,
+                                   PrincipalValues &stress,
+                                   UpdateReport &report) const
   {
-    const unsigned int n = set.surfaces.size();
-    Tensor<1, 3> excess;
-    double scale = std::abs(surfaces[0].limit);
-    for (unsigned int a = 0; a < n; ++a)
-      excess[a] = product(surfaces[set.surfaces[a]].normal, trial) - surfaces[set.surfaces[a]].limit;
-    for (const double value : trial)
-      scale = std::max(scale, std::abs(value));
-    const double tolerance = 1e-13 * scale;
-
-    const Tensor<1, 3> multiplier = set.inverse * excess;
-    stress                        = trial;
-    for (unsigned int a = 0; a < n; ++a)
-      {
-        if (multiplier[a] * elastic.shear_modulus() < -tolerance)
-          return false;
-        for (unsigned int i = 0; i < 3; ++i)
-          stress[i] -= multiplier[a] * surfaces[set.surfaces[a]].relaxation[i];
-      }
-    for (const Surface &surface : surfaces)
-      if (product(surface.normal, stress) - surface.limit > tolerance)
-        return false;
-    return true;
-  }
-
-
-  Response MohrCoulomb::plastic_return(const PrincipalValues &trial,
-                                       PrincipalValues &strain,
-                                       double *internal_variables,
-                                       PrincipalValues &stress,
-                                       UpdateReport &report) const
-  {
-    std::array<unsigned int, 3> order = { { 0, 1, 2 } }; // of falling stress
-    std::sort(
-        order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) { return trial[a] > trial[b]; });
-    const PrincipalValues sorted = { { trial[order[0]], trial[order[1]], trial[order[2]] } };
-    const double volume_strain   = strain[0] + strain[1] + strain[2];
-
-    PrincipalValues returned;
-    if (!(cohesionless && volume_strain >= 0))
-      for (const ActiveSet &set : active_sets)
-        if (return_to(set, sorted, returned))
-          {
-            PrincipalValues change;
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                stress[order[i]] = returned[i];
-                change[order[i]] = sorted[i] - returned[i];
-              }
-            const double mean   = (change[0] + change[1] + change[2]) / 3;
-            double shear_square = 0;
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                const double plastic_deviator = (change[i] - mean) / (2 * elastic.shear_modulus());
-                strain[i] -= mean / (3 * bulk) + plastic_deviator;
-                shear_square += plastic_deviator * plastic_deviator;
-              }
-            internal_variables[0] += std::sqrt(2. / 3. * shear_square);
-            return Response::plastic;
-          }
-
-    const double vertex_volume_strain = vertex / bulk;
-    if (volume_strain < vertex_volume_strain * (1 - 1e-10))
-      ++report.n_unresolved;
-    else
-      ++(vertex > 0 ? report.n_vertices : report.n_separated);
-    stress.fill(vertex);
-    strain.fill(std::max(volume_strain, vertex_volume_strain) / 3);
-    return Response::plastic;
+    const PrincipalResponse<double> response = respond<double>(strain, internal_variables, stress);
+    report.largest_bulk_modulus              = bulk;
+    report.n_vertices += response.is_vertex;
+    report.n_separated += response.is_separated;
+    report.n_unresolved += response.is_unresolved;
+    return response.is_plastic ? Response::plastic : Response::elastic;
   }
 
 

@@ -2,7 +2,9 @@
 
 #include <scree/input/input_error.h>
 #include <scree/material/batch_material.h>
+#include <scree/material/mohr_coulomb_return.h>
 #include <scree/material/nor_sand_return.h>
+#include <scree/material/principal_batch_material.h>
 #include <scree/material/rigid.h>
 #include <scree/material/table.h>
 
@@ -99,7 +101,7 @@ namespace scree
       case LawKind::linear_elastic:
         return std::make_unique<BatchMaterial<dim, LinearElastic>>(LinearElastic(parameters.linear_elastic));
       case LawKind::mohr_coulomb:
-        return std::make_unique<HenckyMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
+        return std::make_unique<PrincipalBatchMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters.mohr_coulomb));
       case LawKind::rigid:
         return std::make_unique<Rigid<dim>>();
       default:

@@ -2,6 +2,7 @@
 #include <scree/output/graphics.h>
 #include <scree/output/patch_output.h>
 #include <scree/tensor/invariants.h>
+#include <scree/tensor/vector.h>
 
 #include <algorithm>
 
@@ -42,12 +43,6 @@ namespace scree
       typename PatchOutput<0, dim>::Patch &patch;
       unsigned int row = 0;
     };
-
-    template <int dim>
-    Tensor<1, dim> vector_of(const double *components)
-    {
-      return Tensor<1, dim>(make_array_view(components, components + dim));
-    }
 
     template <int dim>
     void put_state(Rows<dim> &rows, const SoilBody<dim> &body, const double *properties, const unsigned int number)

@@ -76,8 +76,11 @@ namespace scree
         points += (points.empty() ? "" : ", ") + ("water " + count(part.points(), communicator));
     const double n_cells = Utilities::MPI::sum(double(grid.fine_cells().n_owned()), communicator);
     const double n_all   = grid.n_cells_of_box();
+    const unsigned long long n_ghosts =
+        Utilities::MPI::sum(grid.numbering().partitioner()->n_ghost_indices(), communicator);
     folder.log(number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +
                (n_cells < n_all ? " around the points, in a box of " + number_text(n_all) : "") +
+               (n_ghosts > 0 ? "; nodes on several ranks: " + std::to_string(n_ghosts) + " ghosts" : "") +
                "; points: " + points + "; memory at the start " + megabytes(memory().VmRSS, communicator) +
                ", estimated for the run " + std::to_string(std::lround(expected_bytes / (1024. * 1024.))) +
                " MB (all ranks)");

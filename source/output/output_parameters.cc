@@ -8,6 +8,45 @@ namespace scree
 {
   using namespace dealii;
 
+  void MapParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Maps");
+    prm.add_parameter("Write",
+                      write,
+                      "Whether maps of the soil (thickness, largest speed, arrival time, ...) on the columns of cells "
+                      "are written with each picture, 3D: ESRI ASCII grids.",
+                      Patterns::Bool());
+    prm.add_parameter("Least thickness",
+                      least_thickness,
+                      "Thickness, m, from which on soil counts as arrived, and its speed as that of the column.",
+                      Patterns::Double(0));
+    prm.leave_subsection();
+  }
+
+
+  void MapParameters::check(const unsigned int dim, const bool has_soil) const
+  {
+    const std::string subsection = "Output/Maps";
+    require_entry(
+        !write || dim == 3,
+        subsection,
+        "Write",
+        "true",
+        "maps are of scenes in space. Write \"Dimension = 3\", or remove the entry; in the plane \"Verticals\" "
+        "of subsection Probes tell the thickness.");
+    require_entry(!write || has_soil,
+                  subsection,
+                  "Write",
+                  "true",
+                  "maps are of soil, and there is none: entry \"Bodies\" is none. Remove it.");
+    require_entry(write || least_thickness == MapParameters().least_thickness,
+                  subsection,
+                  "Least thickness",
+                  least_thickness,
+                  "nothing reads it. Remove it, or write \"Write = true\".");
+  }
+
+
   void OutputParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
@@ -38,6 +77,7 @@ namespace scree
                       screen,
                       "What appears on the screen: progress; statistics (the last row only, for tests); nothing.",
                       Patterns::Selection("progress|statistics|nothing"));
+    maps.add_parameters(prm);
     prm.leave_subsection();
   }
 

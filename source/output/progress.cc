@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 namespace scree
 {
@@ -56,13 +57,35 @@ namespace scree
   }
 
 
-  void Progress::summarise(const TimerOutput &parts,
+  void Progress::summarise_steps(const double time)
+  {
+    const unsigned long long n_steps = std::accumulate(counts.begin(), counts.end(), 0ull);
+    const double motion              = time - start_time;
+    if (n_steps == 0 || motion <= 0)
+      return;
+    const auto percent = [&](const StepLimit limit) {
+      return 100. * counts[static_cast<unsigned int>(limit)] / n_steps;
+    };
+    folder.log(
+        format("a second of motion takes %.4g steps and %.3g s; steps are bounded by pressure waves (%.0f %%), the "
+               "largest speed (%.0f %%), 'Maximum time step' (%.0f %%)",
+               n_steps / motion,
+               clock.wall_time() / motion,
+               percent(StepLimit::waves),
+               percent(StepLimit::motion),
+               percent(StepLimit::entry)));
+  }
+
+
+  void Progress::summarise(const double time,
+                           const TimerOutput &parts,
                            const double point_updates,
                            const unsigned int n_ranks,
                            const std::string &point)
   {
     if (point_updates <= 0)
       return;
+    summarise_steps(time);
     const double total            = clock.wall_time();
     const double to_ns            = 1e9 * n_ranks / point_updates;
     double accounted              = 0;

@@ -29,6 +29,11 @@ namespace scree
       return kind == ".vtu" || kind == ".pvtu" || kind == ".pvd";
     }
 
+    bool is_map(const std::filesystem::path &file)
+    {
+      return file.extension() == ".asc";
+    }
+
     bool is_probe(const std::filesystem::path &file)
     {
       return file.filename().string().rfind("probe_", 0) == 0;
@@ -66,6 +71,8 @@ namespace scree
     if (writer)
       {
         remove_files(file("solution"), is_picture);
+        if (std::filesystem::is_directory(file("maps")))
+          remove_files(file("maps"), is_map);
         std::filesystem::remove_all(file("checkpoint"));
         std::filesystem::remove(file("statistics"));
         remove_files(path, is_probe);

@@ -29,6 +29,7 @@ namespace scree
     RunTotals total           = *this;
     StepBalance<dim> &balance = total.balance;
     std::vector<double *> values{ &balance.wall_dissipation,
+                                  &balance.bed_dissipation,
                                   &balance.drag_dissipation,
                                   &balance.viscous_dissipation,
                                   &balance.load_work,
@@ -51,6 +52,7 @@ namespace scree
                                     &balance.body_impulse,
                                     &balance.pressure_impulse,
                                     &balance.load_impulse,
+                                    &balance.bed_impulse,
                                     &total.lost_momentum })
       for (unsigned int a = 0; a < dim; ++a)
         values.push_back(&(*vector)[a]);
@@ -72,7 +74,7 @@ namespace scree
   template <int dim>
   Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid,
                               const Tensor<1, dim> &gravity,
-                              const FurtherColumns further)
+                              const FurtherColumns<dim> &further)
       : grid(grid)
       , gravity(gravity)
       , further(further)
@@ -102,7 +104,7 @@ namespace scree
     const RunTotals<dim> totals     = local.sum_over_ranks(communicator);
     const StepBalance<dim> &balance = totals.balance;
     const Tensor<1, dim> impulse    = balance.wall_impulse + balance.body_impulse + balance.pressure_impulse +
-                                   balance.load_impulse - totals.lost_momentum;
+                                   balance.load_impulse + balance.bed_impulse - totals.lost_momentum;
 
     const double energy = now.kinetic + now.potential + now.elastic;
     if (!has_start)
@@ -127,14 +129,17 @@ namespace scree
     add("Plastic dissipation (J)", totals.plastic_dissipation);
     add("Wall dissipation (J)", balance.wall_dissipation);
     add("Numerical dissipation (J)",
-        start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.drag_dissipation -
-            balance.viscous_dissipation - totals.lost_energy + balance.load_work + balance.correction_work);
+        start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.bed_dissipation -
+            balance.drag_dissipation - balance.viscous_dissipation - totals.lost_energy + balance.load_work +
+            balance.correction_work);
     if (!bodies.empty())
       add_soil_columns(bodies, now, totals, last_step);
     add("Points lost", totals.n_lost);
     add("Mass lost (kg)", totals.lost_mass);
     if (!water.empty())
       add_water_columns(bodies, water, now, totals, step);
+    if (further.bed)
+      add_bed_columns(bodies, balance);
     if (further.loads)
       add("Load work (J)", balance.load_work);
     if (further.volume_correction)
@@ -163,6 +168,16 @@ namespace scree
     add("Fallbacks", totals.n_fallbacks);
     add("Vertices", totals.n_vertices);
     add("Unresolved", totals.n_unresolved);
+  }
+
+
+  template <int dim>
+  void Statistics<dim>::add_bed_columns(const std::list<SoilBody<dim>> &bodies, const StepBalance<dim> &balance)
+  {
+    add("Bed dissipation (J)", balance.bed_dissipation);
+    for (unsigned int a = 0; a < dim; ++a)
+      add(std::string("Bed impulse ") + "xyz"[a] + " (N s)", -balance.bed_impulse[a]);
+    add("Least distance from bed (m)", least_distance(bodies, *further.bed, grid.triangulation().get_communicator()));
   }
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/points/cell_places.h>
 #include <scree/points/point_set.h>
+#include <scree/simd/records.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -8,101 +8,26 @@
 #include <deal.II/grid/cell_id.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Place of `x` in a cell, as by deal.II's MappingCartesian, to the last digit.
-    template <int dim>
-    Point<dim> place_in_cell(const Point<dim> &x, const Point<dim> &corner, const Tensor<1, dim> &width)
-    {
-      Point<dim> place;
-      for (unsigned int a = 0; a < dim; ++a)
-        place[a] = (x[a] - corner[a]) / width[a];
-      return place;
-    }
-
-
-    template <int dim>
-    bool is_inside(const Point<dim> &place)
-    {
-      bool inside = true;
-      for (unsigned int a = 0; a < dim; ++a)
-        inside = inside && place[a] >= 0. && place[a] <= 1.;
-      return inside;
-    }
-
-
-    template <int dim>
-    Tensor<1, dim> width_of(const typename Triangulation<dim>::active_cell_iterator &cell)
-    {
-      Tensor<1, dim> width;
-      for (unsigned int a = 0; a < dim; ++a)
-        width[a] = cell->vertex(1 << a)[a] - cell->vertex(0)[a];
-      return width;
-    }
-
-
-    /// The cell one or no step from `cell` along each axis that holds `x`; no valid one if there is none on this rank.
-    template <int dim>
-    typename Triangulation<dim>::active_cell_iterator
-    neighbour_with(const typename Triangulation<dim>::active_cell_iterator &start, const Point<dim> &x)
-    {
-      typename Triangulation<dim>::cell_iterator cell = start;
-      const Point<dim> place                          = place_in_cell(x, cell->vertex(0), width_of<dim>(start));
-      for (unsigned int a = 0; a < dim; ++a)
-        if (place[a] < 0. || place[a] > 1.)
-          {
-            const unsigned int face = 2 * a + (place[a] > 1. ? 1 : 0);
-            if (cell->at_boundary(face))
-              return {};
-            cell = cell->neighbor(face);
-            if (!cell->is_active() || cell->is_artificial() || use_of(cell) == CellUse::outside)
-              return {};
-          }
-      const typename Triangulation<dim>::active_cell_iterator found = cell;
-      if (!is_inside(place_in_cell(x, found->vertex(0), width_of<dim>(found))))
-        return {};
-      return found;
-    }
-  } // namespace
-
-
   template <int dim>
   struct PointSet<dim>::Record
   {
     CellId::binary_type cell; // where it goes
     Point<dim> location;      // m
-    Point<dim> reference_location;
     types::particle_index id;
     std::vector<double> properties;
 
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &cell &location &reference_location &id &properties;
+      archive &cell &location &id &properties;
     }
   };
-
-
-  template <int dim>
-  PointSet<dim>::Cell::Cell(const CellIterator &iterator)
-      : index(iterator->active_cell_index())
-      , iterator(iterator)
-  {
-    // The mesh's first vertex is the lower corner of the box.
-    const Point<dim> lower = iterator->get_triangulation().get_vertices()[0], corner = iterator->vertex(0);
-    const Tensor<1, dim> width = width_of<dim>(iterator);
-    CellPlace<dim> place;
-    for (unsigned int a = 0; a < dim; ++a)
-      place[a] = static_cast<int>(std::lround((corner[a] - lower[a]) / width[a]));
-    number = curve_number<dim>(place);
-  }
 
 
   /// Cell by cell.
@@ -123,6 +48,8 @@ namespace scree
       : mesh(triangulation)
       , n_properties(n_properties)
       , particle_handler(triangulation, mapping, n_properties)
+      , refinement_signal(triangulation.signals.any_change.connect([this] { table.clear(); }))
+      , repartition_signal(triangulation.signals.post_distributed_repartition.connect([this] { table.clear(); }))
   {
     particle_handler.signals.particle_lost.connect([this](const auto &point, const auto &) {
       const auto properties = point->get_properties();
@@ -156,10 +83,16 @@ namespace scree
   Disorder PointSet<dim>::update_places()
   {
     const bool found_all = set_places();
-    at_edge              = std::any_of(
-        leavers.begin(), leavers.end(), [](const Leaver &leaver) { return use_of(leaver.to) != CellUse::inner; });
+    at_edge              = std::any_of(leavers.begin(), leavers.end(), [this](const Leaver &leaver) {
+      return use_of(table[leaver.to].iterator) != CellUse::inner;
+    });
+    carried.resize(std::max(carried.size(), leavers.size())); // Its memory is kept.
     // From the last one on: where a point is taken out, the last one of its cell takes its number.
-    std::for_each(leavers.rbegin(), leavers.rend(), [this](const Leaver &leaver) { move(leaver); });
+    for (std::size_t l = leavers.size(); l > 0; --l)
+      take_out(leavers[l - 1], carried[l - 1]);
+    for (std::size_t l = 0; l < leavers.size(); ++l)
+      hand_on(leavers[l].to, carried[l]);
+    n_moved += leavers.size();
     if (!found_all || n_moved > most_moved * n_points())
       return Disorder::far;
     return emigrants.empty() ? Disorder::none : Disorder::beside_a_border;
@@ -169,57 +102,100 @@ namespace scree
   template <int dim>
   bool PointSet<dim>::set_places()
   {
-    bool found_all = true;
-    auto &pool     = particle_handler.get_property_pool();
     leavers.clear();
+    if (cell_list.empty())
+      return true;
+    bool found_all = true;
+    // Writing through the pool saves a call per point.
+    auto *places = const_cast<Point<dim> *>(cell_list.front().reference_locations);
     for (unsigned int c = 0; c < cell_list.size(); ++c)
       {
         const CellPoints<dim> &points = cell_list[c];
-        const CellIterator &cell      = filled[c].iterator;
-        const Point<dim> corner       = cell->vertex(0);
-        const Tensor<1, dim> width    = width_of<dim>(cell);
-        for (unsigned int p = 0; p < points.n_points; ++p)
-          {
-            const Point<dim> &x    = points.location_of(p);
-            const Point<dim> place = place_in_cell(x, corner, width);
-            if (is_inside(place))
-              pool.set_reference_location(points.slots[p], place);
-            else if (const CellIterator to = neighbour_with(cell, x); to.state() == IteratorState::valid)
-              leavers.push_back({ cell, to, p });
-            else
-              found_all = false;
-          }
+        const auto cell               = table[filled[c].in_table]; // a copy: the table may grow
+        for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+          RecordPointers<const double> from;
+          RecordPointers<double> to;
+          for (unsigned int l = 0; l < batch_size; ++l)
+            {
+              from[l] = apart(&points.location_of(indices[l])[0]);
+              to[l]   = apart(&places[points.slots[indices[l]]][0]);
+            }
+          Batch x[dim];
+          simd::load_records<dim>(from, x);
+          const auto place = cell.template place_of<Batch>(x);
+          simd::store_records<dim>(place.data(), to);
+          auto inside = simd::first_lanes(batch_size);
+          for (const Batch &along : place)
+            inside = inside & (along >= 0.) & (along <= 1.);
+          unsigned int left = ~simd::bits_of(inside) & ((1u << n) - 1);
+          for (unsigned int l = 0; left != 0; ++l, left >>= 1)
+            if (left & 1)
+              {
+                const unsigned int other = table.neighbour_with(filled[c].in_table, points.location_of(indices[l]));
+                if (other == table.none)
+                  found_all = false;
+                else
+                  leavers.push_back({ c, indices[l], other });
+              }
+        });
       }
     return found_all;
   }
 
 
   template <int dim>
-  void PointSet<dim>::move(const Leaver &leaver)
+  void PointSet<dim>::take_out(const Leaver &leaver, Record &record)
   {
-    auto point = particle_handler.particles_in_cell(leaver.from).begin();
-    std::advance(point, leaver.point);
-    const auto properties = point->get_properties();
-    const Record record{ leaver.to->id().template to_binary<dim>(),
-                         point->get_location(),
-                         place_in_cell(point->get_location(), leaver.to->vertex(0), width_of<dim>(leaver.to)),
-                         point->get_id(),
-                         { properties.begin(), properties.end() } };
+    FilledCell &cell              = filled[leaver.from];
+    const CellPoints<dim> &points = cell_list[leaver.from];
+    const auto of_handler         = particle_handler.particles_in_cell(table[cell.in_table].iterator);
+    const auto point              = std::next(of_handler.begin(), leaver.point);
+    Assert(point->get_local_index() == points.slots[leaver.point], ExcInternalError("The lists differ."));
+
+    const double *properties = points.properties_of(leaver.point);
+    record.properties.assign(properties, properties + n_properties);
+    record.location = point->get_location();
+    record.id       = point->get_id();
+    // In both lists the last point of the cell takes the number of one that is removed.
     particle_handler.remove_particle(point);
-    if (leaver.to->is_locally_owned())
-      insert(leaver.to, record);
-    else
-      emigrants[leaver.to->subdomain_id()].push_back(record);
-    ++n_moved;
+    unsigned int *own = slots.data() + (points.slots - slots.data());
+    own[leaver.point] = own[--cell.n_points];
   }
 
 
   template <int dim>
-  void PointSet<dim>::insert(const CellIterator &cell, const Record &record)
+  void PointSet<dim>::hand_on(const unsigned int to, Record &record)
   {
-    if (particle_handler.n_particles_in_cell(cell) == 0)
-      newly_filled.emplace_back(cell);
-    particle_handler.insert_particle(record.location, record.reference_location, record.id, cell, record.properties);
+    const CellIterator &cell = table[to].iterator;
+    if (cell->is_locally_owned())
+      {
+        insert(to, record);
+        return;
+      }
+    record.cell = cell->id().template to_binary<dim>();
+    emigrants[cell->subdomain_id()].push_back(record);
+  }
+
+
+  template <int dim>
+  unsigned int PointSet<dim>::insert_into(const unsigned int number,
+                                          const Point<dim> &location,
+                                          const types::particle_index id,
+                                          const ArrayView<const double> &properties)
+  {
+    const auto place = table[number].template place_of<double>(location);
+    Point<dim> reference_location;
+    std::copy(place.begin(), place.end(), reference_location.begin_raw());
+    return particle_handler.insert_particle(location, reference_location, id, table[number].iterator, properties)
+        ->get_local_index();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::insert(const unsigned int number, const Record &record)
+  {
+    const unsigned int slot = insert_into(number, record.location, record.id, record.properties);
+    entrants.push_back({ table[number].number, static_cast<unsigned int>(entrants.size()), number, slot });
   }
 
 
@@ -230,8 +206,8 @@ namespace scree
       exchange();
     if (disorder == Disorder::far)
       sort();
-    else if (disorder == Disorder::beside_a_border || !leavers.empty())
-      list_cells();
+    else if (!leavers.empty() || !entrants.empty())
+      update_lists();
   }
 
 
@@ -268,7 +244,7 @@ namespace scree
         error = MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
         AssertThrowMPI(error);
         for (const Record &record : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
-          insert(mesh.create_cell_iterator(CellId(record.cell)), record);
+          insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
       }
     const int error = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     AssertThrowMPI(error);
@@ -279,8 +255,9 @@ namespace scree
   template <int dim>
   bool PointSet<dim>::is_in_inner_cells() const
   {
-    return std::all_of(
-        filled.begin(), filled.end(), [](const Cell &cell) { return use_of(cell.iterator) == CellUse::inner; });
+    return std::all_of(filled.begin(), filled.end(), [this](const FilledCell &cell) {
+      return use_of(table[cell.in_table].iterator) == CellUse::inner;
+    });
   }
 
 
@@ -292,19 +269,19 @@ namespace scree
     lifted->locations.reserve(count);
     lifted->ids.reserve(count);
     lifted->properties.reserve(count * n_properties);
-    for (const Cell &cell : filled)
+    const auto &pool = particle_handler.get_property_pool();
+    for (unsigned int c = 0; c < cell_list.size(); ++c)
       {
-        lifted->cells.emplace_back(cell.iterator->id().template to_binary<dim>(),
-                                   particle_handler.n_particles_in_cell(cell.iterator));
-        for (const auto &point : particle_handler.particles_in_cell(cell.iterator))
+        const CellPoints<dim> &points = cell_list[c];
+        lifted->cells.emplace_back(table[filled[c].in_table].iterator->id().template to_binary<dim>(), points.n_points);
+        for (unsigned int p = 0; p < points.n_points; ++p)
           {
-            const auto properties = point.get_properties();
-            lifted->locations.push_back(point.get_location());
-            lifted->ids.push_back(point.get_id());
-            lifted->properties.insert(lifted->properties.end(), properties.begin(), properties.end());
+            const double *properties = points.properties_of(p);
+            lifted->locations.push_back(points.location_of(p));
+            lifted->ids.push_back(pool.get_id(points.slots[p]));
+            lifted->properties.insert(lifted->properties.end(), properties, properties + n_properties);
           }
       }
-    filled.clear();
     particle_handler.clear_particles();
     particle_handler.update_cached_numbers();
     list_all_cells();
@@ -332,11 +309,7 @@ namespace scree
               }
             const CellIterator active = cell;
             double *properties        = lifted->properties.data() + p * n_properties;
-            particle_handler.insert_particle(x,
-                                             place_in_cell(x, active->vertex(0), width_of<dim>(active)),
-                                             lifted->ids[p],
-                                             active,
-                                             ArrayView<const double>(properties, n_properties));
+            insert_into(table.number_of(active), x, lifted->ids[p], ArrayView<const double>(properties, n_properties));
           }
       }
     lifted.reset();
@@ -375,39 +348,68 @@ namespace scree
   void PointSet<dim>::list_all_cells()
   {
     filled.clear();
-    newly_filled.clear();
+    slots.clear();
+    entrants.clear();
     lose_points_outside();
     at_edge = false;
     for (auto point = particle_handler.begin(); point != particle_handler.end();)
       {
-        const CellIterator cell = point->get_surrounding_cell();
-        newly_filled.emplace_back(cell);
+        const CellIterator cell     = point->get_surrounding_cell();
+        const unsigned int in_table = table.number_of(cell);
+        filled.push_back({ table[in_table].number, in_table, particle_handler.n_particles_in_cell(cell) });
         at_edge = at_edge || use_of(cell) != CellUse::inner;
         point   = particle_handler.particles_in_cell(cell).end();
       }
-    list_cells();
+    std::sort(
+        filled.begin(), filled.end(), [](const FilledCell &a, const FilledCell &b) { return a.number < b.number; });
+    for (const FilledCell &cell : filled)
+      for (const auto &point : particle_handler.particles_in_cell(table[cell.in_table].iterator))
+        slots.push_back(point.get_local_index());
+    point_to_records();
   }
 
 
   template <int dim>
-  void PointSet<dim>::list_cells()
+  void PointSet<dim>::update_lists()
   {
-    const auto is_empty = [this](const Cell &cell) { return particle_handler.n_particles_in_cell(cell.iterator) == 0; };
-    std::sort(newly_filled.begin(), newly_filled.end());
-    const auto n_before = filled.size();
-    filled.insert(filled.end(), newly_filled.begin(), newly_filled.end());
-    newly_filled.clear();
-    std::inplace_merge(filled.begin(), filled.begin() + n_before, filled.end());
-    // A cell that emptied and filled again stands there twice.
-    filled.erase(
-        std::unique(filled.begin(), filled.end(), [](const Cell &a, const Cell &b) { return a.index == b.index; }),
-        filled.end());
-    filled.erase(std::remove_if(filled.begin(), filled.end(), is_empty), filled.end());
+    std::sort(entrants.begin(), entrants.end());
+    new_filled.clear();
+    new_slots.clear();
+    const Entrant *entrant = entrants.data(), *end = entrant + entrants.size();
+    for (unsigned int c = 0; c < filled.size(); ++c)
+      {
+        while (entrant != end && entrant->number < filled[c].number)
+          entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
+        entrant = append_cell(filled[c], cell_list[c].slots, entrant, end);
+      }
+    while (entrant != end)
+      entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
+    filled.swap(new_filled);
+    slots.swap(new_slots);
+    entrants.clear();
+    point_to_records();
+  }
 
-    slots.clear();
-    for (const Cell &cell : filled)
-      for (const auto &point : particle_handler.particles_in_cell(cell.iterator))
-        slots.push_back(point.get_local_index());
+
+  template <int dim>
+  const typename PointSet<dim>::Entrant *PointSet<dim>::append_cell(const FilledCell &cell,
+                                                                    const unsigned int *first_slot,
+                                                                    const Entrant *entrant,
+                                                                    const Entrant *end)
+  {
+    new_slots.insert(new_slots.end(), first_slot, first_slot + cell.n_points);
+    unsigned int n_points = cell.n_points;
+    for (; entrant != end && entrant->number == cell.number; ++entrant, ++n_points)
+      new_slots.push_back(entrant->slot);
+    if (n_points > 0)
+      new_filled.push_back({ cell.number, cell.in_table, n_points });
+    return entrant;
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::point_to_records()
+  {
     cell_list.clear();
     const_cell_list.clear();
     if (filled.empty())
@@ -422,16 +424,15 @@ namespace scree
     // Before 9.6 only constant ones.
     Point<dim> *locations = const_cast<Point<dim> *>(&pool.get_location(0));
 #endif
+    const Point<dim> *places    = &pool.get_reference_location(0);
     double *properties          = pool.get_properties(0).data();
     const unsigned int *of_cell = slots.data();
-    for (const Cell &cell : filled)
+    for (const FilledCell &cell : filled)
       {
-        const auto n = particle_handler.n_particles_in_cell(cell.iterator);
-        cell_list.push_back(
-            { cell.index, unsigned(n), of_cell, n_properties, properties, locations, &pool.get_reference_location(0) });
-        const_cell_list.push_back(
-            { cell.index, unsigned(n), of_cell, n_properties, properties, locations, &pool.get_reference_location(0) });
-        of_cell += n;
+        const unsigned int index = table[cell.in_table].index;
+        cell_list.push_back({ index, cell.n_points, of_cell, n_properties, properties, locations, places });
+        const_cell_list.push_back({ index, cell.n_points, of_cell, n_properties, properties, locations, places });
+        of_cell += cell.n_points;
       }
   }
 
@@ -439,9 +440,10 @@ namespace scree
   template <int dim>
   std::vector<types::particle_index> PointSet<dim>::ids(const unsigned int cell) const
   {
+    const auto &pool = particle_handler.get_property_pool();
     std::vector<types::particle_index> result;
-    for (const auto &point : particle_handler.particles_in_cell(filled[cell].iterator))
-      result.push_back(point.get_id());
+    for (unsigned int p = 0; p < const_cell_list[cell].n_points; ++p)
+      result.push_back(pool.get_id(const_cell_list[cell].slots[p]));
     return result;
   }
 

@@ -61,8 +61,12 @@ namespace scree
 
 
   template <int dim>
-  std::pair<double, Point<dim>> Region<dim>::part_of_cube(const Point<dim> &lower, const double width) const
+  std::pair<double, Point<dim>>
+  Region<dim>::part_of_cube(const Point<dim> &lower, const double width, const LevelSet<dim> *ground) const
   {
+    const auto contains = [&](const Point<dim> &x) {
+      return Region::contains(x) && (ground == nullptr || ground->is_open(x));
+    };
     // Most cubes lie inside or outside with all corners.
     constexpr unsigned int n_corners = 1 << dim;
     unsigned int corners_inside      = 0;

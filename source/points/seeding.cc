@@ -117,7 +117,8 @@ namespace scree
   void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,
             const Triangulation<dim> &triangulation,
-            const double cell_size)
+            const double cell_size,
+            const LevelSet<dim> *ground)
   {
     const Region<dim> region(entry_name(body.name, "Region"), parameters.region);
     const auto velocity =
@@ -132,7 +133,7 @@ namespace scree
                                  cell_size,
                                  { parameters.points_per_cell, parameters.jitter, 0 },
                                  [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
-                                   const auto [volume, centroid] = region.part_of_cube(lower, width);
+                                   const auto [volume, centroid] = region.part_of_cube(lower, width, ground);
                                    return { volume, volume, centroid };
                                  });
       require_velocities(velocity.get(), seeds);
@@ -144,7 +145,10 @@ namespace scree
                   body.name,
                   "Region",
                   parameters.region,
-                  "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
+                  ground
+                      ? "it is nowhere true in the box of subsection Mesh and above the ground of subsection Bed. Move "
+                        "the region, the box or the bed."
+                      : "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
 
     const auto &layout = body.layout;
     insert_points<dim>(
@@ -189,8 +193,10 @@ namespace scree
   require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<2> &, const double);
   template void
   require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<3> &, const double);
-  template void seed(SoilBody<2> &, const SeedingParameters &, const Triangulation<2> &, const double);
-  template void seed(SoilBody<3> &, const SeedingParameters &, const Triangulation<3> &, const double);
+  template void
+  seed(SoilBody<2> &, const SeedingParameters &, const Triangulation<2> &, const double, const LevelSet<2> *);
+  template void
+  seed(SoilBody<3> &, const SeedingParameters &, const Triangulation<3> &, const double, const LevelSet<3> *);
   template void set_velocity_gradient(PointSet<2> &, const std::string &, const unsigned int, const double);
   template void set_velocity_gradient(PointSet<3> &, const std::string &, const unsigned int, const double);
 } // namespace scree

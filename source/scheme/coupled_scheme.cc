@@ -213,7 +213,8 @@ namespace scree
             { soil.field, water_field, pores },
             mixture,
             [this](const unsigned int cell) { return pressure.pressure_of(cell); },
-            [this](const unsigned int cell) { return pressure.forgotten_of(cell); },
+            pressure.fades() ? [this](const unsigned int cell) { return pressure.forgotten_of(cell); }
+                             : ForgottenOfCell<dim>(),
             time_step));
         if (volume_correction)
           volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);

@@ -13,10 +13,12 @@ namespace scree
                             const StabilisationParameters &stabilisation,
                             std::list<SoilBody<dim>> &bodies,
                             std::list<SurfaceLoad<dim>> &loads,
+                            std::unique_ptr<BedContact<dim>> bed,
                             TimerOutput &timer)
       : grid(grid)
       , soil(grid, transfer, stabilisation, bodies, loads)
       , step(constraints, forcing)
+      , bed(std::move(bed))
       , timer(timer)
   {
   }
@@ -26,6 +28,8 @@ namespace scree
   void DryScheme<dim>::reinit()
   {
     soil.reinit();
+    if (bed)
+      bed->reinit();
   }
 
 
@@ -52,10 +56,16 @@ namespace scree
       soil.add_loads(0.); // Velocity and place leap over each other: the acceleration is that of the start.
       soil.field.add_contributions();
     }
-    const TimedPart part(timer, StepPart::nodes);
-    report.balance += step.solve(soil.field, time_step);
-    report.balance.load_impulse += soil.load_impulse(time_step);
-    soil.field.update_ghosts();
+    {
+      const TimedPart part(timer, StepPart::nodes);
+      report.balance += step.solve(soil.field, time_step);
+      report.balance.load_impulse += soil.load_impulse(time_step);
+      soil.field.update_ghosts();
+    }
+    if (!bed)
+      return;
+    const TimedPart part(timer, StepPart::bed);
+    bed->solve(soil.field, time_step, report.balance);
   }
 
 

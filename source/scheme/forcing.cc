@@ -31,20 +31,35 @@ namespace scree
   template <int dim>
   Forcing<dim>::Forcing(const BackgroundGrid<dim> &grid,
                         const std::vector<double> &gravity,
-                        const BodyForceParameters &body_force)
+                        const BodyForceParameters &body_force,
+                        const BaseMotionParameters &base_motion)
       : grid(grid)
-      , uniform(make_array_view(gravity))
+      , own_gravity(make_array_view(gravity))
+      , uniform(own_gravity)
   {
+    if (!base_motion.record.empty())
+      this->base_motion = std::make_unique<BaseMotion<dim>>(base_motion);
     if (!body_force.expression.empty())
       this->body_force = parse_expression<dim>(entry_name("", "Body force"), body_force.expression, dim, true);
   }
 
 
   template <int dim>
-  void Forcing<dim>::set_time(const double time)
+  void Forcing<dim>::set_step(const double time, const double time_step)
   {
     if (body_force)
       body_force->set_time(time);
+    if (base_motion)
+      uniform = own_gravity - base_motion->mean_acceleration(time, time_step);
+  }
+
+
+  template <int dim>
+  void Forcing<dim>::set_start()
+  {
+    if (body_force)
+      body_force->set_time(0.);
+    uniform = own_gravity;
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/mixture_step.h>
+#include <scree/tensor/vector.h>
 
 namespace scree
 {
@@ -11,16 +12,21 @@ namespace scree
     using Field = NodalField<dim>;
 
     template <int dim>
-    Tensor<1, dim> vector_of(const double *components)
-    {
-      return Tensor<1, dim>(make_array_view(components, components + dim));
-    }
-
-    template <int dim>
     void add_to(double *components, const Tensor<1, dim> &vector)
     {
       for (unsigned int c = 0; c < dim; ++c)
         components[c] += vector[c];
+    }
+
+    /// Adds a change of velocity to velocity and velocity change of a node.
+    template <int dim>
+    void add_to_velocities(const SoilAndWater<dim> &change, double *of_soil, double *of_water)
+    {
+      for (const unsigned int first : { Field<dim>::velocity, Field<dim>::velocity_change })
+        {
+          add_to(of_soil + first, change.soil);
+          add_to(of_water + first, change.water);
+        }
     }
 
     /// Another rank may see a node on which no point acts.
@@ -297,11 +303,7 @@ namespace scree
         if (pair.is_held())
           correct_at_walls(node, pair, impulses, before, soil_predicted, change, balance);
         pair.follow(change);
-        for (const unsigned int first : { Field<dim>::velocity, Field<dim>::velocity_change })
-          {
-            add_to(of_soil + first, change.soil);
-            add_to(of_water + first, change.water);
-          }
+        add_to_velocities(change, of_soil, of_water);
         const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;
         // The work of an impulse, as at walls; the classical splitting's drag knows the predicted velocities only.
         balance.drag_dissipation += 0.5 * drag * (splitting == Splitting::classical ? slip_predicted : slip) *
@@ -328,11 +330,7 @@ namespace scree
             0.5 * (walls.soil * velocity_at_start<dim>(of_soil) + walls.water * velocity_at_start<dim>(of_water));
       }
     pair.follow(change);
-    for (const unsigned int first : { Field<dim>::velocity, Field<dim>::velocity_change })
-      {
-        add_to(of_soil + first, change.soil);
-        add_to(of_water + first, change.water);
-      }
+    add_to_velocities(change, of_soil, of_water);
   }
 
   template class MixtureStep<2>;

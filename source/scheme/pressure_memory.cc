@@ -32,7 +32,7 @@ namespace scree
   template <int dim>
   void PressureMemory<dim>::fade(const FreeSurfaceLocator<dim> &surface, CornerVector &pressure)
   {
-    if (steepness == 0.)
+    if (!is_on())
       return;
     start.zero_out_ghost_values();
     for (const unsigned int corner : surface.wet_corners())
@@ -52,7 +52,7 @@ namespace scree
                                            const SpeedOfCell &difference)
   {
     constexpr double enough = 100.; // times rho v^2: p may be made by what moves
-    if (steepness == 0.)
+    if (!is_on())
       return;
     changed.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -88,7 +88,7 @@ namespace scree
   {
     constexpr double most = 0.8;
     AtCorners result{};
-    if (steepness > 0.)
+    if (is_on())
       for (unsigned int v = 0; v < result.size(); ++v)
         if (const double *sums = changed[corners_of_cell[v]]; sums[changes] > 0.)
           {

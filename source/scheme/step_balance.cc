@@ -12,7 +12,9 @@ namespace scree
     body_impulse += other.body_impulse;
     pressure_impulse += other.pressure_impulse;
     load_impulse += other.load_impulse;
+    bed_impulse += other.bed_impulse;
     wall_dissipation += other.wall_dissipation;
+    bed_dissipation += other.bed_dissipation;
     drag_dissipation += other.drag_dissipation;
     viscous_dissipation += other.viscous_dissipation;
     load_work += other.load_work;

@@ -13,6 +13,8 @@ namespace scree
         return "points to grid";
       case StepPart::nodes:
         return "nodes";
+      case StepPart::bed:
+        return "contact with the bed";
       case StepPart::pressure_system:
         return "pressure: system";
       case StepPart::pressure_solve:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -32,15 +33,28 @@ namespace scree
   }
 
 
+  std::array<double, 3> Clock::bounds(const double cell_size, const double wave_speed, const double speed) const
+  {
+    const auto over = [](const double length, const double velocity) {
+      return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
+    };
+    return { { parameters.maximum_time_step,
+               over(parameters.courant_number * cell_size, wave_speed + speed),
+               over(parameters.advection_number * cell_size, speed) } };
+  }
+
+
   double Clock::stable_step(const double cell_size, const double wave_speed, const double speed) const
   {
-    double step         = parameters.maximum_time_step;
-    const double signal = wave_speed + speed;
-    if (signal > 0)
-      step = std::min(step, parameters.courant_number * cell_size / signal);
-    if (speed > 0)
-      step = std::min(step, parameters.advection_number * cell_size / speed);
-    return step;
+    const auto all = bounds(cell_size, wave_speed, speed);
+    return *std::min_element(all.begin(), all.end());
+  }
+
+
+  StepLimit Clock::limit(const double cell_size, const double wave_speed, const double speed) const
+  {
+    const auto all = bounds(cell_size, wave_speed, speed);
+    return static_cast<StepLimit>(std::min_element(all.begin(), all.end()) - all.begin());
   }
 
 

@@ -28,16 +28,17 @@ namespace scree
                                   const CellPoints<dim> &cell,
                                   const NodalField<dim> &field,
                                   const double time_step,
+                                  const double keep,
                                   const unsigned int first)
   {
     using Layout         = PropertyLayout<dim>;
-    const double keep    = kept_velocity(method, pic_rate, time_step);
     const OpenKnots open = grid.open_knots(cell.cell);
     const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());
 
     LargestSquare largest;
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
       const BatchPointers<dim> points(cell, indices);
+      points.prefetch_properties(Layout::internal_variables);
       const BatchShape<dim, n> shape(points.places, open);
       const NodesAtPoints<dim> at_points = nodes.template at<method, true>(shape);
 
@@ -73,6 +74,7 @@ namespace scree
   MotionReport Transfer<dim>::move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
   {
     const auto &cells = body.points.cells();
+    const double keep = kept_velocity(method, pic_rate, time_step);
     MotionReport report;
     LargestSquare largest;
     CellCosts &costs = body.points.costs();
@@ -86,7 +88,7 @@ namespace scree
         unsigned int first = 0;
         for (auto cell = begin; cell != end; first += (cell++)->n_points)
           {
-            largest.include(move_cell<n, method>(body, *cell, field, time_step, first));
+            largest.include(move_cell<n, method>(body, *cell, field, time_step, keep, first));
             apply_f_bar(f_bar, first, body.material_points(*cell), motion);
           }
         update_state(body, *begin, n_points, report.material);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/tensor/matrix.h>
+#include <scree/transfer/cell_sums.h>
 #include <scree/transfer/transfer.h>
-#include <scree/transfer/velocity_transfer.h>
 
 namespace scree
 {
@@ -19,13 +19,12 @@ namespace scree
         for_each_point(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
           const double *properties = point.properties;
-          const double mass        = properties[layout.mass];
-          sums.add(
-              shape,
-              sums.mass_part(shape, mass),
-              sums.template momentum_part<method>(
-                  shape, mass, properties + layout.velocity, properties + layout.affine),
-              sums.force_part(shape, properties[layout.volume], matrix_of_components<dim>(properties + layout.stress)));
+          sums.template add<method>(shape,
+                                    properties[layout.mass],
+                                    properties + layout.velocity,
+                                    properties + layout.affine,
+                                    properties[layout.volume],
+                                    matrix_of_components<dim>(properties + layout.stress));
         });
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);

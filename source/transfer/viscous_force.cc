@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/tensor/invariants.h>
+#include <scree/transfer/cell_sums.h>
 #include <scree/transfer/viscous_force.h>
 
 #include <algorithm>
@@ -115,7 +116,7 @@ namespace scree
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
                   gradient[c][d] = at_points.gradient[c * dim + d][l];
-              sums.add(shape, sums.force_part(shape, coefficient[indices[l]], twice_deviatoric_rate(gradient)));
+              sums.add_force(shape, coefficient[indices[l]], twice_deviatoric_rate(gradient));
             }
         });
         coefficient = end;

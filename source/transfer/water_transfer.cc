@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/points/batch_pointers.h>
+#include <scree/transfer/cell_sums.h>
 #include <scree/transfer/pore_velocity.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -104,8 +105,8 @@ namespace scree
         }
     }
 
-    /// Value, Pa, and gradient, Pa/m, of a cell's pressure at places in it, and what the next step forgets of it: 2 +
-    /// dim batches.
+    /// Value, Pa, and gradient, Pa/m, of a cell's pressure at places in it, and, if anything, what the next step
+    /// forgets of it: 1 or 2 + dim batches.
     template <int dim>
     void
     find_pressure(const CellPressure<dim> &pressure, const std::array<Batch, dim> &x, const double width, Batch *result)
@@ -119,8 +120,9 @@ namespace scree
           value += function[m] * powers[m];
         return value;
       };
-      result[0]       = value_of(pressure.value);
-      result[1 + dim] = value_of(pressure.forgotten);
+      result[0] = value_of(pressure.value);
+      if (pressure.forgotten)
+        result[1 + dim] = value_of(*pressure.forgotten);
       for (unsigned int a = 0; a < dim; ++a)
         {
           Batch slope{};
@@ -236,16 +238,13 @@ namespace scree
           mixture.find_porosities(record);
         MixtureCell<dim> totals = mixture.cells()[record];
         CellSums<dim, n> sums(width);
-        NodeRow volume_before[n_rows]; // of water that rides on another body's points in this cell
-        for (unsigned int r = 0; r < n_rows; ++r)
-          volume_before[r] = moments[r * Mixture<dim>::n_moments];
         NodeRow grains_about[n_rows] = {};
 
         for_each_point(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
-          sums.add(shape, sums.template momentum_part<method>(shape, mass, properties + layout.velocity, affine));
+          sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
           add_moments(shape, volume, moments);
           if (porosity != nullptr)
             add_row_sums(shape, volume * (porosity->inverse_at(shape.x) - 1.), grains_about);
@@ -258,9 +257,6 @@ namespace scree
         });
         mixture.cells()[record] = totals;
 
-        // The density of water is one for all points: mass follows from the volume's moments.
-        for (unsigned int r = 0; r < n_rows; ++r)
-          sums.mass(r) = water.density * (moments[r * Mixture<dim>::n_moments] - volume_before[r]);
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
         if (porosity != nullptr)
@@ -278,15 +274,17 @@ namespace scree
                                         const ForgottenOfCell<dim> &corner_forgotten,
                                         const double time_step) const
   {
+    const double keep = kept_velocity(method, pic_rate, time_step);
     LargestSquare largest;
     CellCosts &costs = water.points().costs();
     costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
-        const CellPressure<dim> pressure{ multilinear_of<dim>(corner_pressure(cell.cell)),
-                                          multilinear_of<dim>(corner_forgotten(cell.cell)) };
+        CellPressure<dim> pressure{ multilinear_of<dim>(corner_pressure(cell.cell)), {} };
+        if (corner_forgotten)
+          pressure.forgotten = multilinear_of<dim>(corner_forgotten(cell.cell));
         largest.include(
-            move_cell<n, method>(water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step));
+            move_cell<n, method>(water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step, keep));
         if (const SoilBody<dim> *soil = water.carrier())
           for_each_point(cell, [&](const auto &point) {
             double &volume                      = point.properties[water.layout.volume];
@@ -306,9 +304,9 @@ namespace scree
                                        const MixtureNodes<dim> &nodes,
                                        const PorosityOfParts<dim> *porosity,
                                        const CellPressure<dim> &pressure,
-                                       const double time_step) const
+                                       const double time_step,
+                                       const double keep) const
   {
-    const double keep       = kept_velocity(method, pic_rate, time_step);
     const double width      = grid.cell_size();
     const auto &layout      = water.layout;
     const OpenKnots open    = grid.open_knots(cell.cell);
@@ -344,7 +342,10 @@ namespace scree
         }
       // The slots of the gradient and of what is forgotten are behind the pressure.
       find_pressure<dim>(pressure, shape.x, width, pressure_there);
-      simd::store_records<2 + dim>(pressure_there, points.slots_at(layout.pressure));
+      if (pressure.forgotten)
+        simd::store_records<2 + dim>(pressure_there, points.slots_at(layout.pressure));
+      else
+        simd::store_records<1 + dim>(pressure_there, points.slots_at(layout.pressure));
     });
     return largest.value;
   }

@@ -2,20 +2,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """probes.py SCREE LAUNCHER TEST: what probes write, on one rank and two, and after a resume; drawn by render.py.
 
-Each test is a function below; it works in the current folder. LAUNCHER is "mpirun -np" or alike.
+Each test is a function below (case_tools.py).
 """
 
 import pathlib
-import subprocess
 import sys
 
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "doc"))
-import render  # noqa: E402
+from case_tools import HERE, check, run
 
-SCREE, LAUNCHER = sys.argv[1], sys.argv[2].split()
+import render  # of doc/, which case_tools has put on the path
+
 DRY = (HERE / "probes.prm").read_text(encoding="utf-8")
 WATER = """
 subsection Water
@@ -27,20 +25,6 @@ subsection Water
 end
 """
 FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front", "walls")]
-
-
-def run(folder, text, *options, ranks=1):
-    """Runs the case in a folder; returns its run folder."""
-    pathlib.Path(folder).mkdir(exist_ok=True)
-    pathlib.Path(folder, "case.prm").write_text(text, encoding="utf-8")
-    command = [*LAUNCHER, str(ranks)] if ranks > 1 else []
-    subprocess.run([*command, SCREE, "case.prm", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    return pathlib.Path(folder, "results")
-
-
-def check(fact, text):
-    if not fact:
-        sys.exit("FAILED: " + text)
 
 
 def compare(first, second, tolerance):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""scripts.py DOC SCREE ELEMENT: what variants.py, plot_element.py and render.py say of wrong arguments, and which pictures they write."""
+"""scripts.py DOC SCREE ELEMENT: what variants.py, plot_element.py, render.py and relief.py say of wrong arguments, and which pictures they write."""
 
 import os
 import pathlib
@@ -98,12 +98,23 @@ def check_render(scripts):
     scripts.refuses("^render.py: .*water.*vtu is not there", "render.py", "run", "--collection", "water", "--field", "mass")
 
 
+def check_relief(scripts):
+    scripts.refuses("^relief.py: .*nowhere", "relief.py", "nowhere")
+    scripts.refuses("^relief.py: .*run/maps/deposit.asc", "relief.py", "run", "--maps", "deposit")
+    pathlib.Path("run/maps").mkdir()
+    grid = pathlib.Path("run/maps/deposit.asc")
+    grid.write_text("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\n0 1\n2\n", encoding="utf-8")
+    scripts.refuses("^relief.py: run/maps/deposit.asc is no ESRI ASCII grid", "relief.py", "run", "--maps", "deposit")
+    grid.write_text(grid.read_text(encoding="utf-8") + "3\n", encoding="utf-8")
+    scripts.writes(["run/relief.png"], "relief.py", "run", "--maps", "deposit")
+
+
 def check_interpreter(scripts):
     """A Python without the modules names the one that has them."""
     bare = pathlib.Path("bare_python")
     bare.write_text("#!/bin/sh\nexec /usr/bin/python3 -I -S \"$@\"\n", encoding="utf-8")  # -S: no installed packages
     bare.chmod(0o755)
-    for script in ("render.py", "plot_element.py"):
+    for script in ("render.py", "plot_element.py", "relief.py"):
         scripts.refuses(f"^{script}: .* has no module .*: start this with /usr/bin/python3", script, "run", interpreter="./bare_python")
     readme = pathlib.Path(scripts.doc).parent / "README.md"
     for word in re.findall(r"\S*python3 \S+", readme.read_text(encoding="utf-8")):
@@ -124,6 +135,7 @@ def main():
     check_variants(scripts)
     check_plot_element(scripts)
     check_render(scripts)
+    check_relief(scripts)
     check_interpreter(scripts)
     print("\n".join(scripts.faults) or "all as they should be")
     sys.exit(bool(scripts.faults))

@@ -104,8 +104,9 @@ void test(std::ostream &out)
   for (const double size : { dim == 2 ? 18.875 : 4.125, dim == 2 ? 37.625 : 8.875 })
     {
       const double place = 1.25;
-      BackgroundGrid<dim> grid(
-          box<dim>(size), [&](const Point<dim> &corner) { return is_in_cubes(corner, place); }, MPI_COMM_WORLD);
+      BackgroundGrid<dim> grid(box<dim>(size),
+                               { [&](const Point<dim> &corner) { return is_in_cubes(corner, place); }, nullptr, 1 },
+                               MPI_COMM_WORLD);
       describe(grid, out);
       for (const double next : { size - 1. - 4 * width, place })
         {

@@ -5,7 +5,9 @@
 
 #include <scree/material/batch_material.h>
 #include <scree/material/linear_elastic.h>
+#include <scree/material/mohr_coulomb_return.h>
 #include <scree/material/nor_sand_return.h>
+#include <scree/material/principal_batch_material.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -177,11 +179,11 @@ void test_places(const Material<dim> &material,
 }
 
 
-template <int dim, typename Law>
+template <int dim, template <int, typename> class Batches = BatchMaterial, typename Law>
 void test(const Law &law, const Kind &kind, const unsigned int n, const double bound, RandomNumbers &random)
 {
   const HenckyMaterial<dim, Law> one_by_one(law);
-  const BatchMaterial<dim, Law> in_batches(law);
+  const Batches<dim, Law> in_batches(law);
   const std::string name = std::to_string(dim) + "D, " + kind.name;
 
   States<dim> start(n);
@@ -220,13 +222,32 @@ void test_laws(const unsigned int n, RandomNumbers &random)
 }
 
 
-/// Denormal numbers, exact unity, and one point alone.
 template <int dim>
-void test_odd()
+void test_mohr_coulomb(const unsigned int n, RandomNumbers &random)
 {
-  const NorSand law{ NorSandParameters() };
-  const HenckyMaterial<dim, NorSand> one_by_one(law);
-  const BatchMaterial<dim, NorSand> in_batches(law);
+  const auto test_law = [&](const MohrCoulombParameters &parameters, const Kind &kind) {
+    test<dim, PrincipalBatchMaterial>(MohrCoulomb(parameters), kind, n, 1e-8, random);
+  };
+  MohrCoulombParameters parameters;
+  test_law(parameters, { "Mohr-Coulomb, inside the yield surface", 1e-9, 1e-6, 1e4, 1e6, 0.3, 1, 0 });
+  test_law(parameters, { "Mohr-Coulomb, faces, edges, pulled apart", 1e-5, 0.01, 1e2, 1e5, 0.8, 1, 0.1 });
+  test_law(parameters, { "Mohr-Coulomb, nearly isotropic", 1e-12, 1e-3, 1e3, 1e5, 1e-9, 1, 0 });
+  parameters.dilation_angle = 15;
+  parameters.cohesion       = 1e3;
+  test_law(parameters, { "Mohr-Coulomb, psi, c, no tension", 1e-5, 0.01, 1e2, 1e5, 0.8, 1, 0.1 });
+  parameters.tension_cut_off = 500;
+  test_law(parameters, { "Mohr-Coulomb, cut-off", 1e-6, 0.01, 1e2, 1e4, 0.8, 1, 0.1 });
+  parameters.friction_angle = parameters.dilation_angle = 0;
+  test_law(parameters, { "Mohr-Coulomb, no friction", 1e-6, 0.01, 1e2, 1e3, 1, 1, 0.1 });
+}
+
+
+/// Denormal numbers, exact unity, and one point alone.
+template <int dim, template <int, typename> class Batches, typename Law>
+void test_odd(const Law &law)
+{
+  const HenckyMaterial<dim, Law> one_by_one(law);
+  const Batches<dim, Law> in_batches(law);
   States<dim> start(3);
   for (unsigned int p = 0; p < 3; ++p)
     {
@@ -244,6 +265,14 @@ void test_odd()
   for (unsigned int p = 0; p < 3; ++p)
     batch.update(in_batches, slots, p, 1);
   AssertThrow(difference(one, batch) < 1e-12, ExcMessage("odd states"));
+}
+
+
+template <int dim>
+void test_odd()
+{
+  test_odd<dim, BatchMaterial>(NorSand{ NorSandParameters() });
+  test_odd<dim, PrincipalBatchMaterial>(MohrCoulomb{ MohrCoulombParameters() });
   std::cout << dim << "D, odd states: OK" << std::endl;
 }
 
@@ -254,6 +283,8 @@ int main(int n_arguments, char **arguments)
   RandomNumbers random;
   test_laws<2>(n, random);
   test_laws<3>(n, random);
+  test_mohr_coulomb<2>(n, random);
+  test_mohr_coulomb<3>(n, random);
   test_odd<2>();
   test_odd<3>();
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Handing points over: places in cells, cells and ranks come out as deal.II's own sort leaves them, to the last digit,
-// whether points stay in their cells, change cells and ranks, or leave the mesh; cells are in order; and while few
-// change cells, nothing moves in memory.
+// whether points stay in their cells, change cells and ranks, fly through several cells or leave the mesh; cells are in
+// order; the own lists are those of the handler, point by point; while few change cells, nothing moves in memory; and
+// neither deal.II's sort nor lifting the points off the mesh changes the order of points in a cell.
 
 #include "random_numbers.h"
 
@@ -86,6 +87,40 @@ void test(std::ostream &out)
     for (unsigned int c = 0; c < std::min(points.cells().size(), peer.cells().size()); ++c)
       n_differences += points.cells()[c].cell != peer.cells()[c].cell;
   };
+  // What the set lists of a cell is what the handler lists, in the same order.
+  unsigned int n_cells_of_one_point = 0, n_cells_emptied = 0;
+  std::vector<unsigned int> n_points_before(mesh.n_active_cells(), 0);
+  const auto compare_lists = [&] {
+    std::vector<unsigned int> n_points_of(mesh.n_active_cells(), 0);
+    std::vector<const CellPoints<dim> *> of_cell(mesh.n_active_cells(), nullptr);
+    for (const CellPoints<dim> &cell : points.cells())
+      of_cell[cell.cell] = &cell;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int index = cell->active_cell_index(), n = points.handler().n_particles_in_cell(cell);
+          n_points_of[index] = n;
+          n_cells_of_one_point += n == 1;
+          n_cells_emptied += n == 0 && n_points_before[index] > 0;
+          n_differences += (of_cell[index] == nullptr ? 0 : of_cell[index]->n_points) != n;
+          if (of_cell[index] == nullptr || of_cell[index]->n_points != n)
+            continue;
+          const std::vector<types::particle_index> ids = points.ids(of_cell[index] - points.cells().data());
+          unsigned int p                               = 0;
+          for (const auto &point : points.handler().particles_in_cell(cell))
+            {
+              n_differences += of_cell[index]->slots[p] != point.get_local_index() || ids[p] != point.get_id();
+              ++p;
+            }
+        }
+    n_points_before = n_points_of;
+  };
+  // The points' numbers, cell by cell.
+  const auto order = [&] {
+    std::vector<double> numbers;
+    for_each_point(points, [&](const auto &point) { numbers.push_back(*point.properties); });
+    return numbers;
+  };
   const auto place_in_memory = [&] { return points.cells().empty() ? nullptr : points.cells().front().locations; };
 
   const auto walk = [&](const unsigned int n_steps, const double most) {
@@ -98,9 +133,20 @@ void test(std::ostream &out)
         peer.sort();
         n_steps_in_place += place_in_memory() == before; // deal.II's sort writes to new memory
         compare();
+        compare_lists();
+        if (step % 3 == 2)
+          {
+            const std::vector<double> order_before = order();
+            points.sort();
+            n_differences += order() != order_before;
+            points.lift();
+            n_differences += points.n_points();
+            points.put_down();
+            n_differences += order() != order_before;
+            compare_lists();
+          }
       }
-    out << Utilities::MPI::sum(n_differences, MPI_COMM_WORLD) << " differences, in place "
-        << Utilities::MPI::min(n_steps_in_place, MPI_COMM_WORLD) << " of " << n_steps << " steps, "
+    out << Utilities::MPI::sum(n_differences, MPI_COMM_WORLD) << " differences, "
         << points.handler().n_global_particles() << " points, "
         << Utilities::MPI::sum(points.lost().size(), MPI_COMM_WORLD) << " lost" << std::endl;
   };
@@ -108,10 +154,13 @@ void test(std::ostream &out)
   out << dim << "D" << std::endl;
   out << "stay in their cells: ";
   walk(10, 0.001);
+  AssertThrow(n_steps_in_place == 10, ExcMessage("Records moved for nothing."));
   out << "change cells and ranks: ";
   walk(10, 0.01);
   out << "leave the mesh, too: ";
   walk(10, 0.04);
+  out << "fly through several cells: ";
+  walk(3, 0.25);
 
   // Points that were taken out and put back lie in memory as they came.
   points.handler().prepare_for_coarsening_and_refinement();
@@ -122,8 +171,13 @@ void test(std::ostream &out)
   points.sort();
   peer.sort();
   compare();
+  n_points_before.assign(mesh.n_active_cells(), 0);
   out << "after a repartition: ";
   walk(10, 0.01);
+  // The walks must reach what they are for.
+  AssertThrow(Utilities::MPI::sum(n_cells_of_one_point, MPI_COMM_WORLD) > 0 &&
+                  Utilities::MPI::sum(n_cells_emptied, MPI_COMM_WORLD) > 0,
+              ExcMessage("No cell of one point, or none that emptied"));
 }
 
 int main(int argc, char *argv[])

@@ -3,11 +3,11 @@
 #define scree_grid_background_grid_h
 
 #include <scree/grid/node_numbering.h>
+#include <scree/grid/occupied_blocks.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/fe/mapping_cartesian.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,10 +49,6 @@ namespace scree
     even  ///< all ranks get about as many
   };
 
-  /// Whether points lie in the cell of the box with this lower corner, m.
-  template <int dim>
-  using HoldsPoints = std::function<bool(const dealii::Point<dim> &corner)>;
-
   /// The background mesh and the nodes of the velocity.
   ///
   /// Cells are fine, of the size that the user asks for, where points are and some way around; the others are larger,
@@ -66,7 +62,7 @@ namespace scree
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator);
 
     /// Fine cells where points are; everywhere if the parameters say so or the box has few cells. Collective.
-    BackgroundGrid(const GridParameters &parameters, const HoldsPoints<dim> &holds_points, const MPI_Comm communicator);
+    BackgroundGrid(const GridParameters &parameters, const PlacesOfPoints<dim> &places, const MPI_Comm communicator);
 
     /// Builds the nodes for the current mesh and partition. Collective; called again after a repartition and after
     /// refine().
@@ -169,12 +165,6 @@ namespace scree
   private:
     /// Without fine cells.
     BackgroundGrid(const GridParameters &parameters, const unsigned int n_levels, const MPI_Comm communicator);
-
-    /// Blocks along each axis of the box.
-    CellPlace<dim> n_blocks() const;
-
-    /// This rank's share of the blocks in which cells hold points. Throws what `holds_points` throws, on all ranks.
-    Blocks occupied_blocks(const HoldsPoints<dim> &holds_points) const;
 
     /// Flags cells for the next step to these blocks; returns whether any rank refines.
     bool set_flags(const Blocks &blocks);

@@ -26,14 +26,14 @@ namespace scree
     void reinit();
 
     /// The same, with nodes at which soil does not move from here on.
-    /// @param is_rigid of the owned nodes; empty: none
+    /// @param is_rigid of the nodes of this rank's cells, ghosts included; empty: none
     void hold_soil(const std::vector<char> &is_rigid);
 
     /// Soil and water do not move at the nodes in this region until the gate is opened.
     void close_gate(std::unique_ptr<Region<dim>> region);
     void open_gate();
 
-    /// Those of an owned node; null where there are none.
+    /// Those of a node of this rank's cells; null where there are none.
     const NodeConstraints<dim> *at(const unsigned int node) const
     {
       const unsigned int set = set_of_node[node];
@@ -56,9 +56,9 @@ namespace scree
     const WaterBoundaryConditions<dim> *water_walls;
     const bool is_unilateral;
     std::unique_ptr<Region<dim>> gate;
-    std::vector<char> rigid; // by owned node; empty: none
+    std::vector<char> rigid; // by node; empty: none
 
-    std::vector<unsigned int> set_of_node; // by owned node
+    std::vector<unsigned int> set_of_node; // by node, ghosts included
     std::vector<NodeConstraints<dim>> sets;
   };
 } // namespace scree

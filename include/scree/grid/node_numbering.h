@@ -28,8 +28,8 @@ namespace scree
   /// act on it. Nodes are numbered compactly: [0, n_owned()) are this rank's, then come the ghosts.
   ///
   /// Along an axis cell i of the box has the nodes s i, s i + 1 (, s i + 2), with s = 2 for the quadratic basis and 1
-  /// else. A node lives in the cell (j - 1) / s, whose rank owns it. Where that cell is not fine, the node is one of this
-  /// rank alone: no points may act on it, see CellUse::edge.
+  /// else. A node lives in the cell (j - 1) / s, whose rank owns it. Where that cell is not fine, the node is one of
+  /// this rank alone: no points may act on it, see CellUse::edge.
   template <int dim>
   class NodeNumbering
   {
@@ -79,6 +79,12 @@ namespace scree
       return distribution->locally_owned_size();
     }
 
+    /// Nodes of this rank's cells, ghosts included.
+    unsigned int n_local() const
+    {
+      return positions.size();
+    }
+
     /// The distribution of nodes over ranks.
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner() const
     {
@@ -106,8 +112,8 @@ namespace scree
     static constexpr unsigned int none = FineCells<dim>::none;
 
     /// Node `i` of a cell: the place of the cell it lives in, and which one of that cell's it is.
-    std::pair<CellPlace<dim>, unsigned int> home(const CellPlace<dim> &cell, const unsigned int i, const CellPlace<dim> &n)
-        const;
+    std::pair<CellPlace<dim>, unsigned int>
+    home(const CellPlace<dim> &cell, const unsigned int i, const CellPlace<dim> &n) const;
 
     /// Numbers the nodes that live in this rank's cells, from 0.
     Homes number_own(const FineCells<dim> &cells, unsigned int &n_owned) const;
@@ -117,7 +123,8 @@ namespace scree
 
     /// The numbers on all ranks of the nodes of this rank's cells, by active cell index.
     /// @param homes with the numbers of this rank's nodes that live in its cells
-    std::vector<dealii::types::global_dof_index> number_all(const FineCells<dim> &cells, Homes &homes, unsigned int n_owned);
+    std::vector<dealii::types::global_dof_index>
+    number_all(const FineCells<dim> &cells, Homes &homes, unsigned int n_owned);
 
     /// Fills what is known of nodes and cells.
     /// @param global_nodes of owned cells, in the order of `cell_nodes`

@@ -36,6 +36,7 @@ namespace scree
   class MohrCoulomb
   {
   public:
+    static constexpr unsigned int n_internal_variables     = 1;
     static constexpr bool is_elastic                       = false;
     static constexpr bool has_pressure_dependent_stiffness = false;
 
@@ -63,6 +64,11 @@ namespace scree
                         PrincipalValues &stress,
                         UpdateReport &report) const;
 
+    /// The same of a point or of a Batch of them; see law.h.
+    template <typename Number>
+    PrincipalResponse<Number>
+    respond(PrincipalNumbers<Number> &strain, Number *internal_variables, PrincipalNumbers<Number> &stress) const;
+
     /// See Material::initialise(). Throws if the stress is outside the yield surface.
     void initialise(const PrincipalValues &wanted_stress,
                     PrincipalValues &strain,
@@ -77,7 +83,8 @@ namespace scree
                 double *values) const;
 
     /// Largest of all yield functions, Pa; negative inside.
-    double yield(const PrincipalValues &stress) const;
+    template <typename Number>
+    Number yield(const PrincipalNumbers<Number> &stress) const;
 
   private:
     /// A plane of the yield surface, normal . tau <= limit, and its flow direction.
@@ -96,14 +103,31 @@ namespace scree
 
     void add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit);
     void add_active_set(const std::vector<unsigned int> &surfaces);
-    bool return_to(const ActiveSet &set, const PrincipalValues &trial, PrincipalValues &stress) const;
-    Response plastic_return(const PrincipalValues &trial,
-                            PrincipalValues &strain,
-                            double *internal_variables,
-                            PrincipalValues &stress,
-                            UpdateReport &report) const;
+
+    /// How far a sorted stress is beyond a surface, Pa.
+    template <typename Number>
+    static Number excess(const Surface &surface, const PrincipalNumbers<Number> &stress);
+
+    /// Whether a sorted trial stress returns to the surfaces of a set, and to what stress, to a tolerance in Pa.
+    template <typename Number>
+    simd::Mask<Number> return_to(const ActiveSet &set,
+                                 const PrincipalNumbers<Number> &trial,
+                                 const Number &tolerance,
+                                 PrincipalNumbers<Number> &stress) const;
+
+    /// Returns a sorted stress of the points `todo`; those that meet no set of surfaces stay in it.
+    template <typename Number>
+    void return_sorted(PrincipalNumbers<Number> &stress, simd::Mask<Number> &todo) const;
+
+    /// The return of the points that yield, from trial strain and stress.
+    template <typename Number>
+    void plastic_return(PrincipalNumbers<Number> &strain,
+                        Number *internal_variables,
+                        PrincipalNumbers<Number> &stress,
+                        PrincipalResponse<Number> &response) const;
 
     const LinearElastic elastic;
+    const double shear;  // Pa
     const double bulk;   // Pa
     const double vertex; // tau of the vertex, Pa
     const bool cohesionless;
@@ -119,28 +143,31 @@ namespace scree
   }
 
 
-  inline double MohrCoulomb::yield(const PrincipalValues &stress) const
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::yield(const PrincipalNumbers<Number> &stress) const
   {
-    const double largest  = std::max(stress[0], std::max(stress[1], stress[2]));
-    const double smallest = std::min(stress[0], std::min(stress[1], stress[2]));
+    const Number largest  = simd::max<Number>(stress[0], simd::max<Number>(stress[1], stress[2]));
+    const Number smallest = simd::min<Number>(stress[0], simd::min<Number>(stress[1], stress[2]));
     const Surface &shear  = surfaces[0];
-    return std::max(shear.normal[0] * largest + shear.normal[2] * smallest - shear.limit,
-                    largest - largest_principal_stress);
+    return simd::max<Number>(shear.normal[0] * largest + shear.normal[2] * smallest - shear.limit,
+                             largest - largest_principal_stress);
   }
 
 
-  inline Response MohrCoulomb::return_map(PrincipalValues &strain,
-                                          double *internal_variables,
-                                          const double volume_ratio,
-                                          PrincipalValues &stress,
-                                          UpdateReport &report) const
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline PrincipalResponse<Number> MohrCoulomb::respond(PrincipalNumbers<Number> &strain,
+                                                                              Number *internal_variables,
+                                                                              PrincipalNumbers<Number> &stress) const
   {
-    PrincipalValues trial;
-    elastic.return_map(strain, nullptr, volume_ratio, trial, report);
-    if (yield(trial) > 0)
-      return plastic_return(trial, strain, internal_variables, stress, report);
-    stress = trial;
-    return Response::elastic;
+    const Number volume_part = (bulk - 2. / 3. * shear) * (strain[0] + strain[1] + strain[2]);
+    for (unsigned int i = 0; i < 3; ++i)
+      stress[i] = volume_part + 2 * shear * strain[i];
+
+    PrincipalResponse<Number> response{};
+    response.is_plastic = yield<Number>(stress) > 0.;
+    if (simd::any(response.is_plastic))
+      plastic_return(strain, internal_variables, stress, response);
+    return response;
   }
 } // namespace scree
 

@@ -2,7 +2,7 @@
 #ifndef scree_output_measures_h
 #define scree_output_measures_h
 
-#include <scree/grid/background_grid.h>
+#include <scree/grid/sampled_surface.h>
 #include <scree/points/soil_body.h>
 #include <scree/points/water_phase.h>
 
@@ -24,6 +24,12 @@ namespace scree
                                        const BackgroundGrid<dim> &grid,
                                        const unsigned int axis,
                                        const std::vector<double> &fractions);
+
+  /// Least distance of a point from the surface, m; three cells if none is nearer. Collective.
+  template <int dim>
+  double least_distance(const std::list<SoilBody<dim>> &bodies,
+                        const SampledSurface<dim> &surface,
+                        const MPI_Comm communicator);
 
   /// Kinetic energy of soil and water over elastic energy of the soil; infinite without elastic energy. Collective.
   template <int dim>

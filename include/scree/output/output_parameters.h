@@ -24,6 +24,18 @@ namespace scree
     points_and_grid
   };
 
+  /// Subsection Maps of subsection Output.
+  struct MapParameters
+  {
+    bool write             = false;
+    double least_thickness = 0; ///< m, of soil that counts as having arrived
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at maps of a scene that has none.
+    void check(const unsigned int dim, const bool has_soil) const;
+  };
+
   /// Subsection Output.
   struct OutputParameters
   {
@@ -34,6 +46,7 @@ namespace scree
     std::string checkpoint_failure = "stop";
     std::string graphics           = "points and grid";
     std::string screen             = "progress";
+    MapParameters maps;
 
     void add_parameters(dealii::ParameterHandler &prm);
 

@@ -3,6 +3,7 @@
 #define scree_output_progress_h
 
 #include <scree/output/run_folder.h>
+#include <scree/scheme/time_step.h>
 
 #include <deal.II/base/timer.h>
 
@@ -17,11 +18,20 @@ namespace scree
     /// Writes a line if the last one is some seconds old, or at the end.
     void report(const double time, const unsigned long long step, const double time_step);
 
-    /// Writes the table of seconds by part, and ns per point and step.
+    /// Counts a step by what bounds it.
+    void count(const StepLimit limit)
+    {
+      ++counts[static_cast<unsigned int>(limit)];
+    }
+
+    /// Writes the table of seconds by part, and ns per point and step; before that how many steps a second of motion
+    /// takes, what bounded them, and how long it takes to compute.
+    /// @param time s, of the end
     /// @param parts timed sections of this rank
     /// @param point_updates points times steps, of all ranks
     /// @param point what is counted as one: "soil or water point" where there is water
-    void summarise(const dealii::TimerOutput &parts,
+    void summarise(const double time,
+                   const dealii::TimerOutput &parts,
                    const double point_updates,
                    const unsigned int n_ranks,
                    const std::string &point = "point");
@@ -36,10 +46,14 @@ namespace scree
                          const MPI_Comm communicator);
 
   private:
+    /// Writes what summarise() says before the table.
+    void summarise_steps(const double time);
+
     RunFolder &folder;
     const double start_time, end_time;
     dealii::Timer clock;
-    double last_line = 0; // wall time, s
+    double last_line  = 0; // wall time, s
+    StepCounts counts = {};
   };
 } // namespace scree
 

@@ -22,7 +22,7 @@ namespace scree
     /// Collective; throws EntryError on all ranks if it is not writable, or if another run writes there.
     RunFolder(const std::string &path, const bool to_screen, const MPI_Comm communicator);
 
-    /// Removes log, rows, pictures and checkpoints of an earlier run. Collective.
+    /// Removes log, rows, pictures, maps and checkpoints of an earlier run. Collective.
     void remove_old_results();
 
     /// Writes a file of the folder with the given text, see write_whole_file().

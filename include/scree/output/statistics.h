@@ -44,9 +44,11 @@ namespace scree
   };
 
   /// What there are columns for besides those of all scenes.
+  template <int dim>
   struct FurtherColumns
   {
     bool loads = false, volume_correction = false, viscosity = false;
+    const SampledSurface<dim> *bed = nullptr;
   };
 
   /// The rows of the file `statistics`: global numbers at each due time.
@@ -54,7 +56,9 @@ namespace scree
   class Statistics
   {
   public:
-    Statistics(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const FurtherColumns further);
+    Statistics(const BackgroundGrid<dim> &grid,
+               const dealii::Tensor<1, dim> &gravity,
+               const FurtherColumns<dim> &further);
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
@@ -93,6 +97,7 @@ namespace scree
                           const PointSums<dim> &now,
                           const RunTotals<dim> &totals,
                           const UpdateReport &last_step);
+    void add_bed_columns(const std::list<SoilBody<dim>> &bodies, const StepBalance<dim> &balance);
     void add_water_columns(const std::list<SoilBody<dim>> &bodies,
                            const std::list<WaterPhase<dim>> &water,
                            const PointSums<dim> &now,
@@ -102,7 +107,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
-    const FurtherColumns further;
+    const FurtherColumns<dim> further;
     bool has_start = false;
     dealii::Tensor<1, dim> start_momentum;
     double start_energy                   = 0;

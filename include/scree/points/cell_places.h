@@ -66,6 +66,15 @@ namespace scree
       return inside;
     }
 
+    /// Blocks of 2^dim cells along each axis.
+    CellPlace<dim> n_blocks() const
+    {
+      CellPlace<dim> blocks;
+      for (unsigned int a = 0; a < dim; ++a)
+        blocks[a] = (n[a] + 1) / 2;
+      return blocks;
+    }
+
     double n_cells() const
     {
       double product = 1;

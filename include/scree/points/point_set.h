@@ -3,6 +3,7 @@
 #define scree_points_point_set_h
 
 #include <scree/points/cell_costs.h>
+#include <scree/points/cell_table.h>
 #include <scree/points/cell_use.h>
 
 #include <deal.II/base/point.h>
@@ -186,28 +187,36 @@ namespace scree
     }
 
   private:
-    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
+    using CellIterator = typename CellTable<dim>::Iterator;
 
     /// A cell with points.
-    struct Cell
+    struct FilledCell
     {
-      explicit Cell(const CellIterator &iterator);
-
-      bool operator<(const Cell &other) const
-      {
-        return number < other.number || (number == other.number && index < other.index);
-      }
-
-      std::uint64_t number; // of the cell on the curve through the mesh
-      unsigned int index;   // active cell index
-      CellIterator iterator;
+      std::uint64_t number;  // of the cell on the curve through the mesh
+      unsigned int in_table; // its number there
+      unsigned int n_points;
     };
 
     /// A point that is no longer in its cell.
     struct Leaver
     {
-      CellIterator from, to;
+      unsigned int from;  // number in the list of filled cells
       unsigned int point; // number in the cell
+      unsigned int to;    // number in the table
+    };
+
+    /// A point that has come into a cell since cells() was made.
+    struct Entrant
+    {
+      bool operator<(const Entrant &other) const
+      {
+        return number < other.number || (number == other.number && turn < other.turn);
+      }
+
+      std::uint64_t number;  // of the cell, as above
+      unsigned int turn;     // among all entrants
+      unsigned int in_table; // the cell's number there
+      unsigned int slot;
     };
 
     /// What a point carries from cell to cell or rank to rank.
@@ -220,10 +229,20 @@ namespace scree
     /// the cells of all were found.
     bool set_places();
 
-    /// Hands a point on: into its cell, or among the emigrants.
-    void move(const Leaver &leaver);
+    /// Takes a point out of the handler's and the own lists.
+    void take_out(const Leaver &leaver, Record &record);
 
-    void insert(const CellIterator &cell, const Record &record);
+    /// Puts it into the cell with this number in the table, or among the emigrants.
+    void hand_on(const unsigned int to, Record &record);
+
+    /// Gives the handler a point of the cell with this number in the table; returns its slot.
+    unsigned int insert_into(const unsigned int number,
+                             const dealii::Point<dim> &location,
+                             const dealii::types::particle_index id,
+                             const dealii::ArrayView<const double> &properties);
+
+    /// The same with a point that becomes an entrant.
+    void insert(const unsigned int number, const Record &record);
 
     /// Sends and receives emigrants. Collective.
     void exchange();
@@ -231,18 +250,35 @@ namespace scree
     /// Takes out the points in cells beyond the walls.
     void lose_points_outside();
 
-    /// Makes cells() from the handler: all of it, or where cells filled or emptied since.
+    /// Lists filled cells and their slots anew, as the handler has them.
     void list_all_cells();
-    void list_cells();
+
+    /// Puts the entrants into the lists and drops empty cells.
+    void update_lists();
+
+    /// Appends a cell with `n` of its slots and those entrants from `entrant` on that are its own to the new lists;
+    /// returns the first one that is not.
+    const Entrant *
+    append_cell(const FilledCell &cell, const unsigned int *first_slot, const Entrant *entrant, const Entrant *end);
+
+    /// Makes cells() from the lists.
+    void point_to_records();
 
     const dealii::Triangulation<dim> &mesh;
     const unsigned int n_properties;
     dealii::Particles::ParticleHandler<dim> particle_handler;
-    std::vector<Cell> filled, newly_filled;
-    std::vector<unsigned int> slots; // of all points, cell by cell
+    CellTable<dim> table;
+    boost::signals2::scoped_connection refinement_signal, repartition_signal;
+
+    // The same points in the same order as in the handler's lists.
+    std::vector<FilledCell> filled, new_filled;
+    std::vector<unsigned int> slots, new_slots; // of all points, cell by cell
     std::vector<CellPoints<dim>> cell_list;
     std::vector<ConstCellPoints<dim>> const_cell_list; // the same cells
+
     std::vector<Leaver> leavers;
+    std::vector<Entrant> entrants;
+    std::vector<Record> carried;                           // the leavers, between two cells
     std::map<unsigned int, std::vector<Record>> emigrants; // by rank
     std::size_t n_moved = 0;                               // points that changed cells since the last sort()
     std::vector<LostPoint<dim>> lost_points;

@@ -18,22 +18,30 @@ namespace scree
     static constexpr unsigned int stress             = left_cauchy_green + n_symmetric_components<dim>; ///< Cauchy, Pa
     static constexpr unsigned int internal_variables = stress + n_symmetric_components<dim>; ///< as the law says
     unsigned int affine;                                                                     ///< dim x dim, row-major
-    unsigned int start; ///< location at the start of the run, m, dim
-    bool has_start;     ///< whether points keep it
+    unsigned int start;             ///< location at the start of the run, m, dim
+    bool has_start;                 ///< whether points keep it
+    unsigned int touching_distance; ///< from the bed at which they touch it, m
+    unsigned int contact_force;     ///< of the bed on them, N (2D: per m), dim
+    bool has_contact;               ///< whether points keep these two
     unsigned int n_properties;
 
     /// @param n_internal_variables of the material law
     /// @param with_affine whether the transfer carries an affine velocity field
     /// @param with_start whether points keep where they started
+    /// @param with_contact whether there is a bed
     /// @param n_further slots behind the soil's own: of water that rides on the points
     PropertyLayout(const unsigned int n_internal_variables,
                    const bool with_affine,
                    const unsigned int n_further = 0,
-                   const bool with_start        = false)
+                   const bool with_start        = false,
+                   const bool with_contact      = false)
         : affine(internal_variables + n_internal_variables)
         , start(affine + (with_affine ? dim * dim : 0))
         , has_start(with_start)
-        , n_properties(start + (with_start ? dim : 0) + n_further)
+        , touching_distance(start + (with_start ? dim : 0))
+        , contact_force(touching_distance + 1)
+        , has_contact(with_contact)
+        , n_properties(touching_distance + (with_contact ? 1 + dim : 0) + n_further)
     {
     }
   };

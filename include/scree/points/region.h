@@ -2,6 +2,7 @@
 #ifndef scree_points_region_h
 #define scree_points_region_h
 
+#include <scree/geometry/level_set.h>
 #include <scree/input/expression.h>
 
 #include <memory>
@@ -24,11 +25,16 @@ namespace scree
       return function->value(x) != 0.;
     }
 
+    /// Places that touches_cube() looks at.
+    static constexpr unsigned int n_places_of_cube = (1 << dim) + 1;
+
     /// Whether part_of_cube() may find any of the region there.
     bool touches_cube(const dealii::Point<dim> &lower, const double width) const;
 
     /// Volume, m^3, and centroid, m, of the part of the region that lies in a small cube, by sampling.
-    std::pair<double, dealii::Point<dim>> part_of_cube(const dealii::Point<dim> &lower, const double width) const;
+    /// @param ground only what is in its open counts; null: all
+    std::pair<double, dealii::Point<dim>>
+    part_of_cube(const dealii::Point<dim> &lower, const double width, const LevelSet<dim> *ground = nullptr) const;
 
   private:
     /// Corners of the cube, a little inside it: a region may end at its face.

@@ -2,6 +2,7 @@
 #ifndef scree_points_seeding_h
 #define scree_points_seeding_h
 
+#include <scree/geometry/level_set.h>
 #include <scree/points/soil_body.h>
 #include <scree/points/region.h>
 
@@ -50,11 +51,13 @@ namespace scree
   /// stands at the centroid of the part of its cube that is inside and has its volume, and slivers join their
   /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
   /// holds no volume, or an expression is no number at one of the places.
+  /// @param ground only what is in its open is filled; null: all
   template <int dim>
   void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,
             const dealii::Triangulation<dim> &triangulation,
-            const double cell_size);
+            const double cell_size,
+            const LevelSet<dim> *ground = nullptr);
 
   /// Sets the gradient of an initial velocity at the points, 1/s, by differences over a cell: what the nodes see of it.
   ///

@@ -20,6 +20,7 @@ namespace scree
     std::string name;
     double density;       ///< bulk density of the dry soil at J = 1, kg/m^3
     double grain_density; ///< kg/m^3
+    double spacing = 0;   ///< of its points at the start, m
     std::unique_ptr<Material<dim>> material;
     PropertyLayout<dim> layout;
     PointSet<dim> points;

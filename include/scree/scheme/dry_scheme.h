@@ -2,6 +2,7 @@
 #ifndef scree_scheme_dry_scheme_h
 #define scree_scheme_dry_scheme_h
 
+#include <scree/scheme/bed_contact.h>
 #include <scree/scheme/explicit_step.h>
 #include <scree/scheme/scheme.h>
 #include <scree/scheme/soil_motion.h>
@@ -13,6 +14,7 @@ namespace scree
   class DryScheme : public Scheme<dim>
   {
   public:
+    /// @param bed null without one
     DryScheme(const BackgroundGrid<dim> &grid,
               const Constraints<dim> &constraints,
               const Forcing<dim> &forcing,
@@ -20,6 +22,7 @@ namespace scree
               const StabilisationParameters &stabilisation,
               std::list<SoilBody<dim>> &bodies,
               std::list<SurfaceLoad<dim>> &loads,
+              std::unique_ptr<BedContact<dim>> bed,
               dealii::TimerOutput &timer);
 
     void reinit() override;
@@ -36,6 +39,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     SoilMotion<dim> soil;
     ExplicitStep<dim> step;
+    std::unique_ptr<BedContact<dim>> bed;
     dealii::TimerOutput &timer;
   };
 } // namespace scree

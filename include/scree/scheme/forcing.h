@@ -3,6 +3,7 @@
 #define scree_scheme_forcing_h
 
 #include <scree/grid/background_grid.h>
+#include <scree/scheme/base_motion.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/parameter_handler.h>
@@ -22,21 +23,33 @@ namespace scree
     void check(const unsigned int dim) const;
   };
 
-  /// What acts on all nodes besides stress, pressure and walls: gravity, body force, and the damping of the
-  /// settling.
+  /// What acts on all nodes besides stress, pressure and walls: gravity, body force, the motion of the base, and the
+  /// damping of the settling.
   template <int dim>
   class Forcing
   {
   public:
-    Forcing(const BackgroundGrid<dim> &grid, const std::vector<double> &gravity, const BodyForceParameters &body_force);
+    Forcing(const BackgroundGrid<dim> &grid,
+            const std::vector<double> &gravity,
+            const BodyForceParameters &body_force,
+            const BaseMotionParameters &base_motion);
 
     const dealii::Tensor<1, dim> &gravity() const
     {
-      return uniform;
+      return own_gravity;
     }
 
-    /// The time, s, of the accelerations asked for next.
-    void set_time(const double time);
+    /// The step, s, whose accelerations are asked for next: body forces are those of its start, the base's the mean.
+    void set_step(const double time, const double time_step);
+
+    /// As set_step() before the release: the base is at rest.
+    void set_start();
+
+    /// What the log says of the base; empty if it is at rest.
+    std::string text_of_base() const
+    {
+      return base_motion ? base_motion->text() : "";
+    }
 
     /// Acceleration of a node, m/s^2.
     dealii::Tensor<1, dim> acceleration(const unsigned int node) const
@@ -64,8 +77,10 @@ namespace scree
 
   private:
     const BackgroundGrid<dim> &grid;
-    dealii::Tensor<1, dim> uniform;
+    const dealii::Tensor<1, dim> own_gravity;
+    dealii::Tensor<1, dim> uniform; // gravity, and what the base's motion adds
     std::unique_ptr<dealii::Function<dim>> body_force;
+    std::unique_ptr<BaseMotion<dim>> base_motion;
     double damping_rate = 0;
   };
 } // namespace scree

@@ -61,6 +61,12 @@ namespace scree
                          CornerVector &potential,
                          StepBalance<dim> &balance);
 
+    /// Whether the next step forgets anything of the pressure.
+    bool fades() const
+    {
+      return memory.is_on();
+    }
+
     /// Pressure at the corners of a cell with points, Pa, in deal.II's order; its change; what the next step forgets of
     /// it, 0 to 1; any other vector.
     AtCorners pressure_of(const unsigned int cell) const
@@ -104,6 +110,7 @@ namespace scree
 
     /// Of a corner's place on the curve.
     std::uint64_t number_of(const unsigned int corner) const;
+
     void set_mobilities(Mixture<dim> &mixture,
                         const NodalField<dim> &soil,
                         const NodalField<dim> &water,

@@ -11,8 +11,8 @@ namespace scree
   /// What part of a step's pressure the next one starts from.
   ///
   /// p^n is a spring: a solve leaves a part of the divergence in partly full cells, p builds up over several steps, and
-  /// gives back what an impact has lost. Then p changes by a good part of itself in each step. So does the next step
-  /// start from (1 - f) p, f = min(.8, (s r)^2), with r = sum m |p - p^n| / sum max(|p|, |p^n|) over the unknown
+  /// gives back what an impact has lost. Then p changes by a good part of itself in each step. So the next step
+  /// starts from (1 - f) p, f = min(.8, (s r)^2), with r = sum m |p - p^n| / sum max(|p|, |p^n|) over the unknown
   /// corners of the cells around a corner. m^2 = min(1, 100 rho_w v^2/p) of a cell, with the largest p of its corners
   /// and v the differences of the mixture's velocity between its nodes, says whether what moves could have made p:
   /// where soil bears a load or water seeps, p is kept however it changes. f varies smoothly, as a step of it between
@@ -27,6 +27,11 @@ namespace scree
     /// @param steepness s; 0: nothing is forgotten
     /// @param water_density kg/m^3
     PressureMemory(const NodeNumbering<dim> &corners, const double steepness, const double water_density);
+
+    bool is_on() const
+    {
+      return steepness > 0.;
+    }
 
     /// Fits the memory to the grid's current corners.
     void reinit();

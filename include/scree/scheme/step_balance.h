@@ -19,7 +19,9 @@ namespace scree
     dealii::Tensor<1, dim>
         pressure_impulse;                ///< sum over soil and water of -V grad p: walls and surfaces push back, N s
     dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
+    dealii::Tensor<1, dim> bed_impulse;  ///< of the bed, N s
     double wall_dissipation    = 0;      ///< energy that walls took, J
+    double bed_dissipation     = 0;      ///< energy that the bed took, J
     double drag_dissipation    = 0;      ///< between soil and water, J
     double viscous_dissipation = 0;      ///< of water and suspended soil, J
     double load_work           = 0;      ///< of the surface load, J
@@ -35,9 +37,9 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &wall_impulse &body_impulse &pressure_impulse &load_impulse;
+      archive &wall_impulse &body_impulse &pressure_impulse &load_impulse &bed_impulse;
       archive &soil_walls &water_walls;
-      archive &wall_dissipation &drag_dissipation &viscous_dissipation &load_work &correction_work;
+      archive &wall_dissipation &bed_dissipation &drag_dissipation &viscous_dissipation &load_work &correction_work;
       archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
     }
   };

@@ -14,6 +14,7 @@ namespace scree
   {
     points_to_grid,
     nodes,
+    bed, ///< contact with it
     pressure_system,
     pressure_solve,
     stress, ///< grid to soil points, and their law
@@ -25,8 +26,9 @@ namespace scree
   };
 
   /// All of them, in the order in which they are told.
-  constexpr std::array<StepPart, 10> step_parts{ { StepPart::points_to_grid,
+  constexpr std::array<StepPart, 11> step_parts{ { StepPart::points_to_grid,
                                                    StepPart::nodes,
+                                                   StepPart::bed,
                                                    StepPart::pressure_system,
                                                    StepPart::pressure_solve,
                                                    StepPart::stress,

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
+
 namespace scree
 {
   /// Subsection Time step.
@@ -16,6 +18,17 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// What bounds a step.
+  enum class StepLimit
+  {
+    entry, ///< Maximum time step
+    waves,
+    motion
+  };
+
+  /// Steps by what bounds them.
+  using StepCounts = std::array<unsigned long long, 3>;
+
   /// The clock of a run: steps that are stable and meet the output times exactly.
   class Clock
   {
@@ -25,6 +38,9 @@ namespace scree
     /// Largest step, s: Courant number times cell size over (wave speed + speed), advection number times cell size over
     /// speed, and at most the maximum.
     double stable_step(const double cell_size, const double wave_speed, const double speed) const;
+
+    /// What makes it that large.
+    StepLimit limit(const double cell_size, const double wave_speed, const double speed) const;
 
     /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `due`.
     double next_step(const double stable_step, const double due) const;
@@ -48,6 +64,9 @@ namespace scree
     }
 
   private:
+    /// The bounds by StepLimit, s.
+    std::array<double, 3> bounds(const double cell_size, const double wave_speed, const double speed) const;
+
     const TimeStepParameters parameters;
     double current_time        = 0;
     unsigned long long n_steps = 0;

@@ -30,13 +30,25 @@ namespace scree
   {
     using BatchBits = std::int64_t __attribute__((vector_size(batch_size * sizeof(double))));
 
+    template <typename Number>
+    struct MaskOf
+    {
+      using type = std::conditional_t<std::is_same_v<Number, double>, bool, BatchBits>;
+    };
+
     /// The type of comparisons; combine them by &, | and !.
     template <typename Number>
-    using Mask = std::conditional_t<std::is_same_v<Number, double>, bool, BatchBits>;
+    using Mask = typename MaskOf<Number>::type;
 
     /// The bits of a Number as integers.
     template <typename Number>
     using Bits = std::conditional_t<std::is_same_v<Number, double>, std::int64_t, BatchBits>;
+
+    /// The same without a sign: bits may be shifted out of it.
+    template <typename Number>
+    using UnsignedBits = std::conditional_t<std::is_same_v<Number, double>,
+                                            std::uint64_t,
+                                            std::uint64_t __attribute__((vector_size(batch_size * sizeof(double))))>;
 
     template <typename Number>
     constexpr unsigned int n_lanes = sizeof(Number) / sizeof(double);
@@ -47,7 +59,13 @@ namespace scree
       if constexpr (std::is_same_v<Number, double>)
         return value;
       else
-        return Number{} + value;
+        {
+          // Number{} + value would be an addition, for the sake of -0.
+          Number number;
+          for (unsigned int lane = 0; lane < batch_size; ++lane)
+            number[lane] = value;
+          return number;
+        }
     }
 
     template <typename Number>
@@ -198,7 +216,8 @@ namespace scree
       const Number high  = (0x1.27e4db646b17ep-22 + r * 0x1.af4de97ca4194p-26) + r2 * 0x1.1f730349868cep-29;
       const Number power = 1. + (r + r2 * (low + r4 * (middle + r4 * high)));
 
-      Number result               = from_bits<Number>(to_bits(power) + (to_bits(shifted) << 52));
+      const auto exponent         = UnsignedBits<Number>(to_bits(shifted)) << 52;
+      Number result               = from_bits<Number>(to_bits(power) + Bits<Number>(exponent));
       const Mask<Number> is_usual = (x > -708.) & (x < 709.);
       if (any(!is_usual))
         set_lanes_by([](const double value) { return std::exp(value); }, x, !is_usual, result);

@@ -36,6 +36,8 @@ namespace scree
 
   namespace simd
   {
+    using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double))));
+
 #if defined(__AVX2__)
     using FourDoubles = double __attribute__((vector_size(4 * sizeof(double))));
 
@@ -81,6 +83,53 @@ namespace scree
     }
 #endif
 
+#if defined(__AVX2__)
+    /// Two doubles from `first` on of the records of lanes `l`, l + 2, ...
+    DEAL_II_ALWAYS_INLINE inline Batch
+    load_twos(const RecordPointers<const double> &records, const unsigned int first, const unsigned int l)
+    {
+      constexpr unsigned int n = batch_size / 2;
+      TwoDoubles twos[n];
+      for (unsigned int k = 0; k < n; ++k)
+        std::memcpy(&twos[k], records[l + 2 * k] + first, sizeof(TwoDoubles));
+      const FourDoubles low = __builtin_shufflevector(twos[0], twos[1], 0, 1, 2, 3);
+#  if defined(__AVX512F__) && defined(__AVX512DQ__)
+      return __builtin_shufflevector(
+          low, __builtin_shufflevector(twos[2], twos[3], 0, 1, 2, 3), 0, 1, 2, 3, 4, 5, 6, 7);
+#  else
+      return low;
+#  endif
+    }
+
+    /// Two batches of which lanes 2 i + j of batch k become lanes 2 i + k of batch j.
+    DEAL_II_ALWAYS_INLINE inline void transpose_twos(Batch *rows)
+    {
+      const Batch a = rows[0], b = rows[1];
+#  if defined(__AVX512F__) && defined(__AVX512DQ__)
+      rows[0] = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+      rows[1] = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+#  else
+      rows[0] = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+      rows[1] = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+#  endif
+    }
+
+    /// Stores two doubles of lanes `l`, l + 2, ... each, as load_twos() reads them.
+    DEAL_II_ALWAYS_INLINE inline void
+    store_twos(const Batch &row, const RecordPointers<double> &records, const unsigned int first, const unsigned int l)
+    {
+      const auto put = [&](const TwoDoubles two, const unsigned int k) {
+        std::memcpy(records[l + 2 * k] + first, &two, sizeof(two));
+      };
+      put(__builtin_shufflevector(row, row, 0, 1), 0);
+      put(__builtin_shufflevector(row, row, 2, 3), 1);
+#  if defined(__AVX512F__) && defined(__AVX512DQ__)
+      put(__builtin_shufflevector(row, row, 4, 5), 2);
+      put(__builtin_shufflevector(row, row, 6, 7), 3);
+#  endif
+    }
+#endif
+
     /// Reads the first `n` doubles of each lane's record into `n` batches.
     template <unsigned int n>
     DEAL_II_ALWAYS_INLINE inline void load_records(const RecordPointers<const double> &records, Batch *batches)
@@ -98,8 +147,17 @@ namespace scree
             }
           return;
         }
+      if constexpr (n >= 2)
+        {
+          for (unsigned int l = 0; l < 2; ++l)
+            batches[l] = load_twos(records, 0, l);
+          transpose_twos(batches);
+        }
+      constexpr unsigned int n_done = n >= 2 ? 2 : 0;
+#else
+      constexpr unsigned int n_done = 0;
 #endif
-      for (unsigned int c = 0; c < n; ++c)
+      for (unsigned int c = n_done; c < n; ++c)
         for (unsigned int l = 0; l < batch_size; ++l)
           batches[c][l] = records[l][c];
     }
@@ -122,8 +180,18 @@ namespace scree
             }
           return;
         }
+      if constexpr (n >= 2)
+        {
+          Batch rows[2] = { batches[0], batches[1] };
+          transpose_twos(rows);
+          for (unsigned int l = 0; l < 2; ++l)
+            store_twos(rows[l], records, 0, l);
+        }
+      constexpr unsigned int n_done = n >= 2 ? 2 : 0;
+#else
+      constexpr unsigned int n_done = 0;
 #endif
-      for (unsigned int c = 0; c < n; ++c)
+      for (unsigned int c = n_done; c < n; ++c)
         for (unsigned int l = 0; l < batch_size; ++l)
           records[l][c] = batches[c][l];
     }
@@ -164,6 +232,24 @@ namespace scree
         for (unsigned int l = 0; l < batch_size; ++l)
           indices[l] = start + std::min(l, n - 1);
         act(indices, n);
+      }
+  }
+
+
+  /// The same by pairs of batches: `act(places, n)` with two of each. The second batch may hold no number that counts;
+  /// it is to be computed all the same, so that every number goes the same way.
+  template <typename Act>
+  DEAL_II_ALWAYS_INLINE inline void for_each_pair(const unsigned int size, const Act &act)
+  {
+    for (unsigned int start = 0; start < size; start += 2 * batch_size)
+      {
+        const unsigned int left = std::min(size - start, 2 * batch_size), first = std::min(left, batch_size);
+        const unsigned int n[2] = { first, left - first };
+        BatchIndices places[2];
+        for (unsigned int h = 0; h < 2; ++h)
+          for (unsigned int l = 0; l < batch_size; ++l)
+            places[h][l] = std::min(start + h * batch_size + l, size - 1);
+        act(places, n);
       }
   }
 } // namespace scree

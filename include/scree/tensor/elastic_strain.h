@@ -2,9 +2,7 @@
 #ifndef scree_tensor_elastic_strain_h
 #define scree_tensor_elastic_strain_h
 
-#include <scree/simd/batch.h>
-#include <scree/tensor/components.h>
-#include <scree/tensor/matrix.h>
+#include <scree/tensor/hencky.h>
 
 namespace scree
 {
@@ -19,26 +17,20 @@ namespace scree
   class ElasticStrain<2, Number>
   {
   public:
-    DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
-    {
-      const Number mean       = 0.5 * (b[0] + b[1]);
-      const Number difference = 0.5 * (b[0] - b[1]);
-      const Number radius     = simd::sqrt<Number>(difference * difference + b[3] * b[3]);
-      const Number inverse    = 1. / simd::max<Number>(radius, simd::broadcast<Number>(1e-300));
-      cosine                  = difference * inverse;
-      sine                    = b[3] * inverse;
+    ElasticStrain() = default;
 
-      principal[0] = 0.5 * simd::log<Number>(mean + radius);
-      principal[1] = 0.5 * simd::log<Number>(mean - radius);
-      principal[2] = 0.5 * simd::log<Number>(b[2]);
-      volume       = principal[0] + principal[1] + principal[2];
-      square       = simd::broadcast<Number>(0.);
+    DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
+        : frame(b)
+        , principal(log_strain(frame.values()))
+    {
+      volume = principal[0] + principal[1] + principal[2];
+      square = simd::broadcast<Number>(0.);
       for (Number &value : principal)
         {
           value -= volume * (1. / 3.);
           square += value * value;
         }
-      compose(principal[0], principal[1], principal[2], deviator);
+      frame.compose(principal, deviator);
       is_valid = simd::abs<Number>(volume) <= std::numeric_limits<double>::max();
     }
 
@@ -46,10 +38,9 @@ namespace scree
     DEAL_II_ALWAYS_INLINE inline void
     left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
     {
-      Number values[3];
-      for (unsigned int i = 0; i < 3; ++i)
-        values[i] = simd::exp<Number>(2. * (volume_strain * (1. / 3.) + factor * principal[i]));
-      compose(values[0], values[1], values[2], b);
+      const Number mean = volume_strain * (1. / 3.);
+      left_cauchy_green_of(
+          frame, { { mean + factor * principal[0], mean + factor * principal[1], mean + factor * principal[2] } }, b);
     }
 
     /// Smallest principal value of the deviator.
@@ -63,18 +54,8 @@ namespace scree
     simd::Mask<Number> is_valid; ///< else b is no left Cauchy-Green tensor
 
   private:
-    void compose(const Number &first, const Number &second, const Number &third, Number *tensor) const
-    {
-      const Number mean   = 0.5 * (first + second);
-      const Number radius = 0.5 * (first - second);
-      tensor[0]           = mean + radius * cosine;
-      tensor[1]           = mean - radius * cosine;
-      tensor[2]           = third;
-      tensor[3]           = radius * sine;
-    }
-
-    Number principal[3]; // of the deviator
-    Number cosine, sine; // of twice the angle of the in-plane axes
+    PrincipalFrame<2, Number> frame;
+    PrincipalNumbers<Number> principal; // of the deviator
   };
 
 
@@ -85,6 +66,8 @@ namespace scree
   class ElasticStrain<3, Number>
   {
   public:
+    ElasticStrain() = default;
+
     DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
     {
       const Number mean = (b[0] + b[1] + b[2]) * (1. / 3.), inverse = 1. / mean;
@@ -166,14 +149,9 @@ namespace scree
 
       explicit Powers(const Number *D)
       {
-        squared[0] = D[0] * D[0] + D[3] * D[3] + D[4] * D[4];
-        squared[1] = D[1] * D[1] + D[3] * D[3] + D[5] * D[5];
-        squared[2] = D[2] * D[2] + D[4] * D[4] + D[5] * D[5];
-        squared[3] = D[3] * (D[0] + D[1]) + D[4] * D[5];
-        squared[4] = D[4] * (D[0] + D[2]) + D[3] * D[5];
-        squared[5] = D[5] * (D[1] + D[2]) + D[3] * D[4];
-        J2         = 0.5 * (squared[0] + squared[1] + squared[2]);
-        J3         = determinant_of_components<3>(D);
+        square_of_components(D, squared);
+        J2 = 0.5 * (squared[0] + squared[1] + squared[2]);
+        J3 = determinant_of_components<3>(D);
       }
 
       /// D + sum of factors[n] D^n, n from 2 to `few`, or to `many` in the lanes that need them.

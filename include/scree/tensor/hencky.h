@@ -5,23 +5,25 @@
 
 #include <scree/tensor/principal.h>
 
-#include <deal.II/base/config.h>
-
 namespace scree
 {
   /// Principal logarithmic strains, 1/2 ln of the principal values of a left Cauchy-Green tensor.
-  inline PrincipalValues log_strain(const PrincipalValues &left_cauchy_green)
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number> log_strain(const PrincipalNumbers<Number> &left_cauchy_green)
   {
-    return { { 0.5 * std::log(left_cauchy_green[0]),
-               0.5 * std::log(left_cauchy_green[1]),
-               0.5 * std::log(left_cauchy_green[2]) } };
+    return { { 0.5 * simd::log<Number>(left_cauchy_green[0]),
+               0.5 * simd::log<Number>(left_cauchy_green[1]),
+               0.5 * simd::log<Number>(left_cauchy_green[2]) } };
   }
 
   /// Exponential map (Simo 1992): b = sum exp(2 strain_i) n_i n_i along the axes of `frame`.
-  template <int dim>
-  inline void left_cauchy_green_of(const PrincipalFrame<dim> &frame, const PrincipalValues &strain, double *result)
+  template <int dim, typename Number>
+  DEAL_II_ALWAYS_INLINE inline void
+  left_cauchy_green_of(const PrincipalFrame<dim, Number> &frame, const PrincipalNumbers<Number> &strain, Number *result)
   {
-    frame.compose({ { std::exp(2 * strain[0]), std::exp(2 * strain[1]), std::exp(2 * strain[2]) } }, result);
+    frame.compose(
+        { { simd::exp<Number>(2. * strain[0]), simd::exp<Number>(2. * strain[1]), simd::exp<Number>(2. * strain[2]) } },
+        result);
   }
 
   /// Trial b = f b f^T by components. In plane strain `out_of_plane_stretch` is f_zz; in three dimensions it is not

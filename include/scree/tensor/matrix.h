@@ -29,6 +29,18 @@ namespace scree
              t[4] * (t[3] * t[5] - t[1] * t[4]);
   }
 
+  /// The square of a symmetric tensor given by components, in three dimensions.
+  template <typename Number>
+  void square_of_components(const Number *t, Number *square)
+  {
+    square[0] = t[0] * t[0] + t[3] * t[3] + t[4] * t[4];
+    square[1] = t[1] * t[1] + t[3] * t[3] + t[5] * t[5];
+    square[2] = t[2] * t[2] + t[4] * t[4] + t[5] * t[5];
+    square[3] = t[3] * (t[0] + t[1]) + t[4] * t[5];
+    square[4] = t[4] * (t[0] + t[2]) + t[3] * t[5];
+    square[5] = t[5] * (t[1] + t[2]) + t[3] * t[4];
+  }
+
   /// Determinant of a dim x dim matrix, row-major.
   template <int dim, typename Number>
   Number determinant_of_rows(const Number *m)

@@ -75,9 +75,10 @@ namespace scree
   template <int dim>
   using PressureOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
 
-  /// What the next step does not start from of the pressure at a cell's corners, in the same order, 0 to 1.
+  /// What the next step does not start from of the pressure at a cell's corners, in the same order, 0 to 1; empty: the
+  /// pressure is kept.
   template <int dim>
-  using ForgottenOfCell = PressureOfCell<dim>;
+  using ForgottenOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
 
   /// A pressure that is linear along each axis of a cell: coefficients of the monomials of the cell's coordinates from
   /// 0 to 1; bit a of the index stands for a factor x_a.

@@ -45,11 +45,14 @@ namespace scree
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     /// Returns the largest square of a speed, m^2/s^2; not a number if any point's is not.
+    ///
+    /// @param keep see kept_velocity()
     template <int n, TransferMethod method>
     double move_cell(const SoilBody<dim> &body,
                      const CellPoints<dim> &cell,
                      const NodalField<dim> &field,
                      const double time_step,
+                     const double keep,
                      const unsigned int first);
 
     /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`.

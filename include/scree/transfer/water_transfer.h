@@ -7,6 +7,8 @@
 #include <scree/transfer/mixture.h>
 #include <scree/transfer/transfer.h>
 
+#include <optional>
+
 namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
@@ -41,7 +43,8 @@ namespace scree
   template <int dim>
   struct CellPressure
   {
-    Multilinear<dim> value, forgotten;
+    Multilinear<dim> value;
+    std::optional<Multilinear<dim>> forgotten; ///< none: nothing
   };
 
   /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
@@ -96,13 +99,15 @@ namespace scree
     /// of a speed, m^2/s^2; not a number if any point's is not.
     ///
     /// @param porosity about the cell's points; may be null
+    /// @param keep see kept_velocity()
     template <int n, TransferMethod method>
     double move_cell(const WaterPhase<dim> &water,
                      const CellPoints<dim> &cell,
                      const MixtureNodes<dim> &nodes,
                      const PorosityOfParts<dim> *porosity,
                      const CellPressure<dim> &pressure,
-                     const double time_step) const;
+                     const double time_step,
+                     const double keep) const;
 
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_geometry_bed_parameters_h
+#define scree_geometry_bed_parameters_h
+
+#include <scree/geometry/level_set.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+  /// What the bed does to soil that presses on it.
+  enum class BedType
+  {
+    none,  ///< there is no bed
+    fixed, ///< no slip
+    free_slip,
+    friction ///< Coulomb's
+  };
+
+  /// Subsection Bed: rigid ground that need not follow the mesh.
+  struct BedParameters
+  {
+    std::string type      = "none";
+    double friction_angle = 0; ///< degrees
+    std::string expression, profile, raster;
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations.
+    void check(const unsigned int dim, const bool has_water) const;
+
+    BedType type_kind() const;
+
+    bool is_set() const
+    {
+      return type_kind() != BedType::none;
+    }
+
+    /// Largest tangential over normal force; infinite if the bed is fixed.
+    double friction_coefficient() const;
+
+    /// Entry and value of the geometry, for messages.
+    std::pair<std::string, std::string> geometry() const;
+  };
+
+  /// The bed's surface. Reads its file; throws EntryError if that is no ground for the box.
+  /// @param lower, upper corners of the box, m
+  /// @param cell_size of the mesh, m
+  template <int dim>
+  std::unique_ptr<LevelSet<dim>> make_bed(const BedParameters &parameters,
+                                          const std::vector<double> &lower,
+                                          const std::vector<double> &upper,
+                                          const double cell_size);
+} // namespace scree
+
+#endif

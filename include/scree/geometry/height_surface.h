@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_geometry_height_surface_h
+#define scree_geometry_height_surface_h
+
+#include <scree/geometry/level_set.h>
+#include <scree/geometry/raster.h>
+
+namespace scree
+{
+  /// The ground of a scene in space: the heights of a raster, joined by two triangles for each four of them. The open
+  /// is above it, and where a height is missing. Distances from the triangles are exact.
+  class HeightSurface : public LevelSet<3>
+  {
+  public:
+    explicit HeightSurface(Raster raster);
+
+    bool is_open(const dealii::Point<3> &x) const override;
+    SurfaceView<3> view(const dealii::Point<3> &x, const double reach) const override;
+    std::string remark() const override;
+
+  private:
+    /// Height of the ground, m; NaN where it is missing.
+    double height(const double x, const double y) const;
+
+    dealii::Point<3> node(const unsigned int column, const unsigned int row) const;
+
+    const Raster raster;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_geometry_raster_h
+#define scree_geometry_raster_h
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// Numbers at the nodes of a regular grid in the plane, row by row with ascending y; NaN where there is none.
+  struct Raster
+  {
+    unsigned int n_columns = 0, n_rows = 0;
+    double x = 0, y = 0; ///< of the first value, m
+    double spacing = 0;  ///< of the values along both axes, m
+    std::vector<double> values;
+
+    double operator()(const unsigned int column, const unsigned int row) const
+    {
+      return values[std::size_t(row) * n_columns + column];
+    }
+    double last_x() const
+    {
+      return x + (n_columns - 1) * spacing;
+    }
+    double last_y() const
+    {
+      return y + (n_rows - 1) * spacing;
+    }
+
+    /// Values that are missing.
+    std::size_t n_missing() const;
+  };
+
+  /// Reads an ESRI ASCII grid, whose values are those at the middles of its cells. Throws EntryError, which begins with
+  /// `where` (see entry_name()), if it is none.
+  Raster read_raster(const std::string &file, const std::string &where);
+} // namespace scree
+
+#endif

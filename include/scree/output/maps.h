@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_output_maps_h
+#define scree_output_maps_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/output/output_parameters.h>
+#include <scree/output/run_folder.h>
+#include <scree/points/soil_body.h>
+
+#include <array>
+#include <list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+  /// Maps of the soil that can move, on the columns of the mesh's fine cells along z: ESRI ASCII grids in the folder
+  /// `maps` of a run. All ranks hold all columns. Does nothing unless the case asks for maps.
+  template <int dim>
+  class Maps
+  {
+  public:
+    Maps(const MapParameters &parameters, const BackgroundGrid<dim> &grid, const RunFolder &folder);
+
+    /// Takes the state at `time`, s, into the maps. Collective.
+    void sample(const std::list<SoilBody<dim>> &bodies, const double time);
+
+    /// Writes all maps as of the last sample, and the thickness also under a name with its `time`, s.
+    void write(const double time) const;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &thickness &first_thickness &mass &largest_thickness &largest_speed &arrival_time;
+    }
+
+  private:
+    using Map = std::vector<double>; // by column, along x first
+
+    void write_map(const std::string &name, const Map &map) const;
+
+    /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
+    /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
+    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> columns_around(const dealii::Point<dim> &x) const;
+
+    const MapParameters parameters;
+    const BackgroundGrid<dim> &grid;
+    const RunFolder &folder;
+    std::array<std::size_t, dim> n; // cells along each axis
+    Map thickness, first_thickness; // m, now and in the first sample
+    Map mass;                       // over area, now, kg/m^2
+    Map largest_thickness;          // m
+    Map largest_speed;              // of a column's momentum over its mass, m/s
+    Map arrival_time;               // s; negative: not yet
+  };
+} // namespace scree
+
+#endif

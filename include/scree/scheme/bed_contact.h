@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_bed_contact_h
+#define scree_scheme_bed_contact_h
+
+#include <scree/grid/sampled_surface.h>
+#include <scree/points/soil_body.h>
+#include <scree/scheme/contact_nodes.h>
+
+#include <list>
+#include <vector>
+
+namespace scree
+{
+  /// Rigid ground and how soil rubs on it. The ground is kept by reference.
+  template <int dim>
+  struct Bed
+  {
+    const SampledSurface<dim> &surface;
+    double friction_coefficient; ///< infinite: soil that presses does not slip
+
+    /// The impulse along the ground, N s, that friction allows for one across it.
+    double available(const double normal_impulse) const
+    {
+      return normal_impulse > 0. ? friction_coefficient * normal_impulse : 0.;
+    }
+  };
+
+  /// Contact of points of dry soil with a bed, by impulses on the nodes between their own step and the points'.
+  ///
+  /// Each point near the bed has a touching distance, about that of its start. A point that would come nearer in the
+  /// step gets an impulse along the bed's normal, and by Coulomb's law one along the bed. Both act at the point's foot
+  /// on the bed, through the shape functions of the point's own cell; so neighbours share impulses, which are found by
+  /// sweeps over the points in turn (projected Gauss-Seidel), from those of the step before.
+  ///
+  /// The order of the sweeps does not depend on how cells are spread over ranks: cells that share no nodes have the
+  /// same colour, one colour follows the other, and ranks exchange what they have changed between two colours.
+  template <int dim>
+  class BedContact
+  {
+  public:
+    /// @param gravity m/s^2
+    BedContact(const BackgroundGrid<dim> &grid,
+               const Constraints<dim> &constraints,
+               const Bed<dim> &bed,
+               const double gravity,
+               std::list<SoilBody<dim>> &bodies);
+
+    /// Fits the nodes to the grid's current partition. Collective.
+    void reinit();
+
+    /// Corrects the nodes' velocities, which the step of `time_step` s has found and ranks have exchanged, and
+    /// exchanges them anew. Collective.
+    void solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
+
+  private:
+    /// A point that may touch.
+    struct Contact
+    {
+      double *force; ///< the point's slots
+      dealii::Tensor<1, dim> normal;
+      double approach;                        ///< least velocity along the normal, m/s
+      double inertia;                         ///< 1/sum A_i^2/m_i, kg; 0 where nothing can move
+      double normal_impulse;                  ///< N s, not negative
+      dealii::Tensor<1, dim> tangent_impulse; ///< N s
+      double order;                           ///< of the points in a cell, the same on any rank
+    };
+
+    /// The contacts of a cell; their rows and its nodes lie behind each other.
+    struct Cell
+    {
+      unsigned int number; ///< active cell index
+      unsigned int colour;
+      unsigned int first, n; ///< contacts
+      unsigned int nodes;    ///< first of its nodes
+      bool is_held;          ///< whether walls hold one of its nodes
+    };
+
+    /// Lists the contacts with their rows.
+    template <int n>
+    void find_contacts(const NodalField<dim> &field, const double time_step);
+    void open_cell(const unsigned int cell, const NodalField<dim> &field);
+    template <int n>
+    void
+    add_cell(const SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field, const double dt);
+    template <int n>
+    void add_contact(const SoilBody<dim> &body,
+                     const PointView<dim, double> &point,
+                     const SurfaceView<dim> &view,
+                     const double dt);
+
+    /// The velocity along the normal that a point with this gap, m, must have at least.
+    double least_approach(const double gap, const double dt) const;
+
+    /// Orders cells by colours, and tells which colours concern several ranks. Collective.
+    void colour_cells();
+
+    /// Impulses of the step before.
+    template <int n>
+    void start();
+    template <int n>
+    void sweep(const bool is_forward);
+    template <int n>
+    void sweep_cell(const Cell &cell, const bool is_forward);
+    template <int n>
+    void sweep_held_cell(const Cell &cell, const bool is_forward);
+
+    /// Adds an impulse at a contact's foot to the nodes, as far as walls let them go.
+    template <int n>
+    void push(const Cell &cell, const unsigned int contact, const dealii::Tensor<1, dim> &impulse);
+
+    /// Stores the forces in the points and adds up what the bed did.
+    template <int n>
+    void finish(const NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
+
+    template <int n>
+    void solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
+
+    const BackgroundGrid<dim> &grid;
+    const Constraints<dim> &constraints;
+    const Bed<dim> bed;
+    const double slack;      // m, gap that counts as touching
+    const double most_speed; // m/s, at which overlap is undone
+    std::list<SoilBody<dim>> &bodies;
+    ContactNodes<dim> nodes;
+    std::vector<Cell> cells;
+    std::vector<unsigned int> nodes_of_cells; // numbers in `nodes`
+    std::vector<Contact> contacts;
+    std::vector<double> rows; // of each contact: the shape functions at its foot, as OfCell reads them
+    std::vector<unsigned int> first_of_colour;
+    std::vector<char> is_colour_shared; // by ranks
+    bool any_contact = false;           // on any rank
+  };
+} // namespace scree
+
+#endif

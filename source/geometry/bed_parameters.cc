@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/bed_parameters.h>
+#include <scree/geometry/expression_surface.h>
+#include <scree/geometry/height_surface.h>
+#include <scree/geometry/profile.h>
+#include <scree/input/input_error.h>
+
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void BedParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Bed");
+    prm.add_parameter("Type",
+                      type,
+                      "What rigid ground, which need not follow the mesh, does to soil that presses on it: fixed (no "
+                      "slip), free slip or friction; none: there is no such ground.",
+                      Patterns::Selection("none|fixed|free slip|friction"));
+    prm.add_parameter("Friction angle",
+                      friction_angle,
+                      "Angle of friction of \"Type = friction\", degrees, above 0 and below 90.",
+                      Patterns::Double(0, 89.99));
+    prm.add_parameter(
+        "Level set expression",
+        expression,
+        "The ground as an expression of x, y (and z), in m: positive in the open, 0 on its surface. Best a "
+        "distance, such as (y - 0.2*x)/sqrt(1.04).",
+        Patterns::Anything());
+    prm.add_parameter("Profile",
+                      profile,
+                      "In place of the expression, 2D: file of points x, y of the ground, in m, one a line, with "
+                      "ascending x.",
+                      Patterns::Anything());
+    prm.add_parameter("Raster",
+                      raster,
+                      "In place of the expression, 3D: file of the ground's heights, in m, an ESRI ASCII grid.",
+                      Patterns::Anything());
+    prm.leave_subsection();
+  }
+
+
+  BedType BedParameters::type_kind() const
+  {
+    if (type == "fixed")
+      return BedType::fixed;
+    if (type == "free slip")
+      return BedType::free_slip;
+    return type == "friction" ? BedType::friction : BedType::none;
+  }
+
+
+  double BedParameters::friction_coefficient() const
+  {
+    switch (type_kind())
+      {
+      case BedType::fixed:
+        return std::numeric_limits<double>::infinity();
+      case BedType::friction:
+        return std::tan(friction_angle * numbers::PI / 180.);
+      default:
+        return 0.;
+      }
+  }
+
+
+  std::pair<std::string, std::string> BedParameters::geometry() const
+  {
+    if (!profile.empty())
+      return { "Profile", profile };
+    if (!raster.empty())
+      return { "Raster", raster };
+    return { "Level set expression", expression };
+  }
+
+
+  void BedParameters::check(const unsigned int dim, const bool has_water) const
+  {
+    const auto require = [](const bool possible, const auto &entry, const std::string &remedy) {
+      require_entry(possible, "Bed", entry.first, entry.second, remedy);
+    };
+    const auto given      = geometry();
+    const bool is_rough   = type_kind() == BedType::friction;
+    const int n_given     = !expression.empty() + !profile.empty() + !raster.empty();
+    const auto type_entry = std::make_pair(std::string("Type"), type);
+    require(is_rough || friction_angle == 0.,
+            std::make_pair(std::string("Friction angle"), friction_angle),
+            "nothing reads it. Remove it, or write \"Type = friction\".");
+    require(!is_rough || friction_angle > 0.,
+            std::make_pair(std::string("Friction angle"), friction_angle),
+            "write an angle above 0, in degrees, or \"Type = free slip\".");
+    require(
+        is_set() || n_given == 0, given, "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
+    if (!is_set())
+      return;
+    require(n_given > 0,
+            type_entry,
+            "where is the bed? Write one of \"Level set expression\", \"Profile\" (2D) and \"Raster\" (3D).");
+    require(n_given < 2, given, "the bed is given twice. Keep one of expression, profile and raster.");
+    require(dim == 2 || profile.empty(),
+            given,
+            "a profile is ground of plane scenes. Write a \"Raster\" or a \"Level set expression\".");
+    require(dim == 3 || raster.empty(),
+            given,
+            "a raster is ground of scenes in space. Write a \"Profile\" or a \"Level set expression\".");
+    if (dim == 2 && !expression.empty())
+      ExpressionSurface<2>(entry_name("Bed", given.first), expression, 1.);
+    if (dim == 3 && !expression.empty())
+      ExpressionSurface<3>(entry_name("Bed", given.first), expression, 1.);
+    require(
+        !has_water,
+        type_entry,
+        "a bed under water is not possible yet. Remove subsection Water or the bed, or make the ground a wall of the "
+        "box or a body of \"Material = rigid\".");
+  }
+
+
+  namespace
+  {
+    /// Throws EntryError unless ground from `first` to `last` along an axis covers the box.
+    void require_cover(const bool covers,
+                       const BedParameters &parameters,
+                       const std::string &axis,
+                       const double first,
+                       const double last)
+    {
+      const auto [entry, value] = parameters.geometry();
+      require_entry(
+          covers,
+          "Bed",
+          entry,
+          value,
+          "the ground reaches from " + axis + " = " + number_text(first) + " to " + number_text(last) +
+              " m only and does not cover the box of subsection Mesh. Write a longer ground or a smaller box.");
+    }
+
+
+    std::unique_ptr<LevelSet<2>> make_ground(const BedParameters &parameters,
+                                             const std::vector<double> &lower,
+                                             const std::vector<double> &upper,
+                                             const Point<2> &)
+    {
+      auto profile = std::make_unique<Profile>(read_profile(parameters.profile, entry_name("Bed", "Profile")));
+      require_cover(profile->first_x() <= lower[0] && profile->last_x() >= upper[0],
+                    parameters,
+                    "x",
+                    profile->first_x(),
+                    profile->last_x());
+      return profile;
+    }
+
+
+    std::unique_ptr<LevelSet<3>> make_ground(const BedParameters &parameters,
+                                             const std::vector<double> &lower,
+                                             const std::vector<double> &upper,
+                                             const Point<3> &)
+    {
+      Raster raster = read_raster(parameters.raster, entry_name("Bed", "Raster"));
+      require_cover(raster.x <= lower[0] && raster.last_x() >= upper[0], parameters, "x", raster.x, raster.last_x());
+      require_cover(raster.y <= lower[1] && raster.last_y() >= upper[1], parameters, "y", raster.y, raster.last_y());
+      return std::make_unique<HeightSurface>(std::move(raster));
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::unique_ptr<LevelSet<dim>> make_bed(const BedParameters &parameters,
+                                          const std::vector<double> &lower,
+                                          const std::vector<double> &upper,
+                                          const double cell_size)
+  {
+    if (!parameters.is_set())
+      return nullptr;
+    if (!parameters.expression.empty())
+      return std::make_unique<ExpressionSurface<dim>>(
+          entry_name("Bed", "Level set expression"), parameters.expression, cell_size);
+    return make_ground(parameters, lower, upper, Point<dim>());
+  }
+
+  template std::unique_ptr<LevelSet<2>>
+  make_bed<2>(const BedParameters &, const std::vector<double> &, const std::vector<double> &, const double);
+  template std::unique_ptr<LevelSet<3>>
+  make_bed<3>(const BedParameters &, const std::vector<double> &, const std::vector<double> &, const double);
+} // namespace scree

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/height_surface.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Triangle = std::array<Point<3>, 3>;
+
+    /// The place of a segment that is nearest to `x`.
+    Point<3> nearest_of_segment(const Point<3> &x, const Point<3> &a, const Point<3> &b)
+    {
+      const Tensor<1, 3> along = b - a;
+      return a + std::clamp((x - a) * along / along.norm_square(), 0., 1.) * along;
+    }
+
+
+    /// The place of a triangle that is nearest to `x`.
+    Point<3> nearest_of_triangle(const Point<3> &x, const Triangle &corners)
+    {
+      const Tensor<1, 3> u = corners[1] - corners[0], v = corners[2] - corners[0], w = x - corners[0];
+      const double uu = u * u, uv = u * v, vv = v * v, wu = w * u, wv = w * v, determinant = uu * vv - uv * uv;
+      const double s = (vv * wu - uv * wv) / determinant, t = (uu * wv - uv * wu) / determinant;
+      if (s >= 0. && t >= 0. && s + t <= 1.)
+        return corners[0] + s * u + t * v;
+      Point<3> nearest = nearest_of_segment(x, corners[0], corners[1]);
+      for (const unsigned int i : { 1, 2 })
+        if (const Point<3> other = nearest_of_segment(x, corners[i], corners[(i + 1) % 3]);
+            other.distance_square(x) < nearest.distance_square(x))
+          nearest = other;
+      return nearest;
+    }
+  } // namespace
+
+
+  HeightSurface::HeightSurface(Raster raster)
+      : raster(std::move(raster))
+  {
+  }
+
+
+  Point<3> HeightSurface::node(const unsigned int column, const unsigned int row) const
+  {
+    return { raster.x + column * raster.spacing, raster.y + row * raster.spacing, raster(column, row) };
+  }
+
+
+  double HeightSurface::height(const double x, const double y) const
+  {
+    const double u = (x - raster.x) / raster.spacing, v = (y - raster.y) / raster.spacing;
+    const int i    = std::clamp(static_cast<int>(std::floor(u)), 0, int(raster.n_columns) - 2);
+    const int j    = std::clamp(static_cast<int>(std::floor(v)), 0, int(raster.n_rows) - 2);
+    const double s = std::clamp(u - i, 0., 1.), t = std::clamp(v - j, 0., 1.);
+    const double a = raster(i, j), b = raster(i + 1, j), c = raster(i, j + 1), d = raster(i + 1, j + 1);
+    if (std::isnan(a + b + c + d))
+      return std::numeric_limits<double>::quiet_NaN();
+    // The diagonal goes from b to c.
+    return s + t <= 1. ? a + s * (b - a) + t * (c - a) : d + (1. - s) * (c - d) + (1. - t) * (b - d);
+  }
+
+
+  bool HeightSurface::is_open(const Point<3> &x) const
+  {
+    return !(x[2] <= height(x[0], x[1]));
+  }
+
+
+  std::string HeightSurface::remark() const
+  {
+    const std::size_t n = raster.n_missing();
+    return n == 0 ? ""
+                  : "Bed: " + std::to_string(n) + " of " + std::to_string(raster.values.size()) +
+                        " heights of the raster are missing (NODATA). There is no ground around them.";
+  }
+
+
+  SurfaceView<3> HeightSurface::view(const Point<3> &x, const double reach) const
+  {
+    const double above = x[2] - height(x[0], x[1]), side = above <= 0. ? -1. : 1.;
+    double shortest = std::isnan(above) ? reach : std::min(reach, std::abs(above));
+    SurfaceView<3> best{ side * shortest, Tensor<1, 3>({ 0., 0., 1. }) };
+    const auto look_at = [&](const Triangle &corners) {
+      const Tensor<1, 3> way = x - nearest_of_triangle(x, corners);
+      const double distance  = way.norm();
+      if (distance > shortest)
+        return;
+      shortest                  = distance;
+      const Tensor<1, 3> across = cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]);
+      // On the ground itself only the triangle tells where the open is.
+      best = { side * distance, distance > 1e-10 * raster.spacing ? side / distance * way : across / across.norm() };
+    };
+    const auto range = [&](const double place, const double first, const unsigned int n) {
+      const auto number = [&](const double at) {
+        return static_cast<int>(std::clamp(std::floor((at - first) / raster.spacing), 0., n - 2.));
+      };
+      return std::make_pair(number(place - shortest), number(place + shortest));
+    };
+    const auto [first_column, last_column] = range(x[0], raster.x, raster.n_columns);
+    const auto [first_row, last_row]       = range(x[1], raster.y, raster.n_rows);
+    for (int j = first_row; j <= last_row; ++j)
+      for (int i = first_column; i <= last_column; ++i)
+        {
+          const Point<3> a = node(i, j), b = node(i + 1, j), c = node(i, j + 1), d = node(i + 1, j + 1);
+          if (std::isnan(a[2] + b[2] + c[2] + d[2]))
+            continue;
+          look_at({ { a, b, c } });
+          look_at({ { d, c, b } });
+        }
+    return best;
+  }
+} // namespace scree

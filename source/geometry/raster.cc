@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/raster.h>
+#include <scree/input/input_error.h>
+#include <scree/input/number_table.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace scree
+{
+  namespace
+  {
+    std::string lower_case(std::string text)
+    {
+      std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) { return std::tolower(c); });
+      return text;
+    }
+
+
+    /// The lines at the top of an ESRI ASCII grid.
+    class Header
+    {
+    public:
+      /// Reads up to the first value, which is left in the file.
+      /// @param name of entry and file, for messages
+      Header(std::istream &in, const std::string &name)
+          : name(name)
+      {
+        std::string word, value;
+        auto place = in.tellg();
+        while (in >> word && std::isnan(number_of(word)) && in >> value)
+          {
+            entries[lower_case(word)] = value;
+            place                     = in.tellg();
+          }
+        in.clear();
+        in.seekg(place);
+      }
+
+      bool has(const std::string &key) const
+      {
+        return entries.count(key) > 0;
+      }
+
+      double number(const std::string &key) const
+      {
+        const double value = has(key) ? number_of(entries.at(key)) : std::numeric_limits<double>::quiet_NaN();
+        if (!std::isfinite(value))
+          throw EntryError(name + "its head has no number " + scree::quoted(key) +
+                           ". An ESRI ASCII grid begins with ncols, nrows, xllcorner, yllcorner, cellsize.");
+        return value;
+      }
+
+      /// Where the first value is along an axis: the grid tells the corner of its cell or its middle.
+      double origin(const std::string &axis, const double spacing) const
+      {
+        return has(axis + "llcenter") ? number(axis + "llcenter") : number(axis + "llcorner") + spacing / 2.;
+      }
+
+    private:
+      const std::string name;
+      std::map<std::string, std::string> entries;
+    };
+  } // namespace
+
+
+  std::size_t Raster::n_missing() const
+  {
+    return std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
+  }
+
+
+  Raster read_raster(const std::string &file, const std::string &where)
+  {
+    const std::string name = where + " = " + file + ": ";
+    std::ifstream in       = open_file(file, name);
+    const Header head(in, name);
+    const double columns = head.number("ncols"), rows = head.number("nrows");
+    constexpr double most = 1e9;
+    if (!(columns >= 2 && rows >= 2 && columns * rows <= most && columns == std::floor(columns) &&
+          rows == std::floor(rows)))
+      throw EntryError(name + "ncols = " + number_text(columns) + " and nrows = " + number_text(rows) +
+                       " must be whole numbers, 2 at least.");
+    Raster raster;
+    raster.n_columns = static_cast<unsigned int>(columns);
+    raster.n_rows    = static_cast<unsigned int>(rows);
+    raster.spacing   = head.number("cellsize");
+    if (!(raster.spacing > 0))
+      throw EntryError(name + "cellsize = " + number_text(raster.spacing) + " must be positive, in m.");
+    raster.x             = head.origin("x", raster.spacing);
+    raster.y             = head.origin("y", raster.spacing);
+    const double missing = head.has("nodata_value") ? head.number("nodata_value") : -9999.;
+
+    raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
+    std::string word;
+    for (unsigned int row = raster.n_rows; row-- > 0;) // from the north
+      for (unsigned int column = 0; column < raster.n_columns; ++column)
+        {
+          in >> word;
+          const double value = in ? number_of(word) : std::numeric_limits<double>::quiet_NaN();
+          if (!std::isfinite(value))
+            throw EntryError(name +
+                             (in ? scree::quoted(word) + " stands where a height should be"
+                                 : "it ends before the last of its " + number_text(columns * rows) + " heights") +
+                             ". Write a complete ESRI ASCII grid.");
+          raster.values[std::size_t(row) * raster.n_columns + column] =
+              value == missing ? std::numeric_limits<double>::quiet_NaN() : value;
+        }
+    if (in >> word)
+      throw EntryError(name + "it goes on with " + scree::quoted(word) + " after the last of its " +
+                       number_text(columns * rows) + " heights. Write a complete ESRI ASCII grid.");
+    return raster;
+  }
+} // namespace scree

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What scripts of several tests have in common: SCRIPT SCREE LAUNCHER TEST, where TEST is a function of the script that works in the current
+folder and LAUNCHER is "mpirun -np" or alike."""
+
+import pathlib
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "doc"))
+
+SCREE, LAUNCHER = sys.argv[1], sys.argv[2].split()
+
+
+def run(folder, text, *options, ranks=1):
+    """Runs the case in a folder; returns its run folder."""
+    pathlib.Path(folder).mkdir(exist_ok=True)
+    pathlib.Path(folder, "case.prm").write_text(text, encoding="utf-8")
+    command = [*LAUNCHER, str(ranks)] if ranks > 1 else []
+    subprocess.run([*command, SCREE, "case.prm", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return pathlib.Path(folder, "results")
+
+
+def check(fact, text):
+    if not fact:
+        sys.exit("FAILED: " + text)
