@@ -274,10 +274,11 @@ def _draw_points_3d(axes, points, box, values, limits, colours):
     scatter = axes.scatter(*points.positions[:, order].T, c=values, cmap=colours, marker="s",
                            s=np.maximum(72 * sides * inches_a_metre, 0.5) ** 2, linewidths=0, depthshade=False)
     scatter.set_clim(*limits)
-    setters = [(axes.set_xlim, axes.set_xlabel), (axes.set_ylim, axes.set_ylabel), (axes.set_zlim, axes.set_zlabel)]
-    for axis, (set_limits, set_label) in zip(order, setters):
+    setters = [(axes.set_xlim, axes.set_xlabel, axes.xaxis), (axes.set_ylim, axes.set_ylabel, axes.yaxis), (axes.set_zlim, axes.set_zlabel, axes.zaxis)]
+    for axis, (set_limits, set_label, line) in zip(order, setters):
         set_limits(box.lower[axis], box.upper[axis])
         set_label(f"{'xyz'[axis]} (m)")
+        line.get_major_locator().set_params(nbins=max(2, round(6 * size[axis] / max(size))))
     axes.set_box_aspect(size[order])
     axes.view_init(elev=25, azim=-60)
     return scatter

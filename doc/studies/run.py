@@ -57,7 +57,7 @@ def case_text(study, variant):
 
 def folder_of(study, variant, results):
     """Runs of one content share a folder, whichever study or label they serve."""
-    return results / hashlib.sha256(f"{study.program} {study.ranks}\n{case_text(study, variant)}".encode()).hexdigest()[:12]
+    return results / hashlib.sha256(f"{study.program} {variant.ranks}\n{case_text(study, variant)}".encode()).hexdigest()[:12]
 
 
 def load_run(folder, labels):
@@ -74,10 +74,10 @@ def make_run(study, variant, folder, arguments):
     folder.mkdir(parents=True)
     prm, screen = folder / "case.prm", folder / "screen.txt"
     prm.write_text(prm_files.set_entry(case_text(study, variant), "Output directory", folder).rstrip("\n") + "\n", encoding="utf-8")
-    environment = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    environment = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1", **study.environment())
     if os.geteuid() == 0:
         environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    launcher = ["mpirun", "-np", str(study.ranks)] if study.ranks > 1 else []
+    launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
     command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
     start = time.monotonic()
     with open(screen, "w", encoding="utf-8") as output:
@@ -120,7 +120,7 @@ class Plan:
         self.folders = [folder_of(study, variant, arguments.results) for variant in self.variants]
         self.missing = {folder: variant for variant, folder in zip(self.variants, self.folders)
                         if arguments.again or load_run(folder, variant.labels) is None}
-        self.jobs = 1 if study.chart.timed else max(1, arguments.jobs // study.ranks)
+        self.jobs = 1 if study.chart.timed else max(1, arguments.jobs // max(variant.ranks for variant in self.variants))
         expected = expected_seconds(name)
         self.left = {folder: _estimate(variant.labels, expected) for folder, variant in self.missing.items()}
 

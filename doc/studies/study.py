@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a study is: variants of a case, a measure of each run, a chart and a verdict. doc/manual.md, chapter 10, shows how to write one."""
 
+import atexit
 import dataclasses
+import functools
 import itertools
 import math
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
 from typing import Any, Callable, NamedTuple
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -27,10 +31,11 @@ class Claim(NamedTuple):
 
 
 class Variant(NamedTuple):
-    """Labels: the columns that tell this run from others. Entries: {"Mesh/Cell size": 0.1}. Base: another case than the study's."""
+    """Labels: the columns that tell this run from others. Entries: {"Mesh/Cell size": 0.1}. Base: another case than the study's. Ranks: of this run."""
     labels: dict
     entries: dict
     base: str | None = None
+    ranks: int = 1
 
 
 def axis(label, entry, values):
@@ -49,8 +54,18 @@ def product(*axes):
     """All combinations of the variants of several axes; lists of variants add up with +."""
     return [Variant({name: value for part in parts for name, value in part.labels.items()},
                     {name: value for part in parts for name, value in part.entries.items()},
-                    next((part.base for part in reversed(parts) if part.base), None))
+                    next((part.base for part in reversed(parts) if part.base), None), max(part.ranks for part in parts))
             for parts in itertools.product(*axes)]
+
+
+@functools.cache
+def compiled(source, compiler, *flags):
+    """The program or library that the compiler makes of a file of doc/studies; it is gone with the study."""
+    folder = tempfile.TemporaryDirectory(prefix="scree_")
+    atexit.register(folder.cleanup)
+    target = pathlib.Path(folder.name) / pathlib.Path(source).stem
+    subprocess.run([compiler, *flags, "-o", target, ROOT / "doc" / "studies" / source], check=True)
+    return target
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,6 +76,7 @@ class Study:
     short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
     no measures. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
     its headline is the share of these cells that are stable. program: scree or scree-element.
+    environment(): variables that it is run with.
     """
     title: str
     base: str
@@ -75,7 +91,7 @@ class Study:
     needs_end: bool = True
     default: dict | None = None
     program: str = "scree"
-    ranks: int = 1
+    environment: Callable = dict
 
 
 class Run:

@@ -24,7 +24,7 @@ PARTS = {"column_loose": 1.5, "column_saturated_3d": 0.75, "porous_dam": 1, "sub
          "slope_loose": 0.6, "slope_dense_fine": 0.03, "slope_loose_fine": 0.03, "slope_saturated_dense": 0.3, "slope_saturated_dense_single": 0.15,
          "slope_saturated_dense_porosity": 0.1, "slope_saturated_loose": 0.5, "slope_saturated_loose_single": 0.15,
          "slope_saturated_loose_porosity": 0.1, "slope_saturated_mohr_coulomb": 0.3, "nor_sand_slope_2d": 0.1, "slope_dense_friction": 0.3,
-         "slope_loose_friction": 0.3, "slope_saturated_dense_friction": 0.1, "slope_saturated_loose_friction": 0.1}
+         "slope_loose_friction": 0.3, "gully_dry": 0.02, "gully_saturated": 0.02, "slope_saturated_dense_friction": 0.1, "slope_saturated_loose_friction": 0.1}
 TINY = {"terzaghi", "saturated_rest", "dam_break"}
 
 

@@ -17,7 +17,7 @@ PAIRS = ["water on water", "soil on water", "water on soil", "soil on soil"]
 def with_case(variants):
     """Each variant with the entries of its pair of bodies, gap and speed; water alone has a case without soil for its base."""
     result = []
-    for labels, entries, _ in variants:
+    for labels, entries, *_ in variants:
         upper, _, lower = labels["pair"].split()
         gap = labels["gap"] * CELL
         above, below = f"(y > {HEIGHT + gap:g} && y < {2 * HEIGHT + gap:g})", f"y < {HEIGHT:g}"

@@ -19,7 +19,7 @@ CASES = {("Nor-Sand", "dry"): "column_loose", ("Mohr-Coulomb", "dry"): "mohr_cou
 def with_case(variants):
     """Each variant with the case of its soil, and lengths and times of its scale."""
     result = []
-    for labels, _, _ in variants:
+    for labels, *_ in variants:
         law, pores = labels["soil"].split(", ")
         height, gravity = labels["height"], 9.81 * labels["gravity"]
         end = 2 * math.sqrt(height / gravity)

@@ -71,11 +71,11 @@ def verdict(rows):
                         holds=rise["stiff block"] < 1.25))
     if len(rise) == len(BOXES):
         stiff, soft = (boxes[f"{name} block"][1]["ns per point and step"] for name in ("stiff", "soft"))
-        claims.append(Claim(f"The stiff block takes {stiff:.0f} ns per point and step and the soft one {soft:.0f}: most of the difference is the sort "
-                            "of the points, which is left out where none changes its cell.", holds=stiff < 0.8 * soft))
+        claims.append(Claim(f"The stiff block takes {stiff:.0f} ns per point and step and the soft one {soft:.0f}: the difference is the sort "
+                            "of the points, which is left out where none changes its cell.", holds=stiff < soft < 1.6 * stiff))
         moving = [name for name in BOXES if name != "stiff block"]
-        claims.append(Claim("Where points change cells it takes " + ", ".join(f"{rise[name]:.2f} ({name})" for name in moving)
-                            + " times as long: deal.II's sort of the points looks at every cell of the mesh.", holds=all(rise[name] > 1.1 for name in moving)))
+        claims.append(Claim("Where points change cells it takes " + ", ".join(f"{rise[name]:.2f} ({name})" for name in moving) + " times as long: "
+                            "cells without points are looked at by deal.II's sort only, now and then.", holds=all(rise[name] < 1.25 for name in moving)))
     same = max(abs(box[largest[name]]["front"] / box[1]["front"] - 1) for name, box in boxes.items())
     claims.append(Claim(f"It changes the front by {same:.0e} of its distance.", holds=same < 1e-6))
     phases = pick("phases")
