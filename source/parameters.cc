@@ -5,6 +5,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -78,6 +79,7 @@ namespace scree
   Parameters::Parameters()
   {
     name_bodies();
+    obstacles.emplace_back(ObstacleParameters::prefix + "Wall");
     declare(handler);
     declare_water(handler);
   }
@@ -89,6 +91,7 @@ namespace scree
     try
       {
         name_bodies();
+        name_obstacles();
         has_water = file.has_subsection("Water");
         // Suggestions know of water's entries also where a dry run's list of all entries leaves them out: read again,
         // that list must not make the scene wet.
@@ -132,7 +135,8 @@ namespace scree
     for (const std::string &name : Utilities::split_string_list(names))
       {
         const bool is_new = seen.insert(name).second;
-        require_entry(!name.empty() && is_new && taken.count(name) == 0 && name != "none",
+        const bool is_taken = taken.count(name) > 0 || name.rfind(ObstacleParameters::prefix, 0) == 0;
+        require_entry(!name.empty() && is_new && !is_taken && name != "none",
                       "",
                       "Bodies",
                       names,
@@ -147,8 +151,28 @@ namespace scree
   }
 
 
+  void Parameters::name_obstacles()
+  {
+    std::set<std::string> seen;
+    for (const std::string &subsection : file.subsections(ObstacleParameters::prefix))
+      {
+        std::string lower_case = subsection;
+        std::transform(subsection.begin(), subsection.end(), lower_case.begin(), [](const unsigned char c) {
+          return std::tolower(c);
+        });
+        if (!seen.insert(lower_case).second)
+          throw EntryError("subsection " + subsection +
+                           ": another obstacle's name differs from it by case only, and so would the columns of the "
+                           "statistics. Write another name.");
+        obstacles.emplace_back(subsection);
+      }
+  }
+
+
   std::string Parameters::unlisted_body(const std::string &subsection) const
   {
+    if (subsection + ' ' == ObstacleParameters::prefix)
+      return "An obstacle has a name. Write subsection Obstacle Wall, or another name.";
     if (!file.sets(subsection, "Region") || subsection.find('/') != std::string::npos)
       return "";
     return "It is no body either: entry \"Bodies\" lists " + file.value("", "Bodies", "Soil") + ". Add " +
@@ -180,6 +204,8 @@ namespace scree
       body.add_parameters(prm);
     boundaries.add_parameters(prm);
     bed.add_parameters(prm);
+    for (ObstacleParameters &obstacle : obstacles)
+      obstacle.add_parameters(prm);
     surface_load.add_parameters(prm);
     settling.add_parameters(prm);
     output.add_parameters(prm);
@@ -212,6 +238,8 @@ namespace scree
     output.maps.check(dimension, !bodies.empty());
     boundaries.check(dimension);
     bed.check(dimension, has_water);
+    for (const ObstacleParameters &obstacle : obstacles)
+      obstacle.check(dimension, has_water);
     surface_load.check(grid, dimension);
     body_force.check(dimension);
     base_motion.check(dimension);
@@ -294,6 +322,14 @@ namespace scree
     for (const auto &body : bodies)
       regions.push_back({ body.name, body.seeding.region, body.initial_porosity(), body.bulk_density() });
     return regions;
+  }
+
+
+  unsigned int Parameters::n_rigid_surfaces() const
+  {
+    return bed.is_set() + std::count_if(obstacles.begin(), obstacles.end(), [](const ObstacleParameters &obstacle) {
+             return obstacle.surface.is_set();
+           });
   }
 
 

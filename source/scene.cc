@@ -99,6 +99,9 @@ namespace scree
         parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner, parameters.grid.cell_size);
     if (ground)
       bed = std::make_unique<SampledSurface<dim>>(grid, *ground);
+    for (const ObstacleParameters &obstacle : parameters.obstacles)
+      if (obstacle.surface.is_set())
+        obstacles.emplace_back(obstacle, parameters.grid, grid);
     if (parameters.surface_load.is_set())
       loads.emplace_back(grid, parameters.surface_load, points_per_cell(parameters).second);
   }
@@ -117,7 +120,7 @@ namespace scree
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
                                          parameters.probes.displacement,
-                                         parameters.bed.is_set());
+                                         parameters.n_rigid_surfaces());
         bodies.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -149,11 +152,9 @@ namespace scree
           parameters.stabilisation,
           bodies,
           loads,
-          bed ? std::make_unique<BedContact<dim>>(grid,
-                                                  constraints,
-                                                  Bed<dim>{ *bed, parameters.bed.friction_coefficient() },
-                                                  forcing.gravity().norm(),
-                                                  bodies)
+          parameters.n_rigid_surfaces() > 0
+              ? std::make_unique<BedContact<dim>>(
+                    grid, constraints, rigid_surfaces(), forcing.gravity().norm(), bodies)
               : nullptr,
           timer);
     return std::make_unique<CoupledScheme<dim>>(grid,
@@ -179,6 +180,37 @@ namespace scree
     constraints.hold_soil(rigid_nodes());
     if (bed)
       bed->reinit();
+    for (Obstacle<dim> &obstacle : obstacles)
+      obstacle.reinit();
+  }
+
+
+  template <int dim>
+  std::vector<RigidSurface<dim>> Scene<dim>::rigid_surfaces() const
+  {
+    std::vector<RigidSurface<dim>> surfaces;
+    if (bed)
+      surfaces.push_back({ bed.get(), parameters.bed.friction_coefficient() });
+    for (const Obstacle<dim> &obstacle : obstacles)
+      surfaces.push_back({ &obstacle.surface, obstacle.friction_coefficient, &obstacle });
+    return surfaces;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::begin_step(const double time, const double time_step)
+  {
+    forcing.set_step(time, time_step);
+    for (Obstacle<dim> &obstacle : obstacles)
+      obstacle.begin_step(time, time_step);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::end_step(const double time_step)
+  {
+    for (Obstacle<dim> &obstacle : obstacles)
+      obstacle.end_step(time_step);
   }
 
 
@@ -252,26 +284,56 @@ namespace scree
     // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.
     if (parameters.transfer.transfer_method() == TransferMethod::aflip)
       set_velocity_gradients();
-    if (bed)
-      set_touching_distances();
+    require_points_outside_obstacles();
+    set_touching_distances();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::require_points_outside_obstacles() const
+  {
+    auto entries = parameters.bodies.begin();
+    for (const auto &body : bodies)
+      {
+        const std::string &region = (entries++)->seeding.region;
+        for (const Obstacle<dim> &obstacle : obstacles)
+          {
+            std::string fault;
+            for_each_point(body.points, [&](const auto &point) {
+              if (fault.empty() && obstacle.contains(point.location))
+                fault = entry_message(
+                    body.name,
+                    "Region",
+                    region,
+                    "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) + ", for instance at " +
+                        number_text(std::vector<double>(point.location.begin_raw(), point.location.end_raw())) +
+                        " m. Let it end where the obstacle begins.");
+            });
+            throw_on_all_ranks(fault, communicator);
+          }
+      }
   }
 
 
   template <int dim>
   void Scene<dim>::set_touching_distances()
   {
+    const auto surfaces = rigid_surfaces();
     for (auto &body : bodies)
       for_each_point(body.points, [&](const auto &point) {
-        double &distance = point.properties[body.layout.touching_distance];
-        distance         = 0.5 * body.spacing;
-        if (!bed->is_near(point.cell))
-          return;
-        const SurfaceView<dim> view = bed->view(point.cell, point.reference_location);
-        double largest              = 0.; // component of the normal
-        for (unsigned int a = 0; a < dim; ++a)
-          largest = std::max(largest, std::abs(view.normal[a]));
-        if (view.distance < body.spacing * largest * (1. + 1e-9)) // the lattice's lowest point over the bed
-          distance = std::max(0., view.distance);
+        for (unsigned int s = 0; s < surfaces.size(); ++s)
+          {
+            double &distance = point.properties[body.layout.touching_distance(s)];
+            distance         = 0.5 * body.spacing;
+            if (!surfaces[s].samples->is_near(point.cell))
+              continue;
+            const SurfaceView<dim> view = surfaces[s].samples->view(point.cell, point.reference_location);
+            double largest              = 0.; // component of the normal
+            for (unsigned int a = 0; a < dim; ++a)
+              largest = std::max(largest, std::abs(view.normal[a]));
+            if (view.distance < body.spacing * largest * (1. + 1e-9)) // the lattice's lowest point over the surface
+              distance = std::max(0., view.distance);
+          }
       });
   }
 

@@ -42,10 +42,12 @@ namespace scree
                    { !scene.loads.empty(),
                      parameters.water.volume_correction_rate > 0.,
                      parameters.water.viscosity > 0.,
-                     scene.bed.get() })
+                     scene.bed.get(),
+                     &scene.obstacles })
       , rows(folder.file("statistics"))
       , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
       , maps(parameters.output.maps, scene.grid, folder)
+      , totals(scene.obstacles.size())
   {
     if (start == Start::resume)
       resume();
@@ -89,7 +91,7 @@ namespace scree
                   "the checkpoint " + checkpoint.folder + " is at " + number_text(clock.time()) +
                       " s already. Write a later time.");
     if (!folder.is_writer())
-      totals = RunTotals<dim>(); // The writer holds the sums.
+      totals = RunTotals<dim>(scene.obstacles.size()); // The writer holds the sums.
     reinit();
     points_at_edge = are_points_at_edge();
     output_times.begin(clock.time());
@@ -250,7 +252,7 @@ namespace scree
     partition.begin_step();
     StepReport<dim> step;
     if (is_released)
-      scene.forcing.set_step(clock.time(), time_step);
+      scene.begin_step(clock.time(), time_step);
     else
       scene.forcing.set_start();
     scheme->to_grid(clock.time());
@@ -266,6 +268,8 @@ namespace scree
     last_update = step.material;
     point_updates += step.n_updates;
     scene.account_for_lost_points(totals, clock.time());
+    if (is_released)
+      scene.end_step(time_step);
   }
 
 
@@ -402,7 +406,7 @@ namespace scree
                Utilities::to_string(ratio) + (is_released ? release : ". Asked to stop."));
     // Balances begin at the release; what was lost stays lost.
     const RunTotals<dim> settled = totals;
-    totals                       = RunTotals<dim>();
+    totals                       = RunTotals<dim>(scene.obstacles.size());
     totals.n_lost                = settled.n_lost;
     totals.lost_mass             = settled.lost_mass;
     totals.lost_water_mass       = settled.lost_water_mass;
@@ -533,6 +537,8 @@ namespace scree
     unsigned long long step = clock.step();
     archive &time &step &speeds.wave &speeds.points &last_time_step;
     archive &totals &statistics &graphics &rows &probes &maps;
+    for (Obstacle<dim> &obstacle : scene.obstacles)
+      archive &obstacle;
     clock.set(time, step);
   }
 

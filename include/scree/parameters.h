@@ -13,6 +13,7 @@
 #include <scree/output/probe_parameters.h>
 #include <scree/points/seeding.h>
 #include <scree/geometry/bed_parameters.h>
+#include <scree/geometry/obstacle_parameters.h>
 #include <scree/points/seepage_parameters.h>
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
@@ -79,6 +80,7 @@ namespace scree
     std::vector<BodyParameters> bodies;
     BoundaryParameters boundaries;
     BedParameters bed;
+    std::vector<ObstacleParameters> obstacles; ///< also those that are not set
     SurfaceLoadParameters surface_load;
     SettlingParameters settling;
     OutputParameters output;
@@ -91,6 +93,9 @@ namespace scree
 
     /// Where the bodies are, and how porous and heavy.
     std::vector<SoilRegion> soil_regions() const;
+
+    /// The bed, and the obstacles that are set.
+    unsigned int n_rigid_surfaces() const;
 
     /// Every entry with its value.
     CaseEntries entries() const;
@@ -106,6 +111,7 @@ namespace scree
 
   private:
     void name_bodies();
+    void name_obstacles();
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
     void check() const;

@@ -7,6 +7,7 @@
 #include <scree/memory.h>
 #include <scree/output/statistics.h>
 #include <scree/parameters.h>
+#include <scree/scheme/bed_contact.h>
 #include <scree/scheme/forcing.h>
 #include <scree/scheme/scheme.h>
 
@@ -28,6 +29,12 @@ namespace scree
     /// Fills bodies and water with points, and gives them the state that the case starts from. Collective; throws
     /// EntryError where the case does not fit itself.
     void fill();
+
+    /// What acts on the soil in the step, s, that comes.
+    void begin_step(const double time, const double time_step);
+
+    /// Moves the obstacles to where they are after the step. Collective.
+    void end_step(const double time_step);
 
     /// Fits what depends on the mesh and its partition to them. Collective.
     void reinit();
@@ -73,6 +80,7 @@ namespace scree
     std::list<SoilBody<dim>> bodies;
     std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
     std::list<SurfaceLoad<dim>> loads;
+    std::list<Obstacle<dim>> obstacles;
     std::unique_ptr<LevelSet<dim>> ground;    ///< null without a bed
     std::unique_ptr<SampledSurface<dim>> bed; ///< the same as the mesh sees it
 
@@ -81,6 +89,10 @@ namespace scree
     void fill_with_points();
     void set_velocity_gradients();
     void set_touching_distances();
+    void require_points_outside_obstacles() const;
+
+    /// The bed and the obstacles: what points in contact have slots for, in this order.
+    std::vector<RigidSurface<dim>> rigid_surfaces() const;
     void set_initial_state();
     void require_viscosity(const double stable_step) const;
 

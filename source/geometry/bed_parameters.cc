@@ -14,11 +14,18 @@ namespace scree
 
   void BedParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.enter_subsection("Bed");
+    prm.enter_subsection(subsection);
+    add_entries(prm);
+    prm.leave_subsection();
+  }
+
+
+  void BedParameters::add_entries(ParameterHandler &prm)
+  {
     prm.add_parameter("Type",
                       type,
-                      "What rigid ground, which need not follow the mesh, does to soil that presses on it: fixed (no "
-                      "slip), free slip or friction; none: there is no such ground.",
+                      "What the rigid surface, which need not follow the mesh, does to soil that presses on it: fixed "
+                      "(no slip), free slip or friction; none: there is no such surface.",
                       Patterns::Selection("none|fixed|free slip|friction"));
     prm.add_parameter("Friction angle",
                       friction_angle,
@@ -27,7 +34,7 @@ namespace scree
     prm.add_parameter(
         "Level set expression",
         expression,
-        "The ground as an expression of x, y (and z), in m: positive in the open, 0 on its surface. Best a "
+        "The surface as an expression of x, y (and z), in m: positive in the open, 0 on its surface. Best a "
         "distance, such as (y - 0.2*x)/sqrt(1.04).",
         Patterns::Anything());
     prm.add_parameter("Profile",
@@ -39,7 +46,6 @@ namespace scree
                       raster,
                       "In place of the expression, 3D: file of the ground's heights, in m, an ESRI ASCII grid.",
                       Patterns::Anything());
-    prm.leave_subsection();
   }
 
 
@@ -79,8 +85,21 @@ namespace scree
 
   void BedParameters::check(const unsigned int dim, const bool has_water) const
   {
-    const auto require = [](const bool possible, const auto &entry, const std::string &remedy) {
-      require_entry(possible, "Bed", entry.first, entry.second, remedy);
+    check_surface(dim);
+    require_entry(
+        !has_water || !is_set(),
+        subsection,
+        "Type",
+        type,
+        "a bed under water is not possible yet. Remove subsection Water or the bed, or make the ground a wall of the "
+        "box or a body of \"Material = rigid\".");
+  }
+
+
+  void BedParameters::check_surface(const unsigned int dim) const
+  {
+    const auto require = [this](const bool possible, const auto &entry, const std::string &remedy) {
+      require_entry(possible, subsection, entry.first, entry.second, remedy);
     };
     const auto given      = geometry();
     const bool is_rough   = type_kind() == BedType::friction;
@@ -98,8 +117,8 @@ namespace scree
       return;
     require(n_given > 0,
             type_entry,
-            "where is the bed? Write one of \"Level set expression\", \"Profile\" (2D) and \"Raster\" (3D).");
-    require(n_given < 2, given, "the bed is given twice. Keep one of expression, profile and raster.");
+            "where is it? Write one of \"Level set expression\", \"Profile\" (2D) and \"Raster\" (3D).");
+    require(n_given < 2, given, "it is given twice. Keep one of expression, profile and raster.");
     require(dim == 2 || profile.empty(),
             given,
             "a profile is ground of plane scenes. Write a \"Raster\" or a \"Level set expression\".");
@@ -107,14 +126,9 @@ namespace scree
             given,
             "a raster is ground of scenes in space. Write a \"Profile\" or a \"Level set expression\".");
     if (dim == 2 && !expression.empty())
-      ExpressionSurface<2>(entry_name("Bed", given.first), expression, 1.);
+      ExpressionSurface<2>(entry_name(subsection, given.first), expression, 1.);
     if (dim == 3 && !expression.empty())
-      ExpressionSurface<3>(entry_name("Bed", given.first), expression, 1.);
-    require(
-        !has_water,
-        type_entry,
-        "a bed under water is not possible yet. Remove subsection Water or the bed, or make the ground a wall of the "
-        "box or a body of \"Material = rigid\".");
+      ExpressionSurface<3>(entry_name(subsection, given.first), expression, 1.);
   }
 
 
@@ -130,7 +144,7 @@ namespace scree
       const auto [entry, value] = parameters.geometry();
       require_entry(
           covers,
-          "Bed",
+          parameters.subsection,
           entry,
           value,
           "the ground reaches from " + axis + " = " + number_text(first) + " to " + number_text(last) +
@@ -143,7 +157,7 @@ namespace scree
                                              const std::vector<double> &upper,
                                              const Point<2> &)
     {
-      auto profile = std::make_unique<Profile>(read_profile(parameters.profile, entry_name("Bed", "Profile")));
+      auto profile = std::make_unique<Profile>(read_profile(parameters.profile, entry_name(parameters.subsection, "Profile")));
       require_cover(profile->first_x() <= lower[0] && profile->last_x() >= upper[0],
                     parameters,
                     "x",
@@ -158,7 +172,7 @@ namespace scree
                                              const std::vector<double> &upper,
                                              const Point<3> &)
     {
-      Raster raster = read_raster(parameters.raster, entry_name("Bed", "Raster"));
+      Raster raster = read_raster(parameters.raster, entry_name(parameters.subsection, "Raster"));
       require_cover(raster.x <= lower[0] && raster.last_x() >= upper[0], parameters, "x", raster.x, raster.last_x());
       require_cover(raster.y <= lower[1] && raster.last_y() >= upper[1], parameters, "y", raster.y, raster.last_y());
       return std::make_unique<HeightSurface>(std::move(raster));
@@ -176,7 +190,7 @@ namespace scree
       return nullptr;
     if (!parameters.expression.empty())
       return std::make_unique<ExpressionSurface<dim>>(
-          entry_name("Bed", "Level set expression"), parameters.expression, cell_size);
+          entry_name(parameters.subsection, "Level set expression"), parameters.expression, cell_size);
     return make_ground(parameters, lower, upper, Point<dim>());
   }
 

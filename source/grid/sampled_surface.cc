@@ -2,30 +2,91 @@
 #include <scree/grid/sampled_surface.h>
 #include <scree/input/input_error.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace scree
 {
   using namespace dealii;
 
   template <int dim>
-  SampledSurface<dim>::SampledSurface(const BackgroundGrid<dim> &grid, const LevelSet<dim> &surface)
+  SampledSurface<dim>::SampledSurface(const BackgroundGrid<dim> &grid,
+                                      const LevelSet<dim> &surface,
+                                      const SurfaceMotion motion)
       : grid(grid)
       , surface(surface)
+      , motion(motion)
+      , n_1d(is_moving() ? 3 : 2)
+      , n_of_cell(Utilities::fixed_power<dim>(n_1d))
   {
+    for (unsigned int a = 0; a < dim; ++a)
+      strides[a] = a == 0 ? 1 : n_1d * strides[a - 1];
+    for (unsigned int v = 0; v < n_corners; ++v)
+      {
+        corner_offset[v] = 0;
+        for (unsigned int a = 0; a < dim; ++a)
+          corner_offset[v] += (v >> a & 1) * strides[a];
+      }
     reinit();
   }
 
 
   template <int dim>
-  void SampledSurface<dim>::reinit()
+  bool SampledSurface<dim>::place(const Tensor<1, dim> &displacement)
+  {
+    const CellPlace<dim> before = whole_cells;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        const double cells = displacement[a] / grid.cell_size();
+        whole_cells[a]     = static_cast<int>(std::floor(cells));
+        part_of_cell[a]    = cells - whole_cells[a];
+      }
+    return whole_cells != before;
+  }
+
+
+  template <int dim>
+  void SampledSurface<dim>::reinit(const Tensor<1, dim> &displacement)
+  {
+    place(displacement);
+    look();
+  }
+
+
+  template <int dim>
+  void SampledSurface<dim>::move_to(const Tensor<1, dim> &displacement)
+  {
+    if (place(displacement))
+      look();
+  }
+
+
+  template <int dim>
+  void SampledSurface<dim>::look()
   {
     entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
     corners.clear();
     least.clear();
     on_all_ranks(grid.triangulation().get_communicator(), [&] { sample(); });
+    if (!is_moving())
+      seen.clear();
+  }
+
+
+  template <int dim>
+  const SurfaceView<dim> &SampledSurface<dim>::at_corner(const CellPlace<dim> &corner)
+  {
+    // Corners of a surface that moves may lie outside the box.
+    constexpr unsigned int n_bits = 64 / dim;
+    std::uint64_t key             = 0;
+    for (const int number : corner)
+      key = key << n_bits | (static_cast<std::uint64_t>(number) & ((std::uint64_t(1) << n_bits) - 1));
+    const auto [entry, is_new] = seen.emplace(key, SurfaceView<dim>());
+    if (is_new)
+      entry->second = surface.view(grid.fine_cells().box().corner(corner), reach() + std::sqrt(dim) * grid.cell_size());
+    return entry->second;
   }
 
 
@@ -33,35 +94,40 @@ namespace scree
   void SampledSurface<dim>::sample()
   {
     const double width = grid.cell_size(), near = reach(), far = near + std::sqrt(dim) * width;
-    const CellsOfBox<dim> &box = grid.fine_cells().box();
-    std::unordered_map<std::uint64_t, SurfaceView<dim>> seen; // corners are shared by cells
     for (const auto &cell : grid.fine_cells().cells())
       {
         if (!grid.fine_cells().is_owned(cell))
           continue;
-        Point<dim> middle = box.corner(cell.place);
+        CellPlace<dim> first = cell.place, inner;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            first[a] -= whole_cells[a] + (is_moving() ? 1 : 0);
+            inner[a] = first[a] + 1;
+          }
+        // The middle of the corners: with three along an axis that is a corner itself.
+        Point<dim> middle = grid.fine_cells().box().corner(first);
         for (unsigned int a = 0; a < dim; ++a)
           middle[a] += 0.5 * width;
-        if (std::abs(surface.view(middle, far).distance) >= far)
+        const double of_middle = is_moving() ? at_corner(inner).distance : surface.view(middle, far).distance;
+        if (std::abs(of_middle) >= far)
           continue;
-        Corners of_cell;
+        const std::size_t begin = corners.size();
         double smallest = far, largest = -far;
-        for (unsigned int v = 0; v < n_corners; ++v)
+        for (unsigned int v = 0; v < n_of_cell; ++v)
           {
-            CellPlace<dim> place = cell.place;
+            CellPlace<dim> place = first;
             for (unsigned int a = 0; a < dim; ++a)
-              place[a] += v >> a & 1;
-            const auto [corner, is_new] = seen.emplace(curve_number<dim>(place), SurfaceView<dim>());
-            if (is_new)
-              corner->second = surface.view(box.corner(place), far);
-            of_cell[v] = corner->second;
-            smallest   = std::min(smallest, of_cell[v].distance);
-            largest    = std::max(largest, of_cell[v].distance);
+              place[a] += v / strides[a] % n_1d;
+            corners.push_back(at_corner(place));
+            smallest = std::min(smallest, corners.back().distance);
+            largest  = std::max(largest, corners.back().distance);
           }
         if (smallest > near || largest < -near)
-          continue;
-        entry_of_cell[cell.index] = corners.size();
-        corners.push_back(of_cell);
+          {
+            corners.resize(begin);
+            continue;
+          }
+        entry_of_cell[cell.index] = least.size();
         least.push_back(smallest);
       }
   }
@@ -70,15 +136,24 @@ namespace scree
   template <int dim>
   SurfaceView<dim> SampledSurface<dim>::view(const unsigned int cell, const Point<dim> &place) const
   {
-    const Corners &of_cell = corners[entry_of_cell[cell]];
+    const SurfaceView<dim> *of_cell = &corners[std::size_t(entry_of_cell[cell]) * n_of_cell];
+    Point<dim> local                = place;
+    if (is_moving())
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          const bool is_upper = place[a] >= part_of_cell[a];
+          of_cell += is_upper ? strides[a] : 0;
+          local[a] += (is_upper ? 0. : 1.) - part_of_cell[a];
+        }
     SurfaceView<dim> result{};
     for (unsigned int v = 0; v < n_corners; ++v)
       {
         double weight = 1.;
         for (unsigned int a = 0; a < dim; ++a)
-          weight *= v >> a & 1 ? place[a] : 1. - place[a];
-        result.distance += weight * of_cell[v].distance;
-        result.normal += weight * of_cell[v].normal;
+          weight *= v >> a & 1 ? local[a] : 1. - local[a];
+        const SurfaceView<dim> &corner = of_cell[corner_offset[v]];
+        result.distance += weight * corner.distance;
+        result.normal += weight * corner.normal;
       }
     const double size = result.normal.norm();
     if (size > 0.)

@@ -67,7 +67,8 @@ namespace scree
     std::string read_expressions(Expression<dim> &function, const std::string &text, const bool with_time)
     {
       const unsigned int n_components = function.n_components;
-      const std::string variables     = FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
+      const std::string variables =
+          dim == 1 ? "t" : FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
       if (const auto n = Utilities::split_string_list(text, ';').size(); n != n_components)
         return std::to_string(n) + " expression(s) where " + std::to_string(n_components) + " are needed";
       if (const std::string fault = misleading_sign(text); !fault.empty())
@@ -109,10 +110,11 @@ namespace scree
     const double result = FunctionParser<dim>::value(x, component);
     if (!std::isfinite(result))
       throw ValueError(name + ": it is " + (std::isnan(result) ? "not a number" : "infinite") + " at " +
-                       number_text(std::vector<double>(x.begin_raw(), x.end_raw())) + " m" +
+                       (dim == 1 ? "t = " : "") + number_text(std::vector<double>(x.begin_raw(), x.end_raw())) +
+                       (dim == 1 ? " s" : " m") +
                        (with_time ? ", t = " + number_text(this->get_time()) + " s" : "") +
-                       ". Write an expression that is a number wherever it is asked for, for instance with "
-                       "if(x > 0, ..., ...).");
+                       ". Write an expression that is a number wherever it is asked for, for instance with if(" +
+                       (dim == 1 ? 't' : 'x') + " > 0, ..., ...).");
     return result;
   }
 
@@ -125,10 +127,11 @@ namespace scree
   {
     auto function             = std::make_unique<Expression<dim>>(where + " = " + text, n_components, with_time);
     const std::string fault   = read_expressions(*function, text, with_time);
+    const std::string last    = dim == 1 ? "0.1*t" : "-2*x";
     const std::string example = n_components == 1   ? "if(x < 2, y < 2, y < 4 - x)"
-                                : n_components == 2 ? "0; -2*x"
-                                                    : "0; 0; -2*x";
-    const std::string names   = dim == 2 ? "x, y" : "x, y, z";
+                                : n_components == 2 ? "0; " + last
+                                                    : "0; 0; " + last;
+    const std::string names   = dim == 1 ? "t" : dim == 2 ? "x, y" : "x, y, z";
     // muParser reads "&&y" as "&" and a word "&y".
     const bool blank_missing =
         fault.rfind("Unexpected token \"&", 0) == 0 || fault.rfind("Unexpected token \"|", 0) == 0;
@@ -140,8 +143,11 @@ namespace scree
     return function;
   }
 
+  template class Expression<1>;
   template class Expression<2>;
   template class Expression<3>;
+  template std::unique_ptr<Expression<1>>
+  parse_expression(const std::string &, const std::string &, const unsigned int, const bool);
   template std::unique_ptr<Expression<2>>
   parse_expression(const std::string &, const std::string &, const unsigned int, const bool);
   template std::unique_ptr<Expression<3>>

@@ -196,6 +196,17 @@ namespace scree
   }
 
 
+  std::vector<std::string> InputFile::subsections(const std::string &prefix) const
+  {
+    std::vector<std::string> names;
+    for (const Statement &statement : statements)
+      if (statement.kind == Kind::subsection && statement.path.empty() && statement.name.rfind(prefix, 0) == 0 &&
+          std::find(names.begin(), names.end(), statement.name) == names.end())
+        names.push_back(statement.name);
+    return names;
+  }
+
+
   void InputFile::check(const ParameterHandler &prm,
                         const std::string &last_remedy,
                         const SubsectionRemedy &subsection_remedy) const

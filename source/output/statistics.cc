@@ -60,6 +60,15 @@ namespace scree
       for (Tensor<1, dim> &impulse : walls->of_face)
         for (unsigned int a = 0; a < dim; ++a)
           values.push_back(&impulse[a]);
+    for (ObstacleBalance<dim> &obstacle : balance.obstacles)
+      {
+        for (unsigned int a = 0; a < dim; ++a)
+          values.push_back(&obstacle.impulse[a]);
+        for (unsigned int r = 0; r < ObstacleBalance<dim>::n_rotations; ++r)
+          values.push_back(&obstacle.moment_impulse[r]);
+        values.push_back(&obstacle.work);
+        values.push_back(&obstacle.dissipation);
+      }
 
     std::vector<double> sums; // one message for all
     for (const double *value : values)
@@ -104,7 +113,7 @@ namespace scree
     const RunTotals<dim> totals     = local.sum_over_ranks(communicator);
     const StepBalance<dim> &balance = totals.balance;
     const Tensor<1, dim> impulse    = balance.wall_impulse + balance.body_impulse + balance.pressure_impulse +
-                                   balance.load_impulse + balance.bed_impulse - totals.lost_momentum;
+                                   balance.load_impulse + balance.bed_impulse + balance.obstacle_impulse() - totals.lost_momentum;
 
     const double energy = now.kinetic + now.potential + now.elastic;
     if (!has_start)
@@ -131,7 +140,7 @@ namespace scree
     add("Numerical dissipation (J)",
         start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.bed_dissipation -
             balance.drag_dissipation - balance.viscous_dissipation - totals.lost_energy + balance.load_work +
-            balance.correction_work);
+            balance.correction_work + balance.obstacle_energy());
     if (!bodies.empty())
       add_soil_columns(bodies, now, totals, last_step);
     add("Points lost", totals.n_lost);
@@ -140,6 +149,8 @@ namespace scree
       add_water_columns(bodies, water, now, totals, step);
     if (further.bed)
       add_bed_columns(bodies, balance);
+    if (!further.obstacles->empty())
+      add_obstacle_columns(balance, time);
     if (further.loads)
       add("Load work (J)", balance.load_work);
     if (further.volume_correction)
@@ -178,6 +189,39 @@ namespace scree
     for (unsigned int a = 0; a < dim; ++a)
       add(std::string("Bed impulse ") + "xyz"[a] + " (N s)", -balance.bed_impulse[a]);
     add("Least distance from bed (m)", least_distance(bodies, *further.bed, grid.triangulation().get_communicator()));
+  }
+
+
+  template <int dim>
+  void Statistics<dim>::add_obstacle_columns(const StepBalance<dim> &balance, const double time)
+  {
+    obstacles_at_last_row.resize(balance.obstacles.size());
+    const double duration = time - last_row_time;
+    const auto mean_rate  = [duration](const double now, const double before) {
+      return duration > 0. ? (now - before) / duration : 0.;
+    };
+    auto obstacle = further.obstacles->begin();
+    for (unsigned int o = 0; o < balance.obstacles.size(); ++o, ++obstacle)
+      {
+        // The obstacle feels the opposite of what the soil does.
+        const ObstacleBalance<dim> &now = balance.obstacles[o], &before = obstacles_at_last_row[o];
+        const std::string name          = ObstacleParameters::prefix + obstacle->name + ' ';
+        for (unsigned int a = 0; a < dim; ++a)
+          add(name + "force " + "xyz"[a] + " (N)", mean_rate(-now.impulse[a], -before.impulse[a]));
+        for (unsigned int r = 0; r < ObstacleBalance<dim>::n_rotations; ++r)
+          add(name + "moment " + (dim == 2 ? 'z' : "xyz"[r]) + " (N m)",
+              mean_rate(-now.moment_impulse[r], -before.moment_impulse[r]));
+        for (unsigned int a = 0; a < dim; ++a)
+          add(name + "impulse " + "xyz"[a] + " (N s)", -now.impulse[a]);
+        add(name + "dissipation (J)", now.dissipation);
+        if (!obstacle->is_moving)
+          continue;
+        add(name + "work (J)", now.work);
+        for (unsigned int a = 0; a < dim; ++a)
+          add(name + "displacement " + "xyz"[a] + " (m)", obstacle->displacement()[a]);
+      }
+    obstacles_at_last_row = balance.obstacles;
+    last_row_time         = time;
   }
 
 

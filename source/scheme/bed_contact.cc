@@ -18,18 +18,29 @@ namespace scree
 
     /// Cells as far apart along an axis share no nodes.
     constexpr unsigned int colours_1d = 3;
+
+    /// Of a force on an arm.
+    template <int dim>
+    auto moment(const Tensor<1, dim> &arm, const Tensor<1, dim> &force)
+    {
+      if constexpr (dim == 2)
+        return Tensor<1, 1>({ arm[0] * force[1] - arm[1] * force[0] });
+      else
+        return cross_product_3d(arm, force);
+    }
   } // namespace
 
 
   template <int dim>
   BedContact<dim>::BedContact(const BackgroundGrid<dim> &grid,
                               const Constraints<dim> &constraints,
-                              const Bed<dim> &bed,
+                              const std::vector<RigidSurface<dim>> &surfaces,
                               const double gravity,
                               std::list<SoilBody<dim>> &bodies)
       : grid(grid)
       , constraints(constraints)
-      , bed(bed)
+      , surfaces(surfaces)
+      , n_obstacles(std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , slack(0.01 * grid.cell_size())
       , most_speed(0.03 * std::sqrt(gravity * grid.cell_size()))
       , bodies(bodies)
@@ -42,6 +53,17 @@ namespace scree
   void BedContact<dim>::reinit()
   {
     nodes.reinit();
+  }
+
+
+  template <int dim>
+  double BedContact<dim>::fastest(const double time) const
+  {
+    double speed = 0.;
+    for (const RigidSurface<dim> &surface : surfaces)
+      if (surface.obstacle)
+        speed = std::max(speed, surface.obstacle->velocity_at(time).norm());
+    return speed;
   }
 
 
@@ -60,6 +82,7 @@ namespace scree
   template <int dim>
   template <int n>
   void BedContact<dim>::add_contact(const SoilBody<dim> &body,
+                                    const unsigned int surface,
                                     const PointView<dim, double> &point,
                                     const SurfaceView<dim> &view,
                                     const double dt)
@@ -79,15 +102,16 @@ namespace scree
                   most_mobility);
 
     Contact contact;
-    contact.force          = point.properties + body.layout.contact_force;
+    contact.force          = point.properties + body.layout.contact_force(surface);
+    contact.surface        = surface;
     contact.normal         = view.normal;
-    contact.approach       = least_approach(view.distance - point.properties[body.layout.touching_distance], dt);
+    contact.approach       = least_approach(view.distance - point.properties[body.layout.touching_distance(surface)], dt);
     contact.inertia        = row.mobility > 0. ? 1. / row.mobility : 0.;
     const Tensor<1, dim> J = dt * vector_of<dim>(contact.force);
     const double normal    = J * view.normal;
     contact.normal_impulse = std::max(0., normal);
     contact.tangent_impulse =
-        coulomb_friction<dim>(J - normal * view.normal, bed.available(contact.normal_impulse)).impulse;
+        coulomb_friction<dim>(J - normal * view.normal, surfaces[surface].available(contact.normal_impulse)).impulse;
     constexpr double irrational[3] = { 1., 0.7548776662466927, 0.5698402909980532 };
     contact.order                  = 0.;
     for (unsigned int a = 0; a < dim; ++a)
@@ -98,6 +122,8 @@ namespace scree
     while (place > cell.first && contacts[place - 1].order > contact.order)
       --place;
     contacts.insert(contacts.begin() + place, contact);
+    if (n_obstacles > 0)
+      feet.insert(feet.begin() + place, point.location - depth * view.normal);
     constexpr unsigned int n_doubles = OfCell<dim, n>::n_doubles;
     rows.insert(rows.begin() + std::size_t(place) * n_doubles, n_doubles, 0.);
     std::copy(row.shape.begin(), row.shape.end(), rows.begin() + std::size_t(place) * n_doubles);
@@ -127,6 +153,29 @@ namespace scree
 
 
   template <int dim>
+  void BedContact<dim>::find_near_surfaces(const SoilBody<dim> &body,
+                                           const CellPoints<dim> &points,
+                                           const double fastest,
+                                           const double dt)
+  {
+    near.clear();
+    for (unsigned int s = 0; s < surfaces.size(); ++s)
+      {
+        const RigidSurface<dim> &surface = surfaces[s];
+        if (!surface.samples->is_near(points.cell))
+          continue;
+        const double margin = slack + 1.5 * (fastest + surface.velocity.norm()) * dt;
+        if (surface.samples->least_distance(points.cell) <= body.spacing + margin)
+          near.push_back({ s, margin });
+        else if (surface.obstacle && surface.obstacle->is_moving)
+          for_each_point(points, [&](const auto &point) { // It may have gone away from points that touched it.
+            std::fill_n(point.properties + body.layout.contact_force(s), dim, 0.);
+          });
+      }
+  }
+
+
+  template <int dim>
   template <int n>
   void BedContact<dim>::add_cell(const SoilBody<dim> &body,
                                  const CellPoints<dim> &points,
@@ -139,22 +188,25 @@ namespace scree
     for (unsigned int i = 0; i < n_nodes; ++i)
       if (const double *values = field[of_cell[i]]; values[NodalField<dim>::mass] > 0.)
         fastest = std::max(fastest, vector_of<dim>(values + NodalField<dim>::velocity).norm_square());
-    const double margin = slack + 1.5 * std::sqrt(fastest) * dt;
-    if (bed.surface.least_distance(points.cell) > body.spacing + margin)
+    find_near_surfaces(body, points, std::sqrt(fastest), dt);
+    if (near.empty())
       return;
 
     bool is_new = true;
     for_each_point(points, [&](const auto &point) {
-      const SurfaceView<dim> view = bed.surface.view(point.cell, point.reference_location);
-      if (view.distance - point.properties[body.layout.touching_distance] > margin)
+      for (const Near &one : near)
         {
-          std::fill_n(point.properties + body.layout.contact_force, dim, 0.);
-          return;
+          const SurfaceView<dim> view = surfaces[one.surface].samples->view(point.cell, point.reference_location);
+          if (view.distance - point.properties[body.layout.touching_distance(one.surface)] > one.margin)
+            {
+              std::fill_n(point.properties + body.layout.contact_force(one.surface), dim, 0.);
+              continue;
+            }
+          if (is_new)
+            open_cell(points.cell, field);
+          is_new = false;
+          add_contact<n>(body, one.surface, point, view, dt);
         }
-      if (is_new)
-        open_cell(points.cell, field);
-      is_new = false;
-      add_contact<n>(body, point, view, dt);
     });
   }
 
@@ -168,10 +220,20 @@ namespace scree
     nodes_of_cells.clear();
     contacts.clear();
     rows.clear();
+    feet.clear();
+    for (RigidSurface<dim> &surface : surfaces)
+      if (surface.obstacle)
+        surface.velocity = surface.obstacle->velocity();
+    const auto is_near = [this](const unsigned int cell) {
+      for (const RigidSurface<dim> &surface : surfaces)
+        if (surface.samples->is_near(cell))
+          return true;
+      return false;
+    };
     for (auto &body : bodies)
       if (!body.is_rigid)
         for (const auto &cell : body.points.cells())
-          if (bed.surface.is_near(cell.cell))
+          if (is_near(cell.cell))
             add_cell<n>(body, cell, field, time_step);
   }
 
@@ -235,8 +297,19 @@ namespace scree
                   balance.soil_walls.add(constraints.at(node.node)->soil_faces, reaction);
                 }
             }
-          balance.bed_impulse += sum * impulse;
-          balance.bed_dissipation -= impulse * mean_velocity;
+          const RigidSurface<dim> &surface = surfaces[contact.surface];
+          if (surface.obstacle == nullptr)
+            {
+              balance.bed_impulse += sum * impulse;
+              balance.bed_dissipation -= impulse * mean_velocity;
+              continue;
+            }
+          ObstacleBalance<dim> &obstacle = balance.obstacles[contact.surface - (surfaces.size() - n_obstacles)];
+          const double work              = sum * impulse * surface.velocity;
+          obstacle.impulse += sum * impulse;
+          obstacle.moment_impulse += moment<dim>(feet[c] - surface.obstacle->pivot, sum * impulse);
+          obstacle.work += work;
+          obstacle.dissipation += work - impulse * mean_velocity;
         }
   }
 
@@ -245,6 +318,7 @@ namespace scree
   template <int n>
   void BedContact<dim>::solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance)
   {
+    balance.obstacles.resize(n_obstacles);
     find_contacts<n>(field, time_step);
     colour_cells();
     if (!any_contact)

@@ -54,18 +54,19 @@ namespace scree
         const unsigned int c = is_forward ? cell.first + k : cell.first + cell.n - 1 - k;
         Contact &contact     = contacts[c];
         const Lanes row(&rows[std::size_t(c) * Lanes::n_doubles]);
-        Tensor<1, dim> at_foot;
+        const RigidSurface<dim> &surface = surfaces[contact.surface];
+        Tensor<1, dim> at_foot; // from the surface
         for (unsigned int a = 0; a < dim; ++a)
-          at_foot[a] = row.product(velocity[a]);
+          at_foot[a] = row.product(velocity[a]) - surface.velocity[a];
 
-        // An impulse across the bed does nothing along it: both follow from one velocity.
+        // An impulse across the surface does nothing along it: both follow from one velocity.
         const double across = at_foot * contact.normal;
         const double normal = std::max(0., contact.normal_impulse - (across - contact.approach) * contact.inertia);
         if (normal == 0. && contact.normal_impulse == 0.)
           continue;
         const Tensor<1, dim> tangent =
             coulomb_friction<dim>(contact.tangent_impulse - contact.inertia * (at_foot - across * contact.normal),
-                                  bed.available(normal))
+                                  surface.available(normal))
                 .impulse;
         const Tensor<1, dim> change =
             (normal - contact.normal_impulse) * contact.normal + (tangent - contact.tangent_impulse);
@@ -92,8 +93,9 @@ namespace scree
         const unsigned int c = is_forward ? cell.first + k : cell.first + cell.n - 1 - k;
         const double *row    = &rows[std::size_t(c) * OfCell<dim, n>::n_doubles];
         Contact &contact     = contacts[c];
-        const auto velocity  = [&] {
-          Tensor<1, dim> sum;
+        const RigidSurface<dim> &surface = surfaces[contact.surface];
+        const auto velocity  = [&] { // from the surface
+          Tensor<1, dim> sum = -surface.velocity;
           for (unsigned int i = 0; i < n_nodes; ++i)
             sum += row[i] * nodes[numbers[i]].velocity;
           return sum;
@@ -126,7 +128,7 @@ namespace scree
         const double along = speed > 0. ? mobility(slip / speed) : 0.;
         const Tensor<1, dim> needed =
             contact.tangent_impulse - (along * contact.inertia >= smallest ? slip / along : Tensor<1, dim>());
-        const Tensor<1, dim> tangent = coulomb_friction<dim>(needed, bed.available(normal)).impulse;
+        const Tensor<1, dim> tangent = coulomb_friction<dim>(needed, surface.available(normal)).impulse;
         push<n>(cell, c, tangent - contact.tangent_impulse);
         contact.tangent_impulse = tangent;
       }

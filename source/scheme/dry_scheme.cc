@@ -80,7 +80,9 @@ namespace scree
   template <int dim>
   double DryScheme<dim>::stable_step(const Clock &clock, const Speeds &speeds) const
   {
-    return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points);
+    const double fastest = bed ? bed->fastest(clock.time()) : 0.;
+    // Not std::max: it might lose a NaN.
+    return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points < fastest ? fastest : speeds.points);
   }
 
 

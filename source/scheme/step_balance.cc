@@ -4,6 +4,37 @@
 namespace scree
 {
   template <int dim>
+  ObstacleBalance<dim> &ObstacleBalance<dim>::operator+=(const ObstacleBalance &other)
+  {
+    impulse += other.impulse;
+    moment_impulse += other.moment_impulse;
+    work += other.work;
+    dissipation += other.dissipation;
+    return *this;
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim> StepBalance<dim>::obstacle_impulse() const
+  {
+    dealii::Tensor<1, dim> sum;
+    for (const ObstacleBalance<dim> &obstacle : obstacles)
+      sum += obstacle.impulse;
+    return sum;
+  }
+
+
+  template <int dim>
+  double StepBalance<dim>::obstacle_energy() const
+  {
+    double sum = 0.;
+    for (const ObstacleBalance<dim> &obstacle : obstacles)
+      sum += obstacle.work - obstacle.dissipation;
+    return sum;
+  }
+
+
+  template <int dim>
   StepBalance<dim> &StepBalance<dim>::operator+=(const StepBalance &other)
   {
     wall_impulse += other.wall_impulse;
@@ -13,6 +44,10 @@ namespace scree
     pressure_impulse += other.pressure_impulse;
     load_impulse += other.load_impulse;
     bed_impulse += other.bed_impulse;
+    if (obstacles.size() < other.obstacles.size())
+      obstacles.resize(other.obstacles.size());
+    for (unsigned int o = 0; o < other.obstacles.size(); ++o)
+      obstacles[o] += other.obstacles[o];
     wall_dissipation += other.wall_dissipation;
     bed_dissipation += other.bed_dissipation;
     drag_dissipation += other.drag_dissipation;
@@ -26,6 +61,8 @@ namespace scree
     return *this;
   }
 
+  template struct ObstacleBalance<2>;
+  template struct ObstacleBalance<3>;
   template struct StepBalance<2>;
   template struct StepBalance<3>;
 } // namespace scree

@@ -13,26 +13,34 @@
 
 namespace scree
 {
-  /// What the bed does to soil that presses on it.
+  /// What a rigid surface does to soil that presses on it.
   enum class BedType
   {
-    none,  ///< there is no bed
+    none,  ///< there is no such surface
     fixed, ///< no slip
     free_slip,
     friction ///< Coulomb's
   };
 
-  /// Subsection Bed: rigid ground that need not follow the mesh.
+  /// Subsection Bed: rigid ground that need not follow the mesh. Obstacles have its entries, too.
   struct BedParameters
   {
-    std::string type      = "none";
-    double friction_angle = 0; ///< degrees
+    std::string subsection = "Bed";
+
+    std::string type       = "none";
+    double friction_angle  = 0; ///< degrees
     std::string expression, profile, raster;
 
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /// Declares the entries in the subsection that the handler is in.
+    void add_entries(dealii::ParameterHandler &prm);
+
     /// Throws EntryError at impossible combinations.
     void check(const unsigned int dim, const bool has_water) const;
+
+    /// The same of the surface alone.
+    void check_surface(const unsigned int dim) const;
 
     BedType type_kind() const;
 
@@ -48,7 +56,7 @@ namespace scree
     std::pair<std::string, std::string> geometry() const;
   };
 
-  /// The bed's surface. Reads its file; throws EntryError if that is no ground for the box.
+  /// The surface; null if there is none. Reads its file; throws EntryError if that is no ground for the box.
   /// @param lower, upper corners of the box, m
   /// @param cell_size of the mesh, m
   template <int dim>

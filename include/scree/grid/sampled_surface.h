@@ -7,22 +7,37 @@
 
 #include <array>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 namespace scree
 {
-  /// A rigid surface as this rank's fine cells near it see it: distance and normal at their corners, multilinear
-  /// between. The normals are those of the corners and not the gradient of the distance, which jumps between cells.
+  /// Whether a surface may move.
+  enum class SurfaceMotion
+  {
+    none,
+    rigid ///< without turning
+  };
+
+  /// A rigid surface as this rank's fine cells near it see it: distance and normal at the corners of a lattice of such
+  /// cells, multilinear between. The normals are those of the corners and not the gradient of the distance, which jumps
+  /// between cells. The lattice moves with the surface, which so keeps its shape; at rest it is that of the mesh.
   template <int dim>
   class SampledSurface
   {
   public:
     /// Both are kept by reference.
-    SampledSurface(const BackgroundGrid<dim> &grid, const LevelSet<dim> &surface);
+    SampledSurface(const BackgroundGrid<dim> &grid,
+                   const LevelSet<dim> &surface,
+                   const SurfaceMotion motion = SurfaceMotion::none);
 
     /// Looks at the surface from the grid's current cells. Collective; throws EntryError if an expression is no number
     /// at one of the corners.
-    void reinit();
+    /// @param displacement from where the level set has it, m; 0 unless it may move
+    void reinit(const dealii::Tensor<1, dim> &displacement = {});
+
+    /// The same on the mesh as it was, at little cost. Collective.
+    void move_to(const dealii::Tensor<1, dim> &displacement);
 
     /// How far from the surface cells are near, m.
     double reach() const
@@ -49,14 +64,33 @@ namespace scree
   private:
     static constexpr unsigned int n_corners = 1u << dim;
     static constexpr unsigned int none      = dealii::numbers::invalid_unsigned_int;
-    using Corners                           = std::array<SurfaceView<dim>, n_corners>;
 
+    bool is_moving() const
+    {
+      return motion == SurfaceMotion::rigid;
+    }
+
+    /// Returns whether the lattice lies in other cells now.
+    bool place(const dealii::Tensor<1, dim> &displacement);
+
+    void look();
     void sample();
+
+    /// The surface from a corner of the lattice.
+    const SurfaceView<dim> &at_corner(const CellPlace<dim> &corner);
 
     const BackgroundGrid<dim> &grid;
     const LevelSet<dim> &surface;
-    std::vector<unsigned int> entry_of_cell; // by active cell index
-    std::vector<Corners> corners;            // of the near cells
+    const SurfaceMotion motion;
+    const unsigned int n_1d;                           // corners a cell and axis: a lattice that moves has two cells there
+    const unsigned int n_of_cell;                      // corners
+    std::array<unsigned int, dim> strides;             // of a cell's corners along the axes
+    std::array<unsigned int, n_corners> corner_offset; // of the corners of one cell of the lattice
+    CellPlace<dim> whole_cells{};                      // that the surface has moved
+    dealii::Tensor<1, dim> part_of_cell;               // the rest, from 0 to 1
+    std::unordered_map<std::uint64_t, SurfaceView<dim>> seen; // corners are shared by cells
+    std::vector<unsigned int> entry_of_cell;                  // by active cell index
+    std::vector<SurfaceView<dim>> corners;                    // of the near cells
     std::vector<double> least;
   };
 } // namespace scree

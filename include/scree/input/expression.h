@@ -9,7 +9,7 @@
 
 namespace scree
 {
-  /// An entry's expressions of x, y (and z), and perhaps of t.
+  /// An entry's expressions of x, y (and z), and perhaps of t; with dim = 1 of t alone, which is the place then.
   template <int dim>
   class Expression : public dealii::FunctionParser<dim>
   {
@@ -25,7 +25,7 @@ namespace scree
     const bool with_time;
   };
 
-  /// Reads an expression of x, y (and z), and of t if `with_time`, or throws EntryError that begins with `where`
+  /// Reads an expression of x, y (and z), and of t if `with_time` (dim = 1: of t alone), or throws EntryError that begins with `where`
   /// (see entry_name()) and shows the text. `n_components` expressions are separated by semicolons.
   template <int dim>
   std::unique_ptr<Expression<dim>> parse_expression(const std::string &where,

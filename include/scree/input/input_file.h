@@ -43,6 +43,9 @@ namespace scree
     /// Whether the file has a subsection of that path.
     bool has_subsection(const std::string &path) const;
 
+    /// The names of the subsections at the top that begin with `prefix`, each once.
+    std::vector<std::string> subsections(const std::string &prefix) const;
+
     /// What helps if this subsection is not declared; empty: check() suggests the closest name.
     using SubsectionRemedy = std::function<std::string(const std::string &subsection)>;
 

@@ -4,6 +4,7 @@
 
 #include <scree/output/measures.h>
 #include <scree/output/point_sums.h>
+#include <scree/scheme/obstacle.h>
 #include <scree/scheme/step_balance.h>
 
 #include <boost/serialization/string.hpp>
@@ -29,6 +30,14 @@ namespace scree
     // Counts; doubles hold them exactly and travel like the rest.
     double n_lost = 0, n_updates = 0, n_substeps = 0, n_fallbacks = 0, n_vertices = 0, n_unresolved = 0;
 
+    RunTotals() = default;
+
+    /// @param n_obstacles of the scene
+    explicit RunTotals(const unsigned int n_obstacles)
+    {
+      balance.obstacles.resize(n_obstacles);
+    }
+
     void add(const UpdateReport &report);
 
     /// The sums over ranks, on all of them. Collective.
@@ -48,7 +57,8 @@ namespace scree
   struct FurtherColumns
   {
     bool loads = false, volume_correction = false, viscosity = false;
-    const SampledSurface<dim> *bed = nullptr;
+    const SampledSurface<dim> *bed              = nullptr;
+    const std::list<Obstacle<dim>> *obstacles = nullptr;
   };
 
   /// The rows of the file `statistics`: global numbers at each due time.
@@ -90,6 +100,7 @@ namespace scree
     {
       archive &has_start &start_momentum &start_energy &last_row &last_row_step &iterations_at_last_row;
       archive &cavitating_at_last_row &viscous_iterations_at_last_row;
+      archive &last_row_time &obstacles_at_last_row;
     }
 
   private:
@@ -98,6 +109,7 @@ namespace scree
                           const RunTotals<dim> &totals,
                           const UpdateReport &last_step);
     void add_bed_columns(const std::list<SoilBody<dim>> &bodies, const StepBalance<dim> &balance);
+    void add_obstacle_columns(const StepBalance<dim> &balance, const double time);
     void add_water_columns(const std::list<SoilBody<dim>> &bodies,
                            const std::list<WaterPhase<dim>> &water,
                            const PointSums<dim> &now,
@@ -115,6 +127,8 @@ namespace scree
     double iterations_at_last_row         = 0;
     double cavitating_at_last_row         = 0;
     double viscous_iterations_at_last_row = 0;
+    double last_row_time                  = 0;
+    std::vector<ObstacleBalance<dim>> obstacles_at_last_row;
     std::vector<std::pair<std::string, double>> last_row;
   };
 } // namespace scree

@@ -20,29 +20,39 @@ namespace scree
     unsigned int affine;                                                                     ///< dim x dim, row-major
     unsigned int start;             ///< location at the start of the run, m, dim
     bool has_start;                 ///< whether points keep it
-    unsigned int touching_distance; ///< from the bed at which they touch it, m
-    unsigned int contact_force;     ///< of the bed on them, N (2D: per m), dim
-    bool has_contact;               ///< whether points keep these two
+    unsigned int contacts;          ///< with each of the rigid surfaces: touching_distance() and contact_force()
+    unsigned int n_contacts;        ///< surfaces: the bed and obstacles
     unsigned int n_properties;
 
     /// @param n_internal_variables of the material law
     /// @param with_affine whether the transfer carries an affine velocity field
     /// @param with_start whether points keep where they started
-    /// @param with_contact whether there is a bed
+    /// @param n_contacts rigid surfaces: the bed and obstacles
     /// @param n_further slots behind the soil's own: of water that rides on the points
     PropertyLayout(const unsigned int n_internal_variables,
                    const bool with_affine,
                    const unsigned int n_further = 0,
                    const bool with_start        = false,
-                   const bool with_contact      = false)
+                   const unsigned int n_contacts = 0)
         : affine(internal_variables + n_internal_variables)
         , start(affine + (with_affine ? dim * dim : 0))
         , has_start(with_start)
-        , touching_distance(start + (with_start ? dim : 0))
-        , contact_force(touching_distance + 1)
-        , has_contact(with_contact)
-        , n_properties(touching_distance + (with_contact ? 1 + dim : 0) + n_further)
+        , contacts(start + (with_start ? dim : 0))
+        , n_contacts(n_contacts)
+        , n_properties(contacts + n_contacts * (1 + dim) + n_further)
     {
+    }
+
+    /// Distance from a rigid surface at which the point touches it, m.
+    unsigned int touching_distance(const unsigned int surface) const
+    {
+      return contacts + surface * (1 + dim);
+    }
+
+    /// Force of a rigid surface on the point, N (2D: per m), dim.
+    unsigned int contact_force(const unsigned int surface) const
+    {
+      return touching_distance(surface) + 1;
     }
   };
 } // namespace scree

@@ -5,31 +5,35 @@
 #include <scree/grid/sampled_surface.h>
 #include <scree/points/soil_body.h>
 #include <scree/scheme/contact_nodes.h>
+#include <scree/scheme/obstacle.h>
 
 #include <list>
 #include <vector>
 
 namespace scree
 {
-  /// Rigid ground and how soil rubs on it. The ground is kept by reference.
+  /// A rigid surface and how soil rubs on it. What it refers to must live on.
   template <int dim>
-  struct Bed
+  struct RigidSurface
   {
-    const SampledSurface<dim> &surface;
-    double friction_coefficient; ///< infinite: soil that presses does not slip
+    const SampledSurface<dim> *samples;
+    double friction_coefficient;                ///< infinite: soil that presses does not slip
+    const Obstacle<dim> *obstacle    = nullptr; ///< whose surface it is; null: the bed
+    dealii::Tensor<1, dim> velocity  = {};      ///< in the current step, m/s
 
-    /// The impulse along the ground, N s, that friction allows for one across it.
+    /// The impulse along the surface, N s, that friction allows for one across it.
     double available(const double normal_impulse) const
     {
       return normal_impulse > 0. ? friction_coefficient * normal_impulse : 0.;
     }
   };
 
-  /// Contact of points of dry soil with a bed, by impulses on the nodes between their own step and the points'.
+  /// Contact of points of dry soil with rigid surfaces, the bed and obstacles, by impulses on the nodes between their
+  /// own step and the points'.
   ///
-  /// Each point near the bed has a touching distance, about that of its start. A point that would come nearer in the
-  /// step gets an impulse along the bed's normal, and by Coulomb's law one along the bed. Both act at the point's foot
-  /// on the bed, through the shape functions of the point's own cell; so neighbours share impulses, which are found by
+  /// Each point near a surface has a touching distance, about that of its start. A point that would come nearer in the
+  /// step gets an impulse along the surface's normal, and by Coulomb's law one along the surface, from its velocity
+  /// relative to the surface's. Both act at the point's foot on the surface, through the shape functions of the point's own cell; so neighbours share impulses, which are found by
   /// sweeps over the points in turn (projected Gauss-Seidel), from those of the step before.
   ///
   /// The order of the sweeps does not depend on how cells are spread over ranks: cells that share no nodes have the
@@ -38,27 +42,32 @@ namespace scree
   class BedContact
   {
   public:
+    /// @param surfaces in the order of the points' slots
     /// @param gravity m/s^2
     BedContact(const BackgroundGrid<dim> &grid,
                const Constraints<dim> &constraints,
-               const Bed<dim> &bed,
+               const std::vector<RigidSurface<dim>> &surfaces,
                const double gravity,
                std::list<SoilBody<dim>> &bodies);
 
     /// Fits the nodes to the grid's current partition. Collective.
     void reinit();
 
+    /// The largest speed of a surface at a time, m/s.
+    double fastest(const double time) const;
+
     /// Corrects the nodes' velocities, which the step of `time_step` s has found and ranks have exchanged, and
     /// exchanges them anew. Collective.
     void solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
 
   private:
-    /// A point that may touch.
+    /// A point that may touch a surface.
     struct Contact
     {
       double *force; ///< the point's slots
+      unsigned int surface;
       dealii::Tensor<1, dim> normal;
-      double approach;                        ///< least velocity along the normal, m/s
+      double approach;                        ///< least velocity along the normal from the surface, m/s
       double inertia;                         ///< 1/sum A_i^2/m_i, kg; 0 where nothing can move
       double normal_impulse;                  ///< N s, not negative
       dealii::Tensor<1, dim> tangent_impulse; ///< N s
@@ -75,6 +84,9 @@ namespace scree
       bool is_held;          ///< whether walls hold one of its nodes
     };
 
+    /// Finds the surfaces that points of the cell may touch, with their margins.
+    void find_near_surfaces(const SoilBody<dim> &body, const CellPoints<dim> &points, const double fastest, const double dt);
+
     /// Lists the contacts with their rows.
     template <int n>
     void find_contacts(const NodalField<dim> &field, const double time_step);
@@ -84,6 +96,7 @@ namespace scree
     add_cell(const SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field, const double dt);
     template <int n>
     void add_contact(const SoilBody<dim> &body,
+                     const unsigned int surface,
                      const PointView<dim, double> &point,
                      const SurfaceView<dim> &view,
                      const double dt);
@@ -108,7 +121,7 @@ namespace scree
     template <int n>
     void push(const Cell &cell, const unsigned int contact, const dealii::Tensor<1, dim> &impulse);
 
-    /// Stores the forces in the points and adds up what the bed did.
+    /// Stores the forces in the points and adds up what the surfaces did.
     template <int n>
     void finish(const NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
 
@@ -117,7 +130,8 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
-    const Bed<dim> bed;
+    std::vector<RigidSurface<dim>> surfaces;
+    const unsigned int n_obstacles; // the last of the surfaces
     const double slack;      // m, gap that counts as touching
     const double most_speed; // m/s, at which overlap is undone
     std::list<SoilBody<dim>> &bodies;
@@ -125,6 +139,14 @@ namespace scree
     std::vector<Cell> cells;
     std::vector<unsigned int> nodes_of_cells; // numbers in `nodes`
     std::vector<Contact> contacts;
+    /// A surface that a cell's points may touch, and the largest gap of those that may, m.
+    struct Near
+    {
+      unsigned int surface;
+      double margin;
+    };
+    std::vector<Near> near;                // of the current cell
+    std::vector<dealii::Point<dim>> feet;  // of each contact, m; not without obstacles
     std::vector<double> rows; // of each contact: the shape functions at its foot, as OfCell reads them
     std::vector<unsigned int> first_of_colour;
     std::vector<char> is_colour_shared; // by ranks

@@ -14,7 +14,7 @@ namespace scree
   class DryScheme : public Scheme<dim>
   {
   public:
-    /// @param bed null without one
+    /// @param bed contact with rigid surfaces; null without any
     DryScheme(const BackgroundGrid<dim> &grid,
               const Constraints<dim> &constraints,
               const Forcing<dim> &forcing,

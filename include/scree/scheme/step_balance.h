@@ -6,8 +6,33 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <boost/serialization/vector.hpp>
+
+#include <vector>
+
 namespace scree
 {
+  /// What an obstacle gave to soil and took from it (2D: per m).
+  template <int dim>
+  struct ObstacleBalance
+  {
+    /// Components of a moment: about z in 2D.
+    static constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
+
+    dealii::Tensor<1, dim> impulse;                ///< on the soil, N s
+    dealii::Tensor<1, n_rotations> moment_impulse; ///< of the impulse on the soil about the obstacle's pivot, N m s
+    double work        = 0;                        ///< of the impulse at the obstacle's velocity: on the soil, J
+    double dissipation = 0;                        ///< energy that is lost in contact, J
+
+    ObstacleBalance &operator+=(const ObstacleBalance &other);
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &impulse &moment_impulse &work &dissipation;
+    }
+  };
+
   /// What a step gave to and took from soil and water at the nodes of this rank (2D: per m), and what its pressure
   /// solve took. Steps add up.
   template <int dim>
@@ -20,6 +45,7 @@ namespace scree
         pressure_impulse;                ///< sum over soil and water of -V grad p: walls and surfaces push back, N s
     dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
     dealii::Tensor<1, dim> bed_impulse;  ///< of the bed, N s
+    std::vector<ObstacleBalance<dim>> obstacles; ///< of each; empty until the first step
     double wall_dissipation    = 0;      ///< energy that walls took, J
     double bed_dissipation     = 0;      ///< energy that the bed took, J
     double drag_dissipation    = 0;      ///< between soil and water, J
@@ -34,11 +60,17 @@ namespace scree
 
     StepBalance &operator+=(const StepBalance &other);
 
+    /// Impulse of all obstacles on the soil, N s.
+    dealii::Tensor<1, dim> obstacle_impulse() const;
+
+    /// Work less dissipation of all obstacles, J.
+    double obstacle_energy() const;
+
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse &bed_impulse;
-      archive &soil_walls &water_walls;
+      archive &soil_walls &water_walls &obstacles;
       archive &wall_dissipation &bed_dissipation &drag_dissipation &viscous_dissipation &load_work &correction_work;
       archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
     }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_obstacle_h
+#define scree_scheme_obstacle_h
+
+#include <scree/geometry/obstacle_parameters.h>
+#include <scree/grid/sampled_surface.h>
+#include <scree/input/expression.h>
+
+#include <memory>
+#include <string>
+
+namespace scree
+{
+  /// A rigid body that soil meets, at rest or moved without turning: a wall, a pile, a gate, a piston.
+  template <int dim>
+  class Obstacle
+  {
+  public:
+    /// At its place of the start. Collective; throws EntryError if it is not in the box.
+    /// @param box lower and upper corners are asked for
+    Obstacle(const ObstacleParameters &parameters, const GridParameters &box, const BackgroundGrid<dim> &grid);
+
+    /// Fits the surface to the grid's current cells. Collective.
+    void reinit()
+    {
+      surface.reinit(moved);
+    }
+
+    /// Whether a place was inside at the start.
+    bool contains(const dealii::Point<dim> &x) const
+    {
+      return !level_set->is_open(x);
+    }
+
+    /// Velocity at a time, m/s.
+    dealii::Tensor<1, dim> velocity_at(const double time) const;
+
+    /// Sets velocity() to the mean of the step, s, that comes.
+    void begin_step(const double time, const double time_step);
+
+    /// Moves on by the step that begin_step() has told. Collective; throws if it crosses more than a cell.
+    void end_step(const double time_step);
+
+    /// In the current step, m/s.
+    const dealii::Tensor<1, dim> &velocity() const
+    {
+      return mean_velocity;
+    }
+
+    /// Since the start, m: the integral of the velocity over the steps.
+    const dealii::Tensor<1, dim> &displacement() const
+    {
+      return moved;
+    }
+
+    const std::string name;
+    const double friction_coefficient; ///< infinite: soil that presses does not slip
+    const bool is_moving;
+    const dealii::Point<dim> pivot; ///< of the moment, m; it stays where it is
+
+    /// What a run that goes on needs; reinit() moves the surface then.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &moved;
+    }
+
+  private:
+    /// Throws EntryError if it is nowhere in the box. Collective.
+    void require_in_box(const ObstacleParameters &parameters, const BackgroundGrid<dim> &grid) const;
+
+    const std::unique_ptr<LevelSet<dim>> level_set; // of the start
+    const std::unique_ptr<Expression<1>> motion;    // m/s; null at rest
+    dealii::Tensor<1, dim> mean_velocity, moved;
+
+  public:
+    SampledSurface<dim> surface;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/obstacle_parameters.h>
+#include <scree/input/expression.h>
+#include <scree/input/input_error.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  const std::string ObstacleParameters::prefix = "Obstacle ";
+
+
+  ObstacleParameters::ObstacleParameters(const std::string &subsection)
+  {
+    surface.subsection = subsection;
+  }
+
+
+  std::string ObstacleParameters::name() const
+  {
+    return surface.subsection.substr(prefix.size());
+  }
+
+
+  void ObstacleParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection(surface.subsection);
+    surface.add_entries(prm);
+    prm.add_parameter("Velocity",
+                      velocity,
+                      "Velocity from t = 0 on, m/s: an expression of t an axis, separated by semicolons, such as "
+                      "0; if(t < 1, 0.5, 0). The surface moves with it and keeps its shape. Empty: at rest.",
+                      Patterns::Anything());
+    prm.add_parameter("Moment about",
+                      pivot,
+                      "Place about which the moment of the force on the obstacle is told, m, one number an axis; empty: "
+                      "the middle of the box's floor.",
+                      Patterns::List(Patterns::Double(), 0, 3));
+    prm.leave_subsection();
+  }
+
+
+  void ObstacleParameters::check(const unsigned int dim, const bool has_water) const
+  {
+    surface.check_surface(dim);
+    if (!velocity.empty())
+      parse_expression<1>(entry_name(surface.subsection, "Velocity"), velocity, dim);
+    require_entry(pivot.empty() || Utilities::split_string_list(pivot).size() == dim,
+                  surface.subsection,
+                  "Moment about",
+                  pivot,
+                  "write " + std::to_string(dim) + " numbers in m, separated by commas.");
+    require_entry(!has_water || !surface.is_set(),
+                  surface.subsection,
+                  "Type",
+                  surface.type,
+                  "an obstacle in water is not possible yet. Remove subsection Water or the obstacle, or make it a body "
+                  "of \"Material = rigid\".");
+  }
+} // namespace scree
