@@ -134,7 +134,7 @@ namespace scree
     std::set<std::string> seen;
     for (const std::string &name : Utilities::split_string_list(names))
       {
-        const bool is_new = seen.insert(name).second;
+        const bool is_new   = seen.insert(name).second;
         const bool is_taken = taken.count(name) > 0 || name.rfind(ObstacleParameters::prefix, 0) == 0;
         require_entry(!name.empty() && is_new && !is_taken && name != "none",
                       "",

@@ -153,8 +153,7 @@ namespace scree
           bodies,
           loads,
           parameters.n_rigid_surfaces() > 0
-              ? std::make_unique<BedContact<dim>>(
-                    grid, constraints, rigid_surfaces(), forcing.gravity().norm(), bodies)
+              ? std::make_unique<BedContact<dim>>(grid, constraints, rigid_surfaces(), forcing.gravity().norm(), bodies)
               : nullptr,
           timer);
     return std::make_unique<CoupledScheme<dim>>(grid,

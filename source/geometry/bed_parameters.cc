@@ -157,7 +157,8 @@ namespace scree
                                              const std::vector<double> &upper,
                                              const Point<2> &)
     {
-      auto profile = std::make_unique<Profile>(read_profile(parameters.profile, entry_name(parameters.subsection, "Profile")));
+      auto profile =
+          std::make_unique<Profile>(read_profile(parameters.profile, entry_name(parameters.subsection, "Profile")));
       require_cover(profile->first_x() <= lower[0] && profile->last_x() >= upper[0],
                     parameters,
                     "x",

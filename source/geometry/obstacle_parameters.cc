@@ -33,11 +33,12 @@ namespace scree
                       "Velocity from t = 0 on, m/s: an expression of t an axis, separated by semicolons, such as "
                       "0; if(t < 1, 0.5, 0). The surface moves with it and keeps its shape. Empty: at rest.",
                       Patterns::Anything());
-    prm.add_parameter("Moment about",
-                      pivot,
-                      "Place about which the moment of the force on the obstacle is told, m, one number an axis; empty: "
-                      "the middle of the box's floor.",
-                      Patterns::List(Patterns::Double(), 0, 3));
+    prm.add_parameter(
+        "Moment about",
+        pivot,
+        "Place about which the moment of the force on the obstacle is told, m, one number an axis; empty: "
+        "the middle of the box's floor.",
+        Patterns::List(Patterns::Double(), 0, 3));
     prm.leave_subsection();
   }
 
@@ -52,11 +53,12 @@ namespace scree
                   "Moment about",
                   pivot,
                   "write " + std::to_string(dim) + " numbers in m, separated by commas.");
-    require_entry(!has_water || !surface.is_set(),
-                  surface.subsection,
-                  "Type",
-                  surface.type,
-                  "an obstacle in water is not possible yet. Remove subsection Water or the obstacle, or make it a body "
-                  "of \"Material = rigid\".");
+    require_entry(
+        !has_water || !surface.is_set(),
+        surface.subsection,
+        "Type",
+        surface.type,
+        "an obstacle in water is not possible yet. Remove subsection Water or the obstacle, or make it a body "
+        "of \"Material = rigid\".");
   }
 } // namespace scree

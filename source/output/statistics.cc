@@ -113,7 +113,8 @@ namespace scree
     const RunTotals<dim> totals     = local.sum_over_ranks(communicator);
     const StepBalance<dim> &balance = totals.balance;
     const Tensor<1, dim> impulse    = balance.wall_impulse + balance.body_impulse + balance.pressure_impulse +
-                                   balance.load_impulse + balance.bed_impulse + balance.obstacle_impulse() - totals.lost_momentum;
+                                   balance.load_impulse + balance.bed_impulse + balance.obstacle_impulse() -
+                                   totals.lost_momentum;
 
     const double energy = now.kinetic + now.potential + now.elastic;
     if (!has_start)
@@ -205,7 +206,7 @@ namespace scree
       {
         // The obstacle feels the opposite of what the soil does.
         const ObstacleBalance<dim> &now = balance.obstacles[o], &before = obstacles_at_last_row[o];
-        const std::string name          = ObstacleParameters::prefix + obstacle->name + ' ';
+        const std::string name = ObstacleParameters::prefix + obstacle->name + ' ';
         for (unsigned int a = 0; a < dim; ++a)
           add(name + "force " + "xyz"[a] + " (N)", mean_rate(-now.impulse[a], -before.impulse[a]));
         for (unsigned int r = 0; r < ObstacleBalance<dim>::n_rotations; ++r)

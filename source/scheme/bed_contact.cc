@@ -40,7 +40,8 @@ namespace scree
       : grid(grid)
       , constraints(constraints)
       , surfaces(surfaces)
-      , n_obstacles(std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
+      , n_obstacles(
+            std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , slack(0.01 * grid.cell_size())
       , most_speed(0.03 * std::sqrt(gravity * grid.cell_size()))
       , bodies(bodies)
@@ -102,11 +103,11 @@ namespace scree
                   most_mobility);
 
     Contact contact;
-    contact.force          = point.properties + body.layout.contact_force(surface);
-    contact.surface        = surface;
-    contact.normal         = view.normal;
-    contact.approach       = least_approach(view.distance - point.properties[body.layout.touching_distance(surface)], dt);
-    contact.inertia        = row.mobility > 0. ? 1. / row.mobility : 0.;
+    contact.force    = point.properties + body.layout.contact_force(surface);
+    contact.surface  = surface;
+    contact.normal   = view.normal;
+    contact.approach = least_approach(view.distance - point.properties[body.layout.touching_distance(surface)], dt);
+    contact.inertia  = row.mobility > 0. ? 1. / row.mobility : 0.;
     const Tensor<1, dim> J = dt * vector_of<dim>(contact.force);
     const double normal    = J * view.normal;
     contact.normal_impulse = std::max(0., normal);

@@ -90,11 +90,11 @@ namespace scree
     const unsigned int *numbers    = &nodes_of_cells[cell.nodes];
     for (unsigned int k = 0; k < cell.n; ++k)
       {
-        const unsigned int c = is_forward ? cell.first + k : cell.first + cell.n - 1 - k;
-        const double *row    = &rows[std::size_t(c) * OfCell<dim, n>::n_doubles];
-        Contact &contact     = contacts[c];
+        const unsigned int c             = is_forward ? cell.first + k : cell.first + cell.n - 1 - k;
+        const double *row                = &rows[std::size_t(c) * OfCell<dim, n>::n_doubles];
+        Contact &contact                 = contacts[c];
         const RigidSurface<dim> &surface = surfaces[contact.surface];
-        const auto velocity  = [&] { // from the surface
+        const auto velocity              = [&] { // from the surface
           Tensor<1, dim> sum = -surface.velocity;
           for (unsigned int i = 0; i < n_nodes; ++i)
             sum += row[i] * nodes[numbers[i]].velocity;

@@ -39,9 +39,10 @@ namespace scree
       , is_moving(parameters.is_moving())
       , pivot(pivot_of<dim>(parameters, grid))
       , level_set(make_bed<dim>(parameters.surface, box.lower_corner, box.upper_corner, box.cell_size))
-      , motion(is_moving ? parse_expression<1>(
-                               entry_name(parameters.surface.subsection, "Velocity"), parameters.velocity, dim)
-                         : nullptr)
+      , motion(
+            is_moving
+                ? parse_expression<1>(entry_name(parameters.surface.subsection, "Velocity"), parameters.velocity, dim)
+                : nullptr)
       , surface(grid, *level_set, is_moving ? SurfaceMotion::rigid : SurfaceMotion::none)
   {
     require_in_box(parameters, grid);
@@ -51,11 +52,11 @@ namespace scree
   template <int dim>
   void Obstacle<dim>::require_in_box(const ObstacleParameters &parameters, const BackgroundGrid<dim> &grid) const
   {
-    const MPI_Comm communicator    = grid.triangulation().get_communicator();
-    const Tensor<1, dim> diagonal  = grid.upper_corner() - grid.lower_corner();
-    constexpr double most_places   = 1e5;
-    const unsigned int n_ranks     = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int rank        = Utilities::MPI::this_mpi_process(communicator);
+    const MPI_Comm communicator   = grid.triangulation().get_communicator();
+    const Tensor<1, dim> diagonal = grid.upper_corner() - grid.lower_corner();
+    constexpr double most_places  = 1e5;
+    const unsigned int n_ranks    = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank       = Utilities::MPI::this_mpi_process(communicator);
     std::array<unsigned int, dim> n{};
     double spacing = grid.cell_size(), n_places = 0;
     for (;; spacing *= 2.)
@@ -114,10 +115,10 @@ namespace scree
   {
     if (!is_moving)
       return;
-    AssertThrow(mean_velocity.norm() * time_step < surface.reach() / 3.,
-                ExcMessage("Obstacle " + name + " crosses more than a cell in a step, at " +
-                           number_text(mean_velocity.norm()) +
-                           " m/s. Remedies: a smaller 'Maximum time step' in subsection Time step, a lower 'Velocity'."));
+    AssertThrow(
+        mean_velocity.norm() * time_step < surface.reach() / 3.,
+        ExcMessage("Obstacle " + name + " crosses more than a cell in a step, at " + number_text(mean_velocity.norm()) +
+                   " m/s. Remedies: a smaller 'Maximum time step' in subsection Time step, a lower 'Velocity'."));
     moved += time_step * mean_velocity;
     surface.move_to(moved);
   }

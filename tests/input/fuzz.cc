@@ -47,6 +47,10 @@ namespace
     "subsection Soil\nset Region = x < 0.5 && y < 0.5\nsubsection Initial state\nset Type = K0\nend\nend\n"
     "subsection Water\nset Region = y < 0.6\nset Initial velocity = -y; 0\nset Bulk modulus = 1e8\nend\n"
     "subsection Boundaries\nset Bottom = friction 20\nsubsection Water\nset Right = drained 100\nend\nend",
+    "set End time = 1e-5\nsubsection Mesh\nset Cell size = 0.25\nend\nsubsection Soil\nset Region = y < 0.5 && x < "
+    "0.7\nend\n"
+    "subsection Bed\nset Type = friction\nset Friction angle = 20\nset Level set expression = y - 0.1*x\nend\n"
+    "subsection Obstacle Wall\nset Type = fixed\nset Level set expression = 0.7 - x\nset Velocity = t; 0\nend",
     "set Dimension = 3\nset End time = 1e-5\nset Gravity = 0, 0, -9.81\nset Body force = 0; sin(t); 0\n"
     "subsection Mesh\nset Lower corner = 0, 0, 0\nset Upper corner = 1, 1, 1\nset Cell size = 0.5\nend\n"
     "subsection Soil\nset Region = z < 0.5\nset Points per cell = 2\nend\n"

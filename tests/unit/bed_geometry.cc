@@ -2,7 +2,7 @@
 
 // Distances and normals of rigid ground: of a profile and of a raster of heights against the nearest of many places on
 // it, of an expression that is no distance against the closed form; where the ground is missing; and as the mesh
-// samples an arc.
+// samples an arc, at rest and moved.
 
 #include "expect.h"
 #include "random_numbers.h"
@@ -177,6 +177,50 @@ void test_samples()
 }
 
 
+/// A surface that has moved is what it was, seen from where it is now.
+template <int dim>
+void test_moved_samples()
+{
+  GridParameters parameters;
+  parameters.lower_corner.assign(dim, 0.);
+  parameters.upper_corner.assign(dim, 1.);
+  parameters.cell_size = 0.1;
+  const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
+  const ExpressionSurface<dim> plane(
+      "", dim == 2 ? "0.6*(x - 0.43) + 0.8*(y - 0.52)" : "0.6*(x - 0.43) + 0.8*(z - 0.52)", 0.1);
+  SampledSurface<dim> sampled(grid, plane, SurfaceMotion::rigid);
+  RandomNumbers random;
+  for (unsigned int k = 0; k < 40; ++k)
+    {
+      Tensor<1, dim> displacement;
+      for (unsigned int a = 0; a < dim; ++a)
+        displacement[a] = k == 0 ? 0.1 : random.uniform(-0.4, 0.4);
+      sampled.move_to(displacement);
+      unsigned int n_near = 0;
+      for (const auto &cell : grid.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            Point<dim> place;
+            for (unsigned int a = 0; a < dim; ++a)
+              place[a] = random.uniform(0., 1.);
+            const Point<dim> x    = cell->vertex(0) + 0.1 * Tensor<1, dim>(place);
+            const double distance = plane.view(x - displacement, 1.).distance;
+            const unsigned int i  = cell->active_cell_index();
+            AssertThrow(sampled.is_near(i) || std::abs(distance) > sampled.reach(), ExcMessage("moved: not near"));
+            if (!sampled.is_near(i))
+              continue;
+            ++n_near;
+            AssertThrow(distance >= sampled.least_distance(i), ExcMessage("moved: least distance"));
+            // Farther away than the lattice is sure to know, it only says so.
+            if (std::abs(distance) < sampled.reach() - 0.1 * std::sqrt(dim))
+              expect(sampled.view(i, place).distance, distance, 1e-12, "moved: distance");
+          }
+      AssertThrow(Utilities::MPI::sum(n_near, MPI_COMM_WORLD) > 0, ExcMessage("moved: no cell is near"));
+    }
+  std::cout << dim << "D samples of a plane that moves" << std::endl;
+}
+
+
 int main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -185,4 +229,6 @@ int main(int argc, char **argv)
   test_expression();
   test_samples<2>();
   test_samples<3>();
+  test_moved_samples<2>();
+  test_moved_samples<3>();
 }

@@ -27,8 +27,8 @@ namespace scree
   {
     std::string subsection = "Bed";
 
-    std::string type       = "none";
-    double friction_angle  = 0; ///< degrees
+    std::string type      = "none";
+    double friction_angle = 0; ///< degrees
     std::string expression, profile, raster;
 
     void add_parameters(dealii::ParameterHandler &prm);

@@ -82,12 +82,12 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const LevelSet<dim> &surface;
     const SurfaceMotion motion;
-    const unsigned int n_1d;                           // corners a cell and axis: a lattice that moves has two cells there
-    const unsigned int n_of_cell;                      // corners
-    std::array<unsigned int, dim> strides;             // of a cell's corners along the axes
-    std::array<unsigned int, n_corners> corner_offset; // of the corners of one cell of the lattice
-    CellPlace<dim> whole_cells{};                      // that the surface has moved
-    dealii::Tensor<1, dim> part_of_cell;               // the rest, from 0 to 1
+    const unsigned int n_1d;               // corners a cell and axis: a lattice that moves has two cells there
+    const unsigned int n_of_cell;          // corners
+    std::array<unsigned int, dim> strides; // of a cell's corners along the axes
+    std::array<unsigned int, n_corners> corner_offset;        // of the corners of one cell of the lattice
+    CellPlace<dim> whole_cells{};                             // that the surface has moved
+    dealii::Tensor<1, dim> part_of_cell;                      // the rest, from 0 to 1
     std::unordered_map<std::uint64_t, SurfaceView<dim>> seen; // corners are shared by cells
     std::vector<unsigned int> entry_of_cell;                  // by active cell index
     std::vector<SurfaceView<dim>> corners;                    // of the near cells

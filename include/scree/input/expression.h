@@ -25,8 +25,8 @@ namespace scree
     const bool with_time;
   };
 
-  /// Reads an expression of x, y (and z), and of t if `with_time` (dim = 1: of t alone), or throws EntryError that begins with `where`
-  /// (see entry_name()) and shows the text. `n_components` expressions are separated by semicolons.
+  /// Reads an expression of x, y (and z), and of t if `with_time` (dim = 1: of t alone), or throws EntryError that
+  /// begins with `where` (see entry_name()) and shows the text. `n_components` expressions are separated by semicolons.
   template <int dim>
   std::unique_ptr<Expression<dim>> parse_expression(const std::string &where,
                                                     const std::string &text,

@@ -57,7 +57,7 @@ namespace scree
   struct FurtherColumns
   {
     bool loads = false, volume_correction = false, viscosity = false;
-    const SampledSurface<dim> *bed              = nullptr;
+    const SampledSurface<dim> *bed            = nullptr;
     const std::list<Obstacle<dim>> *obstacles = nullptr;
   };
 

@@ -18,10 +18,10 @@ namespace scree
     static constexpr unsigned int stress             = left_cauchy_green + n_symmetric_components<dim>; ///< Cauchy, Pa
     static constexpr unsigned int internal_variables = stress + n_symmetric_components<dim>; ///< as the law says
     unsigned int affine;                                                                     ///< dim x dim, row-major
-    unsigned int start;             ///< location at the start of the run, m, dim
-    bool has_start;                 ///< whether points keep it
-    unsigned int contacts;          ///< with each of the rigid surfaces: touching_distance() and contact_force()
-    unsigned int n_contacts;        ///< surfaces: the bed and obstacles
+    unsigned int start;      ///< location at the start of the run, m, dim
+    bool has_start;          ///< whether points keep it
+    unsigned int contacts;   ///< with each of the rigid surfaces: touching_distance() and contact_force()
+    unsigned int n_contacts; ///< surfaces: the bed and obstacles
     unsigned int n_properties;
 
     /// @param n_internal_variables of the material law
@@ -31,8 +31,8 @@ namespace scree
     /// @param n_further slots behind the soil's own: of water that rides on the points
     PropertyLayout(const unsigned int n_internal_variables,
                    const bool with_affine,
-                   const unsigned int n_further = 0,
-                   const bool with_start        = false,
+                   const unsigned int n_further  = 0,
+                   const bool with_start         = false,
                    const unsigned int n_contacts = 0)
         : affine(internal_variables + n_internal_variables)
         , start(affine + (with_affine ? dim * dim : 0))

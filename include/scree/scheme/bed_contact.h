@@ -17,9 +17,9 @@ namespace scree
   struct RigidSurface
   {
     const SampledSurface<dim> *samples;
-    double friction_coefficient;                ///< infinite: soil that presses does not slip
-    const Obstacle<dim> *obstacle    = nullptr; ///< whose surface it is; null: the bed
-    dealii::Tensor<1, dim> velocity  = {};      ///< in the current step, m/s
+    double friction_coefficient;               ///< infinite: soil that presses does not slip
+    const Obstacle<dim> *obstacle   = nullptr; ///< whose surface it is; null: the bed
+    dealii::Tensor<1, dim> velocity = {};      ///< in the current step, m/s
 
     /// The impulse along the surface, N s, that friction allows for one across it.
     double available(const double normal_impulse) const
@@ -33,8 +33,9 @@ namespace scree
   ///
   /// Each point near a surface has a touching distance, about that of its start. A point that would come nearer in the
   /// step gets an impulse along the surface's normal, and by Coulomb's law one along the surface, from its velocity
-  /// relative to the surface's. Both act at the point's foot on the surface, through the shape functions of the point's own cell; so neighbours share impulses, which are found by
-  /// sweeps over the points in turn (projected Gauss-Seidel), from those of the step before.
+  /// relative to the surface's. Both act at the point's foot on the surface, through the shape functions of the point's
+  /// own cell; so neighbours share impulses, which are found by sweeps over the points in turn (projected
+  /// Gauss-Seidel), from those of the step before.
   ///
   /// The order of the sweeps does not depend on how cells are spread over ranks: cells that share no nodes have the
   /// same colour, one colour follows the other, and ranks exchange what they have changed between two colours.
@@ -85,7 +86,8 @@ namespace scree
     };
 
     /// Finds the surfaces that points of the cell may touch, with their margins.
-    void find_near_surfaces(const SoilBody<dim> &body, const CellPoints<dim> &points, const double fastest, const double dt);
+    void
+    find_near_surfaces(const SoilBody<dim> &body, const CellPoints<dim> &points, const double fastest, const double dt);
 
     /// Lists the contacts with their rows.
     template <int n>
@@ -132,8 +134,8 @@ namespace scree
     const Constraints<dim> &constraints;
     std::vector<RigidSurface<dim>> surfaces;
     const unsigned int n_obstacles; // the last of the surfaces
-    const double slack;      // m, gap that counts as touching
-    const double most_speed; // m/s, at which overlap is undone
+    const double slack;             // m, gap that counts as touching
+    const double most_speed;        // m/s, at which overlap is undone
     std::list<SoilBody<dim>> &bodies;
     ContactNodes<dim> nodes;
     std::vector<Cell> cells;
@@ -145,9 +147,9 @@ namespace scree
       unsigned int surface;
       double margin;
     };
-    std::vector<Near> near;                // of the current cell
-    std::vector<dealii::Point<dim>> feet;  // of each contact, m; not without obstacles
-    std::vector<double> rows; // of each contact: the shape functions at its foot, as OfCell reads them
+    std::vector<Near> near;               // of the current cell
+    std::vector<dealii::Point<dim>> feet; // of each contact, m; not without obstacles
+    std::vector<double> rows;             // of each contact: the shape functions at its foot, as OfCell reads them
     std::vector<unsigned int> first_of_colour;
     std::vector<char> is_colour_shared; // by ranks
     bool any_contact = false;           // on any rank

@@ -46,12 +46,12 @@ namespace scree
     dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
     dealii::Tensor<1, dim> bed_impulse;  ///< of the bed, N s
     std::vector<ObstacleBalance<dim>> obstacles; ///< of each; empty until the first step
-    double wall_dissipation    = 0;      ///< energy that walls took, J
-    double bed_dissipation     = 0;      ///< energy that the bed took, J
-    double drag_dissipation    = 0;      ///< between soil and water, J
-    double viscous_dissipation = 0;      ///< of water and suspended soil, J
-    double load_work           = 0;      ///< of the surface load, J
-    double correction_work     = 0;      ///< of the volume correction against gravity, J
+    double wall_dissipation    = 0;              ///< energy that walls took, J
+    double bed_dissipation     = 0;              ///< energy that the bed took, J
+    double drag_dissipation    = 0;              ///< between soil and water, J
+    double viscous_dissipation = 0;              ///< of water and suspended soil, J
+    double load_work           = 0;              ///< of the surface load, J
+    double correction_work     = 0;              ///< of the volume correction against gravity, J
 
     // Counts; doubles hold them exactly and travel like the rest.
     double n_iterations = 0, n_preconditioners = 0; // on the writing rank only
