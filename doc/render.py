@@ -199,6 +199,49 @@ def _number(word):
         return np.nan
 
 
+# Rigid ground ---------------------------------------------------------------------------------------------------------
+
+
+def _expression(text, **variables):
+    """The value of a case's expression where numpy and muParser agree but for the spelling."""
+    text = re.sub(r"\bif\(", "where(", text.replace("^", "**").replace("&&", "&").replace("||", "|"))
+    functions = {"where": np.where, "sqrt": np.sqrt, "abs": np.abs, "sin": np.sin, "cos": np.cos, "tan": np.tan, "exp": np.exp, "pi": np.pi,
+                 "min": lambda *values: np.minimum.reduce(np.broadcast_arrays(*values)),
+                 "max": lambda *values: np.maximum.reduce(np.broadcast_arrays(*values))}
+    return eval(text, {"__builtins__": {}}, {**functions, **variables})  # pylint: disable=eval-used
+
+
+def rigid_ground(run, x, y, time):
+    """Level sets of bed and obstacles of a plane run at places and a time: positive in the open. Those that cannot be read are left out."""
+    entries = variants.read_entries(pathlib.Path(run) / "parameters.prm")
+    statistics = read_statistics(run) if (pathlib.Path(run) / "statistics").exists() else {}
+    surfaces = []
+    for key, kind in entries.items():
+        subsection, _, name = key.rpartition("/")
+        if name != "Type" or not re.match(r"(Bed|Obstacle .*)$", subsection) or kind == "none":
+            continue
+        ways = [f"{subsection} displacement {axis} (m)" for axis in "xy"]
+        moved = [np.interp(time, statistics["Time (s)"], statistics[way]) if way in statistics else 0. for way in ways]
+        profile = pathlib.Path(entries.get(subsection + "/Profile") or "/")
+        try:
+            if profile.is_file():
+                points = np.array([[float(word) for word in re.split(r"[,\s]+", line.strip())[:2]]
+                                   for line in profile.read_text(encoding="utf-8").splitlines() if re.match(r"\s*[-+.0-9]", line)])
+                surfaces.append(y - moved[1] - np.interp(x - moved[0], *points.T))
+            else:
+                surfaces.append(_expression(entries[subsection + "/Level set expression"], x=x - moved[0], y=y - moved[1]))
+        except (SyntaxError, NameError, TypeError, ValueError):
+            continue
+    return surfaces
+
+
+def draw_ground(axes, run, box, time):
+    """Fills what is rigid in a plane picture."""
+    x, y = np.meshgrid(*(np.linspace(box.lower[a], box.upper[a], 801) for a in range(2)))
+    for surface in rigid_ground(run, x, y, time):
+        axes.contourf(x, y, surface, levels=[-np.inf, 0], colors=["0.75"])
+
+
 # Drawing --------------------------------------------------------------------------------------------------------------
 
 
@@ -320,6 +363,7 @@ def render_points(run, output, name, times=None, limits=None, collection="points
         drawn = draw_points(panel, points, box, name, limits)
         panel.set_title(f"t = {points.time:.4g} s", fontsize="medium")
         if box.dim == 2:
+            draw_ground(panel, run, box, points.time)
             panel.label_outer()
     figure.colorbar(drawn, ax=axes, label=field_label(name), extend="both", aspect=40, shrink=0.8, pad=0.02 if box.dim == 2 else 0.08)
     figure.savefig(output, dpi=150)
@@ -331,19 +375,25 @@ STATISTICS_PANELS = {
     "energy": ["Kinetic energy (J)", "Potential energy (J)", "Elastic energy (J)", "Plastic dissipation (J)", "Wall dissipation (J)",
                "Numerical dissipation (J)", "Drag dissipation (J)", "Load work (J)"],
     "front": ["Front 90 % (m)", "Front 99 % (m)", "Front 99.5 % (m)", "Water front 90 % (m)", "Water front 99 % (m)", "Water front 99.5 % (m)"],
+    "force": [],  # on obstacles: their columns have names of the case
+    "moment": [],
     "oscillation": ["Stress oscillation (-)", "p oscillation (-)"],
     "step size": ["Time step (s)"],
 }
 
 
-def render_statistics(run, output):
-    """The columns of interest against time in one PNG; returns False when there is nothing to draw."""
+def render_statistics(run, output, titles=None):
+    """The columns of interest against time in one PNG, all panels or those of the titles; returns False when there is nothing to draw."""
     statistics = read_statistics(run)
     if not statistics:
         return False
     time = column(statistics, "Time (s)")
     groups = []
-    for title, names in STATISTICS_PANELS.items():
+    for title in titles or STATISTICS_PANELS:
+        if title not in STATISTICS_PANELS:
+            raise ValueError(f"--panels: there is no panel {title}; there are: {', '.join(STATISTICS_PANELS)}.")
+        names = STATISTICS_PANELS[title]
+        names = names or [name for name in statistics if re.match(rf"Obstacle .* {title} . \(", name)]
         names = [name for name in names if name in statistics and np.any(np.isfinite(statistics[name]))]
         if names:
             groups.append((title, names))
@@ -462,7 +512,7 @@ def _output(arguments, name):
         return output
     asked = [f"{option}_{value}" if option != "field" else value
              for option, value in (("field", arguments.field), ("t", arguments.times), ("limits", arguments.limits)) if value]
-    return arguments.run / ("_".join([name or "points"] + ([] if name == "statistics" else asked)).replace(",", "_").replace(" ", "") + ".png")
+    return arguments.run / ("_".join([name or "points"] + ([] if name.startswith("statistics") else asked)).replace(",", "_").replace(" ", "") + ".png")
 
 
 def draw(arguments):
@@ -471,11 +521,12 @@ def draw(arguments):
     chosen = _collections(arguments)
     only = len(chosen) == 1 and arguments.output
     outputs = {collection: _output(arguments, "" if only else collection) for collection in chosen}
-    statistics = _output(arguments, "statistics")
+    panels_of_statistics = arguments.panels.split(",") if arguments.panels else None
+    statistics = _output(arguments, "_".join(["statistics"] + (panels_of_statistics or [])).replace(" ", "_"))
     for collection, output in outputs.items():
         render_points(arguments.run, output, chosen[collection], times, limits, collection)
         print(f"Wrote {output}")
-    if (arguments.run / "statistics").exists() and render_statistics(arguments.run, statistics):
+    if (arguments.run / "statistics").exists() and render_statistics(arguments.run, statistics, panels_of_statistics):
         print(f"Wrote {statistics}")
 
 
@@ -486,6 +537,7 @@ def main():
     parser.add_argument("--collection", choices=list(DEFAULT_FIELDS), help="points of the soil or of the water; default: both, a picture each")
     parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: mean_effective_stress, pressure of water")
     parser.add_argument("--times", help="times in s, separated by commas; default: first, 1/4, 1/2 and last")
+    parser.add_argument("--panels", help=f"of the statistics, separated by commas: {', '.join(STATISTICS_PANELS)}; default: all")
     parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
     parser.add_argument("--output", type=pathlib.Path, help="another file, which must not be there; default: in the run folder, named after what it shows")
     parser.add_argument("--force", action="store_true", help="overwrite the file of --output")

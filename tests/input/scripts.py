@@ -83,6 +83,7 @@ def check_render(scripts):
     scripts.refuses("^render.py: .*No field speed; there are: .*velocity.*\\(points\\).*pressure.*\\(water\\)", "render.py", "run", "--field", "speed")
     scripts.refuses("^render.py: --times 0,one: write numbers", "render.py", "run", "--times", "0,one")
     scripts.refuses("^render.py: --limits 1: write 2 numbers", "render.py", "run", "--limits", "1")
+    scripts.refuses("^render.py: --panels: there is no panel fronts; there are: .*front", "render.py", "run", "--panels", "fronts")
     statistics = "run/statistics.png"
     scripts.writes(["run/points.png", "run/water.png", statistics], "render.py", "run")
     scripts.writes(["run/points_velocity.png", "run/water_velocity.png", statistics], "render.py", "run", "--field", "velocity")
