@@ -237,7 +237,7 @@ namespace scree
     output.check(end_time);
     output.maps.check(dimension, !bodies.empty());
     boundaries.check(dimension);
-    bed.check(dimension, has_water);
+    bed.check(dimension);
     for (const ObstacleParameters &obstacle : obstacles)
       obstacle.check(dimension, has_water);
     surface_load.check(grid, dimension);

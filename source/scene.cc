@@ -99,6 +99,8 @@ namespace scree
         parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner, parameters.grid.cell_size);
     if (ground)
       bed = std::make_unique<SampledSurface<dim>>(grid, *ground);
+    if (bed && parameters.has_water)
+      open_cells = std::make_unique<OpenCells<dim>>(grid, *bed);
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);
@@ -120,7 +122,7 @@ namespace scree
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
                                          parameters.probes.displacement,
-                                         parameters.n_rigid_surfaces());
+                                         parameters.has_water ? 0 : parameters.n_rigid_surfaces());
         bodies.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -156,19 +158,27 @@ namespace scree
               ? std::make_unique<BedContact<dim>>(grid, constraints, rigid_surfaces(), forcing.gravity().norm(), bodies)
               : nullptr,
           timer);
-    return std::make_unique<CoupledScheme<dim>>(grid,
-                                                constraints,
-                                                *water_walls,
-                                                forcing,
-                                                parameters.transfer,
-                                                parameters.stabilisation,
-                                                parameters.water,
-                                                parameters.pressure,
-                                                bodies,
-                                                points_per_cell(parameters).first,
-                                                water,
-                                                loads,
-                                                timer);
+    return std::make_unique<CoupledScheme<dim>>(
+        grid,
+        constraints,
+        *water_walls,
+        forcing,
+        parameters.transfer,
+        parameters.stabilisation,
+        parameters.water,
+        parameters.pressure,
+        bodies,
+        points_per_cell(parameters).first,
+        water,
+        loads,
+        open_cells.get(),
+        bed ? std::make_unique<BedProjection<dim>>(
+                  grid,
+                  RigidSurface<dim>{ bed.get(), parameters.bed.friction_coefficient() },
+                  *open_cells,
+                  parameters.pressure.relative_tolerance)
+            : nullptr,
+        timer);
   }
 
 
@@ -179,6 +189,8 @@ namespace scree
     constraints.hold_soil(rigid_nodes());
     if (bed)
       bed->reinit();
+    if (open_cells)
+      open_cells->reinit();
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.reinit();
   }
@@ -277,14 +289,15 @@ namespace scree
     for (auto &body : bodies)
       seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get());
     for (auto &part : water)
-      seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size());
+      seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size(), ground.get());
     for (const auto &load : loads)
       load.require_soil(bodies, communicator);
     // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.
     if (parameters.transfer.transfer_method() == TransferMethod::aflip)
       set_velocity_gradients();
     require_points_outside_obstacles();
-    set_touching_distances();
+    if (!parameters.has_water)
+      set_touching_distances();
   }
 
 

@@ -3,7 +3,7 @@
 #define scree_scene_h
 
 #include <scree/grid/constraints.h>
-#include <scree/grid/sampled_surface.h>
+#include <scree/grid/open_cells.h>
 #include <scree/memory.h>
 #include <scree/output/statistics.h>
 #include <scree/parameters.h>
@@ -81,8 +81,9 @@ namespace scree
     std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
     std::list<SurfaceLoad<dim>> loads;
     std::list<Obstacle<dim>> obstacles;
-    std::unique_ptr<LevelSet<dim>> ground;    ///< null without a bed
-    std::unique_ptr<SampledSurface<dim>> bed; ///< the same as the mesh sees it
+    std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
+    std::unique_ptr<SampledSurface<dim>> bed;   ///< the same as the mesh sees it
+    std::unique_ptr<OpenCells<dim>> open_cells; ///< what it leaves of the cells; null without water or bed
 
   private:
     void make_bodies();

@@ -83,20 +83,7 @@ namespace scree
   }
 
 
-  void BedParameters::check(const unsigned int dim, const bool has_water) const
-  {
-    check_surface(dim);
-    require_entry(
-        !has_water || !is_set(),
-        subsection,
-        "Type",
-        type,
-        "a bed under water is not possible yet. Remove subsection Water or the bed, or make the ground a wall of the "
-        "box or a body of \"Material = rigid\".");
-  }
-
-
-  void BedParameters::check_surface(const unsigned int dim) const
+  void BedParameters::check(const unsigned int dim) const
   {
     const auto require = [this](const bool possible, const auto &entry, const std::string &remedy) {
       require_entry(possible, subsection, entry.first, entry.second, remedy);

@@ -45,7 +45,7 @@ namespace scree
 
   void ObstacleParameters::check(const unsigned int dim, const bool has_water) const
   {
-    surface.check_surface(dim);
+    surface.check(dim);
     if (!velocity.empty())
       parse_expression<1>(entry_name(surface.subsection, "Velocity"), velocity, dim);
     require_entry(pivot.empty() || Utilities::split_string_list(pivot).size() == dim,

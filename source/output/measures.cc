@@ -251,16 +251,23 @@ namespace scree
 
   template <int dim>
   double least_distance(const std::list<SoilBody<dim>> &bodies,
+                        const std::list<WaterPhase<dim>> &water,
                         const SampledSurface<dim> &surface,
                         const MPI_Comm communicator)
   {
-    double least = surface.reach();
+    double least       = surface.reach();
+    const auto include = [&](const PointSet<dim> &points) {
+      for_each_point(points, [&](const auto &point) {
+        if (surface.is_near(point.cell))
+          least = std::min(least, surface.view(point.cell, point.reference_location).distance);
+      });
+    };
     for (const auto &body : bodies)
       if (!body.is_rigid)
-        for_each_point(body.points, [&](const auto &point) {
-          if (surface.is_near(point.cell))
-            least = std::min(least, surface.view(point.cell, point.reference_location).distance);
-        });
+        include(body.points);
+    for (const auto &part : water)
+      if (part.carrier() == nullptr)
+        include(part.points());
     return Utilities::MPI::min(least, communicator);
   }
 
@@ -325,8 +332,14 @@ namespace scree
                                                 const std::vector<double> &);
   template double
   kinetic_to_elastic_energy(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const MPI_Comm);
-  template double least_distance(const std::list<SoilBody<2>> &, const SampledSurface<2> &, const MPI_Comm);
-  template double least_distance(const std::list<SoilBody<3>> &, const SampledSurface<3> &, const MPI_Comm);
+  template double least_distance(const std::list<SoilBody<2>> &,
+                                 const std::list<WaterPhase<2>> &,
+                                 const SampledSurface<2> &,
+                                 const MPI_Comm);
+  template double least_distance(const std::list<SoilBody<3>> &,
+                                 const std::list<WaterPhase<3>> &,
+                                 const SampledSurface<3> &,
+                                 const MPI_Comm);
   template double stress_oscillation(const std::list<SoilBody<2>> &, const BackgroundGrid<2> &);
   template double pressure_oscillation(const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
   template WaterMeasures

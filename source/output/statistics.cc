@@ -149,7 +149,7 @@ namespace scree
     if (!water.empty())
       add_water_columns(bodies, water, now, totals, step);
     if (further.bed)
-      add_bed_columns(bodies, balance);
+      add_bed_columns(bodies, water, balance);
     if (!further.obstacles->empty())
       add_obstacle_columns(balance, time);
     if (further.loads)
@@ -184,12 +184,15 @@ namespace scree
 
 
   template <int dim>
-  void Statistics<dim>::add_bed_columns(const std::list<SoilBody<dim>> &bodies, const StepBalance<dim> &balance)
+  void Statistics<dim>::add_bed_columns(const std::list<SoilBody<dim>> &bodies,
+                                        const std::list<WaterPhase<dim>> &water,
+                                        const StepBalance<dim> &balance)
   {
     add("Bed dissipation (J)", balance.bed_dissipation);
     for (unsigned int a = 0; a < dim; ++a)
       add(std::string("Bed impulse ") + "xyz"[a] + " (N s)", -balance.bed_impulse[a]);
-    add("Least distance from bed (m)", least_distance(bodies, *further.bed, grid.triangulation().get_communicator()));
+    add("Least distance from bed (m)",
+        least_distance(bodies, water, *further.bed, grid.triangulation().get_communicator()));
   }
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/open_part.h>
 #include <scree/points/region.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -22,6 +23,30 @@ namespace scree
       for (unsigned int a = 0, rest = index; a < dim; ++a, rest /= n)
         x[a] = lower[a] + width * (inset + (1. - 2. * inset) * (rest % n) / (n - 1.));
       return x;
+    }
+  } // namespace
+
+
+  namespace
+  {
+    /// The part of simplices in which a condition holds; where it begins on an edge is found by halving it.
+    template <int dim, typename Condition>
+    std::vector<Simplex<dim>> part_where(std::vector<Simplex<dim>> simplices, const Condition &holds)
+    {
+      for (Simplex<dim> &simplex : simplices)
+        for (SimplexCorner<dim> &corner : simplex)
+          corner.side = holds(corner.place) ? 1. : -1.;
+      return open_part<dim>(std::move(simplices),
+                            [&](const SimplexCorner<dim> &inside, const SimplexCorner<dim> &outside) {
+                              constexpr unsigned int n_halvings = 40;
+                              Point<dim> in = inside.place, out = outside.place;
+                              for (unsigned int i = 0; i < n_halvings; ++i)
+                                {
+                                  const Point<dim> middle    = in + 0.5 * (out - in);
+                                  (holds(middle) ? in : out) = middle;
+                                }
+                              return in;
+                            });
     }
   } // namespace
 
@@ -64,19 +89,32 @@ namespace scree
   std::pair<double, Point<dim>>
   Region<dim>::part_of_cube(const Point<dim> &lower, const double width, const LevelSet<dim> *ground) const
   {
-    const auto contains = [&](const Point<dim> &x) {
-      return Region::contains(x) && (ground == nullptr || ground->is_open(x));
-    };
+    const auto is_open  = [&](const Point<dim> &x) { return ground == nullptr || ground->is_open(x); };
+    const auto contains = [&](const Point<dim> &x) { return Region::contains(x) && is_open(x); };
     // Most cubes lie inside or outside with all corners.
     constexpr unsigned int n_corners = 1 << dim;
-    unsigned int corners_inside      = 0;
+    unsigned int in_region = 0, in_open = 0, in_both = 0;
     for (unsigned int v = 0; v < n_corners; ++v)
-      corners_inside += contains(corner(lower, width, v));
+      {
+        const Point<dim> x = corner(lower, width, v);
+        const bool region = Region::contains(x), open = is_open(x);
+        in_region += region;
+        in_open += open;
+        in_both += region && open;
+      }
     const Point<dim> middle = Region::middle(lower, width);
     const double volume     = Utilities::fixed_power<dim>(width);
-    if (corners_inside == n_corners && contains(middle))
+    if (in_both == n_corners && contains(middle))
       return { volume, middle };
-    if (corners_inside == 0 && !contains(middle))
+    if (ground != nullptr && in_region + in_open < 2 * n_corners && in_region > 0 && in_open > 0)
+      {
+        auto simplices =
+            part_where(simplices_of_cube(lower, width), [&](const Point<dim> &x) { return Region::contains(x); });
+        const auto part        = volume_and_centroid(part_where(std::move(simplices), is_open));
+        constexpr double least = 1e-9; // of the cube: what rounding leaves
+        return part.first > least * volume ? part : std::make_pair(0., middle);
+      }
+    if (in_both == 0 && !contains(middle))
       return { 0., middle };
 
     constexpr unsigned int n         = dim == 2 ? 32 : 12;

@@ -47,7 +47,8 @@ namespace scree
                          const WaterParameters &parameters,
                          const std::vector<SoilRegion> &soil,
                          const Triangulation<dim> &triangulation,
-                         const double cell_size)
+                         const double cell_size,
+                         const LevelSet<dim> *ground)
     {
       const auto parts = water_parts(parameters, soil);
       std::vector<Region<dim>> regions;
@@ -64,7 +65,7 @@ namespace scree
         Tensor<1, dim> moment; // of the water about the lower corner, m^4
         for (unsigned int i = 0; i < parts.size(); ++i)
           {
-            const auto [volume, centroid] = regions[i].part_of_cube(lower, width);
+            const auto [volume, centroid] = regions[i].part_of_cube(lower, width, ground);
             filled[i] += volume;
             sum.filled += volume;
             sum.volume += parts[i].porosity * volume;
@@ -87,7 +88,9 @@ namespace scree
                     "Water",
                     "Region",
                     parameters.region,
-                    "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
+                    ground ? "it is nowhere true in the box of subsection Mesh and above the ground of subsection Bed. "
+                             "Move the region, the box or the bed."
+                           : "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
       for (unsigned int i = 0; i < parts.size(); ++i)
         if (parts[i].soil && filled[i] > 0)
           require_pores(*parts[i].soil);
@@ -124,22 +127,25 @@ namespace scree
                   const WaterParameters &parameters,
                   const std::vector<SoilRegion> &soil,
                   const Triangulation<dim> &triangulation,
-                  const double cell_size)
+                  const double cell_size,
+                  const LevelSet<dim> *ground)
   {
     if (water.carrier() != nullptr)
       fill_pores(water);
     else
-      seed_own_points(water, parameters, soil, triangulation, cell_size);
+      seed_own_points(water, parameters, soil, triangulation, cell_size, ground);
   }
 
   template void seed_water(WaterPhase<2> &,
                            const WaterParameters &,
                            const std::vector<SoilRegion> &,
                            const Triangulation<2> &,
-                           const double);
+                           const double,
+                           const LevelSet<2> *);
   template void seed_water(WaterPhase<3> &,
                            const WaterParameters &,
                            const std::vector<SoilRegion> &,
                            const Triangulation<3> &,
-                           const double);
+                           const double,
+                           const LevelSet<3> *);
 } // namespace scree

@@ -20,6 +20,8 @@ namespace scree
                                     const unsigned int soil_points,
                                     std::list<WaterPhase<dim>> &water,
                                     std::list<SurfaceLoad<dim>> &loads,
+                                    const OpenCells<dim> *open_cells,
+                                    std::unique_ptr<BedProjection<dim>> bed,
                                     TimerOutput &timer)
       : grid(grid)
       , water_density(water_parameters.density)
@@ -31,11 +33,18 @@ namespace scree
                  transfer_parameters,
                  water_parameters,
                  pressure_parameters.previous_pressure_kind() == PreviousPressure::average ? 0. : 1.)
-      , mixture(grid, soil_points)
+      , mixture(grid, soil_points, open_cells)
       , pores(grid)
       , water_field(grid)
-      , pressure(grid, water_walls, pressure_parameters, water_density, water_parameters.bulk_modulus, timer)
+      , pressure(grid,
+                 water_walls,
+                 pressure_parameters,
+                 water_density,
+                 water_parameters.bulk_modulus,
+                 open_cells,
+                 timer)
       , step(grid, constraints, forcing, water_density, pressure_parameters.splitting_kind())
+      , bed(std::move(bed))
   {
     for (const auto &body : bodies)
       shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
@@ -58,6 +67,8 @@ namespace scree
     step.reinit();
     if (viscosity)
       viscosity->reinit();
+    if (bed)
+      bed->reinit();
     if (volume_correction)
       volume_correction->reinit();
   }
@@ -163,13 +174,31 @@ namespace scree
           water_field.update_ghosts();
         }
     }
+    if (bed)
+      {
+        const TimedPart part(timer, StepPart::bed);
+        bed->predict(nodes, mixture, step, time_step, report.balance);
+        soil.field.update_ghosts();
+        water_field.update_ghosts();
+      }
     pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, report.balance);
+    {
+      const TimedPart part(timer, StepPart::nodes);
+      step.correct(nodes, mixture, pressure, time_step, report.balance);
+      if (viscosity)
+        viscosity->count_dissipation(nodes, report.balance);
+      soil.field.update_ghosts();
+      water_field.update_ghosts();
+    }
+    if (bed)
+      {
+        const TimedPart part(timer, StepPart::bed);
+        bed->correct(nodes, mixture, step, pressure.free_surface(), report.balance);
+        soil.field.update_ghosts();
+        water_field.update_ghosts();
+        bed->count_dissipation(nodes, report.balance);
+      }
     const TimedPart part(timer, StepPart::nodes);
-    step.correct(nodes, mixture, pressure, time_step, report.balance);
-    if (viscosity)
-      viscosity->count_dissipation(nodes, report.balance);
-    soil.field.update_ghosts();
-    water_field.update_ghosts();
     pressure.accept_change(mixture, soil.field, water_field, pores);
     // The predictor has counted the load among the forces.
     report.balance.load_impulse += soil.load_impulse(time_step);
@@ -221,6 +250,9 @@ namespace scree
         if (const PointSet<dim> *own = one.own_points())
           report.n_updates += own->n_points();
       }
+    if (bed)
+      for (PointSet<dim> *points : point_sets())
+        bed->put_back(*points);
   }
 
 

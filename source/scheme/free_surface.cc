@@ -11,6 +11,9 @@ namespace scree
 
   namespace
   {
+    /// Of a cell: less of it that is open counts as so much.
+    constexpr double least_open = 1e-6;
+
     double distance_from_fill(const double fill)
     {
       return fill < 0.5 ? std::sqrt(2. * fill) - 1. : 1. - std::sqrt(2. * std::max(1. - fill, 0.));
@@ -22,11 +25,13 @@ namespace scree
   FreeSurfaceLocator<dim>::FreeSurfaceLocator(const BackgroundGrid<dim> &grid,
                                               const NodeNumbering<dim> &corners,
                                               const WaterBoundaryConditions<dim> &walls,
-                                              const FreeSurface rule)
+                                              const FreeSurface rule,
+                                              const OpenCells<dim> *open_cells)
       : grid(grid)
       , corners(corners)
       , walls(walls)
       , rule(rule)
+      , open_cells(open_cells)
       , filling(corners)
       , neighbours(corners)
   {
@@ -42,13 +47,58 @@ namespace scree
     const auto &nodes = *corners.partitioner();
     kinds.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), CornerKind::dry);
     distances.assign(kinds.size(), -1.);
+    if (open_cells)
+      find_closed();
+  }
+
+
+  template <int dim>
+  void FreeSurfaceLocator<dim>::find_closed()
+  {
+    CornerVector volume(corners.partitioner()), cells(corners.partitioner());
+    for (const CutCell<dim> &cut : open_cells->cells())
+      for (unsigned int v = 0; v < cut.n_corners; ++v)
+        {
+          const unsigned int corner = corners.nodes(cut.cell)[v];
+          volume.local_element(corner) +=
+              Utilities::fixed_power<dim>(grid.cell_size()) * (1. / cut.n_corners - cut.open_hats[v]);
+          cells.local_element(corner) += 1. - cut.open_fraction;
+        }
+    const auto take = [&](CornerVector &vector, std::vector<double> &values) {
+      vector.compress(VectorOperation::add);
+      vector.update_ghost_values();
+      values.resize(kinds.size());
+      for (unsigned int corner = 0; corner < values.size(); ++corner)
+        values[corner] = vector.local_element(corner);
+    };
+    take(volume, closed_volume);
+    take(cells, closed_cells);
   }
 
 
   template <int dim>
   double FreeSurfaceLocator<dim>::volume_under(const unsigned int corner) const
   {
-    return Utilities::fixed_power<dim>(grid.cell_size()) * cells_in_box(corner) / (1 << dim);
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    const double whole       = cell_volume * cells_in_box(corner) / (1 << dim);
+    return closed_volume.empty() ? whole
+                                 : std::max(whole - closed_volume[corner], OpenCells<dim>::smallest * cell_volume);
+  }
+
+
+  template <int dim>
+  double FreeSurfaceLocator<dim>::volume_in_cell(const unsigned int cell, const unsigned int v) const
+  {
+    const CutCell<dim> *cut = open_cells ? open_cells->find(cell) : nullptr;
+    return Utilities::fixed_power<dim>(grid.cell_size()) * (cut ? cut->open_hats[v] : 1. / (1 << dim));
+  }
+
+
+  template <int dim>
+  double FreeSurfaceLocator<dim>::open_cells_around(const unsigned int corner) const
+  {
+    const double all = cells_in_box(corner);
+    return closed_cells.empty() ? all : std::max(all - closed_cells[corner], least_open);
   }
 
 
@@ -73,7 +123,7 @@ namespace scree
       case FreeSurface::half_full:
         return fill >= 0.5 - 1e-9;
       default: // all cells around it hold water
-        return filling[corner][wet_cells] > cells_in_box(corner) - 0.5;
+        return filling[corner][wet_cells] > (1. - 0.5 / (1 << dim)) * open_cells_around(corner);
       }
   }
 
@@ -87,6 +137,7 @@ namespace scree
         {
           filling.activate_cell(cell.cell);
           const unsigned int *nodes = corners.nodes(cell.cell);
+          const double open         = open_cells ? std::max(open_cells->open_fraction(cell.cell), least_open) : 1.;
           for (unsigned int v = 0; v < cell.n_corners; ++v)
             {
               double *node = filling[nodes[v]];
@@ -94,7 +145,7 @@ namespace scree
               node[filled] += cell.water_at_corner[v] + cell.effective_saturation * cell.grains_at_corner[v];
               node[weighted_pressure] += cell.pressure_at_corner[v];
               node[weighted_forgotten] += cell.forgotten_at_corner[v];
-              node[wet_cells] += 1.;
+              node[wet_cells] += open;
             }
         }
     filling.add_contributions();
@@ -114,7 +165,7 @@ namespace scree
     const auto classify = [&](const unsigned int corner) {
       const double *sums = filling[corner];
       // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
-      const double fill = std::min(sums[filled] / volume_under(corner), sums[wet_cells] / cells_in_box(corner));
+      const double fill = std::min(sums[filled] / volume_under(corner), sums[wet_cells] / open_cells_around(corner));
       CornerKind &kind  = kinds[corner];
       distances[corner] = distance_from_fill(fill);
       kind              = CornerKind::dry;

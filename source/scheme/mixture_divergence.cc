@@ -9,14 +9,10 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  MixtureDivergence<dim>::MixtureDivergence(const BackgroundGrid<dim> &grid,
-                                            const NodeNumbering<dim> &corners,
-                                            const Divergence form)
-      : grid(grid)
-      , corners(corners)
-      , form(form)
+  template <unsigned int n_1d>
+  MixtureDivergence<dim>::Rule<n_1d>::Rule()
   {
-    const QGauss<dim> gauss(n_gauss);
+    const QGauss<dim> gauss(n_1d);
     for (unsigned int q = 0; q < n_points; ++q)
       {
         points[q]  = gauss.point(q);
@@ -27,6 +23,21 @@ namespace scree
             shape_gradients[q][v] = GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
           }
       }
+  }
+
+
+  template <int dim>
+  MixtureDivergence<dim>::MixtureDivergence(const BackgroundGrid<dim> &grid,
+                                            const NodeNumbering<dim> &corners,
+                                            const FreeSurfaceLocator<dim> &surface,
+                                            const Divergence form,
+                                            const OpenCells<dim> *open_cells)
+      : grid(grid)
+      , corners(corners)
+      , surface(surface)
+      , form(form)
+      , open_cells(open_cells)
+  {
   }
 
 
@@ -48,6 +59,66 @@ namespace scree
 
 
   template <int dim>
+  template <int n, unsigned int n_1d>
+  void MixtureDivergence<dim>::add_integrals(const Rule<n_1d> &rule,
+                                             const double *weights,
+                                             const double scale,
+                                             const OpenKnots open,
+                                             const Flow<n> &flow,
+                                             AtCorners &integrals) const
+  {
+    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    const double inverse_width    = 1. / grid.cell_size();
+    for (unsigned int q = 0; q < rule.n_points; ++q)
+      {
+        const CellBasis<dim, n> basis(rule.points[q], open);
+        const RowFactors<dim, n> rows(basis);
+        const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
+        const auto value = [&](const NodeRow(&field)[n_rows]) { return sum(contract(rows.value, field) * value_x); };
+        const auto slope = [&](const NodeRow(&field)[n_rows], const unsigned int a) {
+          return inverse_width * (a == 0 ? sum(contract(rows.value, field) * derivative_x)
+                                         : sum(contract(rows.derivative[a - 1], field) * value_x));
+        };
+        if (form == Divergence::expanded)
+          {
+            double divergence = 0;
+            for (unsigned int c = 0; c < dim; ++c)
+              divergence += slope(flow[c], c);
+            const double weighted = -scale * weights[q] * divergence;
+            for (unsigned int v = 0; v < n_corners; ++v)
+              integrals[v] += weighted * rule.shapes[q][v];
+          }
+        else
+          {
+            Tensor<1, dim> flux;
+            for (unsigned int c = 0; c < dim; ++c)
+              flux[c] = value(flow[c]);
+            const double weight = scale * weights[q] * inverse_width;
+            for (unsigned int v = 0; v < n_corners; ++v)
+              integrals[v] += weight * (flux * rule.shape_gradients[q][v]);
+          }
+      }
+  }
+
+
+  template <int dim>
+  template <int n>
+  void MixtureDivergence<dim>::add_ground(const CutCell<dim> &cut, const Flow<n> &flow, AtCorners &integrals) const
+  {
+    if (cut.area == 0. || form != Divergence::expanded) // integrated by parts, the flux is not there
+      return;
+    double speed = 0; // out of the open
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+        speed += cut.normal[c] * cut.shapes[i] * flow[c][i / n][i % n];
+    if (speed < 0. && !surface.has_unknown(cut.cell))
+      return; // Water may leave ground that it does not press on.
+    for (unsigned int v = 0; v < n_corners; ++v)
+      integrals[v] += cut.area * speed * cut.ground_hats[v];
+  }
+
+
+  template <int dim>
   template <int n>
   void MixtureDivergence<dim>::integrate_cells(const Mixture<dim> &mixture,
                                                const NodalField<dim> &soil,
@@ -56,8 +127,6 @@ namespace scree
                                                CornerVector &sums)
   {
     constexpr unsigned int velocity = NodalField<dim>::velocity;
-    constexpr unsigned int n_rows   = RowFactors<dim, n>::n_rows;
-    const double inverse_width      = 1. / grid.cell_size();
     const double cell_volume        = Utilities::fixed_power<dim>(grid.cell_size());
     for (const MixtureCell<dim> &cell : mixture.cells())
       {
@@ -67,7 +136,7 @@ namespace scree
         const OpenKnots open      = grid.open_knots(cell.cell);
         // The mixture's velocity is made at the nodes: an interpolated fraction of grains would lend that of heavy
         // nodes to light ones, whose soil is fast where points have just entered a cell.
-        NodeRow rows_of_flow[dim][n_rows];
+        Flow<n> flow;
         for (unsigned int c = 0; c < dim; ++c)
           gather<dim, n>(
               nodes,
@@ -75,41 +144,17 @@ namespace scree
                 const double grains = pores[node][PoreField<dim>::grain_fraction];
                 return grains * soil[node][velocity + c] + (1. - grains) * water[node][velocity + c];
               },
-              rows_of_flow[c]);
+              flow[c]);
 
         const double scale = cell_volume * std::min(cell.fill, 1.);
-        std::array<double, n_corners> integrals{};
-        for (unsigned int q = 0; q < n_points; ++q)
+        AtCorners integrals{};
+        if (const CutCell<dim> *cut = open_cells ? open_cells->find(cell.cell) : nullptr)
           {
-            const CellBasis<dim, n> basis(points[q], open);
-            const RowFactors<dim, n> rows(basis);
-            const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
-            const auto value = [&](const NodeRow(&field)[n_rows]) {
-              return sum(contract(rows.value, field) * value_x);
-            };
-            const auto slope = [&](const NodeRow(&field)[n_rows], const unsigned int a) {
-              return inverse_width * (a == 0 ? sum(contract(rows.value, field) * derivative_x)
-                                             : sum(contract(rows.derivative[a - 1], field) * value_x));
-            };
-            if (form == Divergence::expanded)
-              {
-                double divergence = 0;
-                for (unsigned int c = 0; c < dim; ++c)
-                  divergence += slope(rows_of_flow[c], c);
-                const double weighted = -scale * weights[q] * divergence;
-                for (unsigned int v = 0; v < n_corners; ++v)
-                  integrals[v] += weighted * shapes[q][v];
-              }
-            else
-              {
-                Tensor<1, dim> flux;
-                for (unsigned int c = 0; c < dim; ++c)
-                  flux[c] = value(rows_of_flow[c]);
-                const double weight = scale * weights[q] * inverse_width;
-                for (unsigned int v = 0; v < n_corners; ++v)
-                  integrals[v] += weight * (flux * shape_gradients[q][v]);
-              }
+            add_integrals<n>(cut_rule, cut->weights.data(), scale, open, flow, integrals);
+            add_ground<n>(*cut, flow, integrals);
           }
+        else
+          add_integrals<n>(whole, whole.weights.data(), scale, open, flow, integrals);
         for (unsigned int v = 0; v < n_corners; ++v)
           sums.local_element(corners.nodes(cell.cell)[v]) += integrals[v];
       }

@@ -78,6 +78,7 @@ namespace scree
                                   const PressureParameters &parameters,
                                   const double water_density,
                                   const double bulk_modulus,
+                                  const OpenCells<dim> *open_cells,
                                   TimerOutput &timer)
       : grid(grid)
       , splitting(parameters.splitting_kind())
@@ -87,8 +88,8 @@ namespace scree
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
       , corners(numbered(grid))
-      , surface(grid, corners, walls, parameters.free_surface_kind())
-      , divergence(grid, corners, parameters.divergence_kind())
+      , surface(grid, corners, walls, parameters.free_surface_kind(), open_cells)
+      , divergence(grid, corners, surface, parameters.divergence_kind(), open_cells)
       , solver(grid, corners, parameters)
       , memory(corners, previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading, water_density)
   {

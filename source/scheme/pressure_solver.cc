@@ -200,7 +200,7 @@ namespace scree
           Cell &cell              = cells.back();
           cell.mobility           = scale * mixed.mobility;
           largest_mobility        = std::max(largest_mobility, cell.mobility);
-          cell.projection         = projection * cell_volume * std::min(mixed.fill, 1.);
+          cell.projection         = projection * mixed.volume * std::min(mixed.fill, 1.);
           const CellMatrix own    = matrix(cell);
           const unsigned int *all = corners.nodes(mixed.cell);
           for (unsigned int v = 0; v < n_corners; ++v)

@@ -46,7 +46,6 @@ namespace scree
   void VolumeCorrection<dim>::find_inside(const Mixture<dim> &mixture)
   {
     const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
-    const double part                      = Utilities::fixed_power<dim>(0.5 * grid.cell_size()); // of a cell's corner
     volume_inside.zero_out_ghost_values();
     volume_inside = 0.;
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -56,7 +55,7 @@ namespace scree
               return surface.kind(corner) == CornerKind::unknown;
             }))
           for (unsigned int v = 0; v < cell.n_corners; ++v)
-            volume_inside.local_element(corners[v]) += part;
+            volume_inside.local_element(corners[v]) += surface.volume_in_cell(cell.cell, v);
       }
     volume_inside.compress(VectorOperation::add);
   }

@@ -6,10 +6,14 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  Mixture<dim>::Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points)
+  Mixture<dim>::Mixture(const BackgroundGrid<dim> &grid,
+                        const unsigned int soil_points,
+                        const OpenCells<dim> *open_cells)
       : grid(grid)
       , soil_points(soil_points)
       , moments_per_cell(Utilities::pow(grid.n_nodes_1d(), dim - 1) * n_moments)
+      , cell_volume(Utilities::fixed_power<dim>(grid.cell_size()))
+      , open_cells(open_cells)
   {
     reinit();
   }
@@ -42,7 +46,7 @@ namespace scree
     if (record == numbers::invalid_unsigned_int)
       {
         record = records.size();
-        records.emplace_back(cell);
+        records.emplace_back(cell, cell_volume * (open_cells ? open_cells->open_fraction(cell) : 1.));
         grains.resize(grains.size() + moments_per_cell, NodeRow{});
         water.resize(water.size() + moments_per_cell, NodeRow{});
       }
@@ -53,19 +57,17 @@ namespace scree
   template <int dim>
   void Mixture<dim>::find_porosities(const unsigned int record)
   {
-    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
-    MixtureCell<dim> &cell   = records[record];
-    cell.find_fill(cell_volume);
-    porosities[record].find(std::min(cell.fill, 1.) * cell_volume);
+    MixtureCell<dim> &cell = records[record];
+    cell.find_fill();
+    porosities[record].find(std::min(cell.fill, 1.) * cell.volume);
   }
 
 
   template <int dim>
   void Mixture<dim>::finish()
   {
-    const double volume = Utilities::fixed_power<dim>(grid.cell_size());
     for (MixtureCell<dim> &cell : records)
-      cell.find_fill(volume);
+      cell.find_fill();
   }
 
   template class Mixture<2>;

@@ -37,10 +37,7 @@ namespace scree
     void add_entries(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.
-    void check(const unsigned int dim, const bool has_water) const;
-
-    /// The same of the surface alone.
-    void check_surface(const unsigned int dim) const;
+    void check(const unsigned int dim) const;
 
     BedType type_kind() const;
 

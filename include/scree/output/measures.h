@@ -28,6 +28,7 @@ namespace scree
   /// Least distance of a point from the surface, m; three cells if none is nearer. Collective.
   template <int dim>
   double least_distance(const std::list<SoilBody<dim>> &bodies,
+                        const std::list<WaterPhase<dim>> &water,
                         const SampledSurface<dim> &surface,
                         const MPI_Comm communicator);
 

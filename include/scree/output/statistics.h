@@ -108,7 +108,9 @@ namespace scree
                           const PointSums<dim> &now,
                           const RunTotals<dim> &totals,
                           const UpdateReport &last_step);
-    void add_bed_columns(const std::list<SoilBody<dim>> &bodies, const StepBalance<dim> &balance);
+    void add_bed_columns(const std::list<SoilBody<dim>> &bodies,
+                         const std::list<WaterPhase<dim>> &water,
+                         const StepBalance<dim> &balance);
     void add_obstacle_columns(const StepBalance<dim> &balance, const double time);
     void add_water_columns(const std::list<SoilBody<dim>> &bodies,
                            const std::list<WaterPhase<dim>> &water,

@@ -32,7 +32,7 @@ namespace scree
     bool touches_cube(const dealii::Point<dim> &lower, const double width) const;
 
     /// Volume, m^3, and centroid, m, of the part of the region that lies in a small cube, by sampling.
-    /// @param ground only what is in its open counts; null: all
+    /// @param ground only what is in its open counts, cut exactly where ground and region are plane; null: all
     std::pair<double, dealii::Point<dim>>
     part_of_cube(const dealii::Point<dim> &lower, const double width, const LevelSet<dim> *ground = nullptr) const;
 

@@ -29,12 +29,14 @@ namespace scree
   /// the water itself: porosity times the part of its cube in soil, plus the part outside; its mass is density times
   /// volume. They get the velocity of the entry; pressure is 0. Collective; throws EntryError if the region holds no
   /// volume, or covers a body without pores.
+  /// @param ground only what is in its open is filled; null: all
   template <int dim>
   void seed_water(WaterPhase<dim> &water,
                   const WaterParameters &parameters,
                   const std::vector<SoilRegion> &soil,
                   const dealii::Triangulation<dim> &triangulation,
-                  const double cell_size);
+                  const double cell_size,
+                  const LevelSet<dim> *ground = nullptr);
 } // namespace scree
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef scree_scheme_coupled_scheme_h
 #define scree_scheme_coupled_scheme_h
 
+#include <scree/scheme/bed_projection.h>
 #include <scree/scheme/mixture_step.h>
 #include <scree/scheme/scheme.h>
 #include <scree/scheme/soil_motion.h>
@@ -18,12 +19,15 @@ namespace scree
   ///    Then the viscosity, if there is any: (A + dt K) v** = A v* (ViscousStep).
   /// 2. Pressure: L dp = -div[(1-n) v_s* + n v_w*], with the drag in L (PorePressure).
   /// 3. Corrector: v = v* - dt A^-1 G dp (MixtureStep).
+  ///    Soil is stopped at the ground after the predictor, soil and water after the corrector (BedProjection), if there
+  ///    is a bed.
   /// 4. Points of free water leave where they crowd (VolumeCorrection), if the case asks for it.
   template <int dim>
   class CoupledScheme : public Scheme<dim>
   {
   public:
     /// @param soil_points see Mixture
+    /// @param open_cells what the bed leaves of the cells, may be null, as `bed`
     CoupledScheme(const BackgroundGrid<dim> &grid,
                   const Constraints<dim> &constraints,
                   const WaterBoundaryConditions<dim> &water_walls,
@@ -36,6 +40,8 @@ namespace scree
                   const unsigned int soil_points,
                   std::list<WaterPhase<dim>> &water,
                   std::list<SurfaceLoad<dim>> &loads,
+                  const OpenCells<dim> *open_cells,
+                  std::unique_ptr<BedProjection<dim>> bed,
                   dealii::TimerOutput &timer);
 
     void reinit() override;
@@ -75,6 +81,7 @@ namespace scree
     PorePressure<dim> pressure;
     MixtureStep<dim> step;
     std::unique_ptr<ViscousStep<dim>> viscosity;              // null if there is none
+    std::unique_ptr<BedProjection<dim>> bed;                  // null if there is none
     std::unique_ptr<VolumeCorrection<dim>> volume_correction; // null if the case does not ask for it
   };
 } // namespace scree

@@ -33,12 +33,14 @@ namespace scree
   {
   public:
     /// @param corners the numbering of linear functions on the grid
+    /// @param open_cells what rigid ground leaves of the cells; null: all
     FreeSurfaceLocator(const BackgroundGrid<dim> &grid,
                        const NodeNumbering<dim> &corners,
                        const WaterBoundaryConditions<dim> &walls,
-                       const FreeSurface rule);
+                       const FreeSurface rule,
+                       const OpenCells<dim> *open_cells);
 
-    /// Fits the surface to the grid's current corners.
+    /// Fits the surface to the grid's current corners. Collective.
     void reinit();
 
     /// Finds the surface, and fills `pressure` at the unknown corners from the mixture's points (0 elsewhere but at
@@ -83,8 +85,20 @@ namespace scree
       return filling[corner][Filling::filled] / volume_under(corner);
     }
 
-    /// Integral of a corner's linear function over the box, m^3.
+    /// Integral of a corner's linear function over what is open of the box, m^3.
     double volume_under(const unsigned int corner) const;
+
+    /// The same over a cell of this rank that has the corner as its `v`th.
+    double volume_in_cell(const unsigned int cell, const unsigned int v) const;
+
+    /// Whether a cell of this rank has an unknown corner.
+    bool has_unknown(const unsigned int cell) const
+    {
+      const unsigned int *nodes = corners.nodes(cell);
+      return std::any_of(nodes, nodes + (1 << dim), [this](const unsigned int corner) {
+        return kinds[corner] == CornerKind::unknown;
+      });
+    }
 
     /// The owned corners of cells with water.
     const std::vector<unsigned int> &wet_corners() const
@@ -93,7 +107,8 @@ namespace scree
     }
 
   private:
-    /// Sums over the points under a corner's linear function; the number of wet cells around it.
+    /// Sums over the points under a corner's linear function; the number of wet cells around it, each as far as it is
+    /// open.
     enum Filling : unsigned int
     {
       water,              // m^3
@@ -133,6 +148,12 @@ namespace scree
 
     /// Cells around a corner.
     unsigned int cells_in_box(const unsigned int corner) const;
+
+    /// The same, each as far as it is open.
+    double open_cells_around(const unsigned int corner) const;
+
+    /// Finds what rigid ground takes from the corners' surroundings. Collective.
+    void find_closed();
     bool is_unknown(const unsigned int corner, const double fill) const;
     void sum_filling(const Mixture<dim> &mixture);
 
@@ -154,10 +175,15 @@ namespace scree
     const NodeNumbering<dim> &corners;
     const WaterBoundaryConditions<dim> &walls;
     const FreeSurface rule;
-    NodeValues<dim, 5> filling;    // Filling
-    NodeValues<dim, 3> neighbours; // Neighbours
+    const OpenCells<dim> *open_cells; // may be null
+    NodeValues<dim, 5> filling;       // Filling
+    NodeValues<dim, 3> neighbours;    // Neighbours
     std::vector<CornerKind> kinds;
     std::vector<double> distances; // cells; positive in the water
+
+    // Without ground they are empty.
+    std::vector<double> closed_volume; // under a corner's linear function, m^3
+    std::vector<double> closed_cells;  // around a corner, each as far as it is closed
   };
 } // namespace scree
 

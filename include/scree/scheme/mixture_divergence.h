@@ -8,12 +8,18 @@
 namespace scree
 {
   /// The volume that the mixture's flow draws from the corners: integrals of -psi div u, where u = (1-n) v_s + n v_w is
-  /// formed at the nodes.
+  /// formed at the nodes. In cells that rigid ground cuts they are over the open part, and what u carries through the
+  /// ground is drawn, too: the pressure has to stop it.
   template <int dim>
   class MixtureDivergence
   {
   public:
-    MixtureDivergence(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &corners, const Divergence form);
+    /// @param open_cells what rigid ground leaves of the cells; null: all
+    MixtureDivergence(const BackgroundGrid<dim> &grid,
+                      const NodeNumbering<dim> &corners,
+                      const FreeSurfaceLocator<dim> &surface,
+                      const Divergence form,
+                      const OpenCells<dim> *open_cells);
 
     /// Sets `sums`, m^3/s, at the corners of wet cells from the velocities and the volume fraction of grains at the
     /// nodes, whose ghosts hold values. Collective: owned corners hold the whole.
@@ -24,9 +30,26 @@ namespace scree
                    CornerVector &sums);
 
   private:
-    static constexpr unsigned int n_gauss   = 2; // an axis: exact for slopes of quadratics times linear functions
-    static constexpr unsigned int n_points  = dealii::Utilities::pow(n_gauss, dim);
     static constexpr unsigned int n_corners = 1 << dim;
+    using AtCorners                         = std::array<double, n_corners>;
+
+    /// Gauss points of the unit cell, n_1d along an axis.
+    template <unsigned int n_1d>
+    struct Rule
+    {
+      static constexpr unsigned int n_points = dealii::Utilities::pow(n_1d, dim);
+
+      std::array<dealii::Point<dim>, n_points> points;
+      std::array<double, n_points> weights;
+      std::array<std::array<double, n_corners>, n_points> shapes;
+      std::array<std::array<dealii::Tensor<1, dim>, n_corners>, n_points> shape_gradients; // per cell width
+
+      Rule();
+    };
+
+    /// The mixture's velocity at a cell's nodes, component by component in rows.
+    template <int n>
+    using Flow = NodeRow[dim][RowFactors<dim, n>::n_rows];
 
     template <int n>
     void integrate_cells(const Mixture<dim> &mixture,
@@ -35,13 +58,26 @@ namespace scree
                          const PoreField<dim> &pores,
                          CornerVector &sums);
 
+    /// Adds `scale` times the integrals over a cell to those of its corners.
+    template <int n, unsigned int n_1d>
+    void add_integrals(const Rule<n_1d> &rule,
+                       const double *weights,
+                       const double scale,
+                       const OpenKnots open,
+                       const Flow<n> &flow,
+                       AtCorners &integrals) const;
+
+    /// Adds what flows through the ground in a cell.
+    template <int n>
+    void add_ground(const CutCell<dim> &cut, const Flow<n> &flow, AtCorners &integrals) const;
+
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &corners;
+    const FreeSurfaceLocator<dim> &surface;
     const Divergence form;
-    std::array<dealii::Point<dim>, n_points> points; // of the unit cell
-    std::array<double, n_points> weights;
-    std::array<std::array<double, n_corners>, n_points> shapes;
-    std::array<std::array<dealii::Tensor<1, dim>, n_corners>, n_points> shape_gradients; // per cell width
+    const OpenCells<dim> *open_cells; // may be null
+    const Rule<2> whole;              // exact for slopes of quadratics times linear functions
+    const Rule<CutCell<dim>::n_gauss> cut_rule;
   };
 } // namespace scree
 

@@ -3,6 +3,7 @@
 #define scree_transfer_mixture_h
 
 #include <scree/grid/nodal_field.h>
+#include <scree/grid/open_cells.h>
 #include <scree/transfer/node_rows.h>
 #include <scree/transfer/porosity_of_parts.h>
 
@@ -42,6 +43,7 @@ namespace scree
     using AtCorners                         = std::array<double, n_corners>;
 
     unsigned int cell;                         ///< active cell index
+    double volume;                             ///< of the cell, without what rigid ground fills, m^3
     double soil_mass = 0, water_mass = 0;      ///< kg
     double grain_volume = 0, water_volume = 0; ///< m^3
     double pore_volume = 0;                    ///< of the soil, m^3
@@ -55,16 +57,17 @@ namespace scree
     AtCorners forgotten_at_corner{};                 ///< volume of water times what its pressure has lost, m^3
 
     double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
-    double fill                 = 0; ///< volume of water and wet grains over that of the cell
+    double fill                 = 0; ///< volume of water and wet grains over `volume`
     double mobility             = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
 
-    explicit MixtureCell(const unsigned int cell)
+    MixtureCell(const unsigned int cell, const double volume)
         : cell(cell)
+        , volume(volume)
     {
     }
 
-    /// Effective saturation and fill from the volumes, in a cell of `volume`, m^3.
-    void find_fill(const double volume)
+    /// Effective saturation and fill from the volumes.
+    void find_fill()
     {
       effective_saturation = effective_saturation_of(water_volume, pore_volume);
       fill                 = (water_volume + effective_saturation * grain_volume) / volume;
@@ -106,7 +109,10 @@ namespace scree
     static constexpr unsigned int n_moments = (1 << dim) - 1;
 
     /// @param soil_points of a cell along each axis at the start; of the body that has fewest
-    Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points);
+    /// @param open_cells what rigid ground leaves of the cells; null: all
+    Mixture(const BackgroundGrid<dim> &grid,
+            const unsigned int soil_points,
+            const OpenCells<dim> *open_cells = nullptr);
 
     /// Fits the mixture to the grid's current cells.
     void reinit();
@@ -182,6 +188,8 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const unsigned int soil_points, moments_per_cell;
+    const double cell_volume;         // m^3
+    const OpenCells<dim> *open_cells; // may be null
     std::vector<MixtureCell<dim>> records;
     std::vector<unsigned int> record_of_cell; // by active cell index
     std::vector<NodeRow> grains, water;

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_bed_projection_h
+#define scree_scheme_bed_projection_h
+
+#include <scree/scheme/bed_contact.h>
+#include <scree/scheme/mixture_step.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// Rigid ground in scenes with water: takes from soil and water at the nodes what would carry them through it.
+  ///
+  /// The ground in a cell is one segment, whose velocity is the mean of the field's over it. Impulses on soil and water
+  /// there, shared out by the means of the shape functions, stop it: N A^-1 N^T l = N v, v -= A^-1 N^T l, with masses,
+  /// drag and walls in A, by conjugate gradients. Predicted soil is stopped by itself, so that the pressure sees how it
+  /// moves, while the pressure stops the water; soil and water are stopped after the corrector. Soil that is not fixed
+  /// may lift off, and rubs by Coulomb's law; water may leave where it has no pressure.
+  template <int dim>
+  class BedProjection
+  {
+  public:
+    /// @param open_cells of the same ground as `bed`
+    /// @param relative_tolerance of the velocities through the ground
+    BedProjection(const BackgroundGrid<dim> &grid,
+                  const RigidSurface<dim> &bed,
+                  const OpenCells<dim> &open_cells,
+                  const double relative_tolerance);
+
+    /// Fits the nodes to the grid's current partition, after the cells have been looked at. Collective.
+    void reinit();
+
+    /// Stops predicted soil. Ghosts of `nodes` hold values before, not after. Collective.
+    void predict(const MixtureNodes<dim> &nodes,
+                 const Mixture<dim> &mixture,
+                 const MixtureStep<dim> &step,
+                 const double time_step,
+                 StepBalance<dim> &balance);
+
+    /// Stops soil and water after the corrector, as predict().
+    void correct(const MixtureNodes<dim> &nodes,
+                 const Mixture<dim> &mixture,
+                 const MixtureStep<dim> &step,
+                 const FreeSurfaceLocator<dim> &surface,
+                 StepBalance<dim> &balance);
+
+    /// Adds the work of the step's impulses; ghosts of `nodes` hold values.
+    void count_dissipation(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const;
+
+    /// Takes points that have come below the ground back to it.
+    void put_back(PointSet<dim> &points) const;
+
+  private:
+    enum class Phase : unsigned int
+    {
+      soil,
+      water
+    };
+
+    /// What happens to a phase at a segment.
+    struct Contact
+    {
+      unsigned int segment; // number of the cut cell
+      Phase phase;
+      bool is_unilateral;                  // the impulse presses only
+      bool rubs;                           // as much as friction allows
+      bool slides = false, is_off = false; // what has been found
+      unsigned int first_row, n_rows;      // across the ground, then along it
+      dealii::Tensor<1, dim> base;         // impulse of the step before this projection, components by rows
+    };
+
+    struct Row
+    {
+      unsigned int contact;
+      dealii::Tensor<1, dim> direction;
+      double area;                                 // m^(dim-1)
+      bool is_free   = true;                       // whether the conjugate gradients may change it
+      double impulse = 0, mobility = 0, speed = 0; // N s, 1/kg, m/s
+    };
+
+    /// What a segment gave to a phase in this step, N s, out of the open; and the predictor's to soil over the step, N.
+    struct Impulses
+    {
+      dealii::Tensor<1, dim> soil, water, force;
+    };
+
+    void add_contact(const unsigned int segment,
+                     const Phase phase,
+                     const bool is_unilateral,
+                     const MixtureNodes<dim> &nodes);
+    void find_mobility(Row &row, const MixtureNodes<dim> &nodes) const;
+
+    /// Finds the impulses of the rows, from what they hold, and gives them to the nodes. Collective.
+    /// @param wanted flow through the ground that may be left, over the largest of the step
+    void project(const MixtureNodes<dim> &nodes,
+                 const MixtureStep<dim> &step,
+                 const double wanted,
+                 StepBalance<dim> &balance);
+
+    /// Changes the impulses of free rows until their velocities vanish. Collective.
+    void iterate();
+
+    /// Lets contacts go that pull, and slide that friction cannot hold; whether any changed on any rank. Collective.
+    bool find_states();
+
+    /// Sets `response` to the rows' velocities for impulses `of_rows`. Collective.
+    void respond(const std::vector<double> &of_rows);
+
+    /// Sums impulses of rows at the nodes, owned ones hold the whole. Collective.
+    void sum_at_nodes(const std::vector<double> &of_rows);
+
+    template <typename Values>
+    double speed_of(const Row &row, const Values &values_of_node) const;
+
+    double sum(const double value) const;
+    double max(const double value) const;
+
+    const BackgroundGrid<dim> &grid;
+    const RigidSurface<dim> bed;
+    const OpenCells<dim> &open_cells;
+    const double relative_tolerance;
+    NodeValues<dim, 2 * dim> impulses; // on soil and water, N s; then what they do, m/s
+    std::vector<Impulses> of_segments; // by cut cell
+    std::vector<Contact> contacts;
+    std::vector<Row> rows;
+    std::vector<std::pair<unsigned int, DragPair<dim>>> pairs; // at owned nodes of contacts
+    std::vector<double> residual, direction, response;         // by row
+    double tolerance = 0, largest_flow = 0;                    // m/s
+  };
+} // namespace scree
+
+#endif

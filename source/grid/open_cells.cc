@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/open_part.h>
+#include <scree/grid/open_cells.h>
+#include <scree/grid/shape_functions.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_gauss = CutCell<2>::n_gauss;
+
+    /// Calls `visit(place, part)` for the points of a rule on a simplex with `corners`; parts add up to 1.
+    template <int dim, int dim_of_simplex, typename Visit>
+    void visit_rule(const Quadrature<dim_of_simplex> &rule,
+                    const std::array<Point<dim>, dim_of_simplex + 1> &corners,
+                    const Visit &visit)
+    {
+      const double whole = std::accumulate(rule.get_weights().begin(), rule.get_weights().end(), 0.);
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          Point<dim> place = corners[0];
+          for (unsigned int a = 0; a < dim_of_simplex; ++a)
+            place += rule.point(q)[a] * (corners[a + 1] - corners[0]);
+          visit(place, rule.weight(q) / whole);
+        }
+    }
+
+    /// Normal of a line, as long as it, and of a triangle, as long as its area.
+    Tensor<1, 2> area_vector(const std::array<Point<2>, 2> &line)
+    {
+      return cross_product_2d(line[1] - line[0]);
+    }
+    Tensor<1, 3> area_vector(const std::array<Point<3>, 3> &triangle)
+    {
+      return 0.5 * cross_product_3d(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    }
+
+    /// Lagrange's cubics through the Gauss points at `x`, from 0 to 1.
+    std::array<double, n_gauss> cubics(const std::array<double, n_gauss> &points, const double x)
+    {
+      std::array<double, n_gauss> values;
+      for (unsigned int i = 0; i < n_gauss; ++i)
+        {
+          values[i] = 1.;
+          for (unsigned int j = 0; j < n_gauss; ++j)
+            if (j != i)
+              values[i] *= (x - points[j]) / (points[i] - points[j]);
+        }
+      return values;
+    }
+  } // namespace
+
+
+  template <int dim>
+  OpenCells<dim>::OpenCells(const BackgroundGrid<dim> &grid, const SampledSurface<dim> &surface)
+      : grid(grid)
+      , surface(surface)
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  std::array<double, CutCell<dim>::n_gauss> OpenCells<dim>::gauss_points()
+  {
+    const QGauss<1> rule(n_gauss);
+    std::array<double, n_gauss> points;
+    for (unsigned int q = 0; q < n_gauss; ++q)
+      points[q] = rule.point(q)[0];
+    return points;
+  }
+
+
+  template <int dim>
+  void OpenCells<dim>::integrate_open_part(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut) const
+  {
+    static const QWitherdenVincentSimplex<dim> rule(dim == 2 ? 4 : 5); // cubics along all axes: degree 6, 9
+    const auto points = gauss_points();
+    for (const Simplex<dim> &simplex : open)
+      {
+        std::array<Point<dim>, dim + 1> corners;
+        for (unsigned int i = 0; i <= dim; ++i)
+          corners[i] = simplex[i].place;
+        const double volume = volume_of(simplex);
+        cut.open_fraction += volume;
+        visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
+          std::array<std::array<double, n_gauss>, dim> along;
+          for (unsigned int a = 0; a < dim; ++a)
+            along[a] = cubics(points, x[a]);
+          for (unsigned int q = 0; q < CutCell<dim>::n_points; ++q)
+            {
+              double weight = part * volume;
+              for (unsigned int a = 0, rest = q; a < dim; ++a, rest /= n_gauss)
+                weight *= along[a][rest % n_gauss];
+              cut.weights[q] += weight;
+            }
+          for (unsigned int v = 0; v < cut.n_corners; ++v)
+            cut.open_hats[v] += part * volume * GeometryInfo<dim>::d_linear_shape_function(x, v);
+        });
+      }
+  }
+
+
+  template <int dim>
+  void OpenCells<dim>::integrate_ground(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut) const
+  {
+    static const QWitherdenVincentSimplex<dim - 1> rule(dim == 2 ? 3 : 4); // quadratics along all axes
+    double sum = 0.;
+    Tensor<1, dim> areas;
+    std::vector<double> shapes(grid.n_nodes_per_cell());
+    for (const Simplex<dim> &simplex : open)
+      {
+        // A simplex with a face on the ground has one corner in the open.
+        std::array<Point<dim>, dim> face;
+        unsigned int n_on_ground = 0;
+        Point<dim> inside;
+        for (const SimplexCorner<dim> &corner : simplex)
+          if (corner.side > 0.)
+            inside = corner.place;
+          else if (n_on_ground++ < dim)
+            face[n_on_ground - 1] = corner.place;
+        if (n_on_ground != dim)
+          continue;
+        Tensor<1, dim> area = area_vector(face);
+        if (area * (inside - face[0]) > 0.)
+          area *= -1.;
+        const double size = area.norm();
+        sum += size;
+        areas += area;
+        visit_rule<dim>(rule, face, [&](const Point<dim> &x, const double part) {
+          for (unsigned int v = 0; v < cut.n_corners; ++v)
+            cut.ground_hats[v] += part * size * GeometryInfo<dim>::d_linear_shape_function(x, v);
+          unsigned int i = 0;
+          visit_nodes(
+              grid, cut.cell, x, [&](const unsigned int, const double shape) { shapes[i++] += part * size * shape; });
+        });
+      }
+    constexpr double smallest_area = 1e-9; // what is less is a corner that touches the ground
+    if (areas.norm() < smallest_area)
+      {
+        cut.ground_hats.fill(0.);
+        return;
+      }
+    cut.area   = areas.norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
+    cut.normal = areas / areas.norm();
+    for (double &hat : cut.ground_hats)
+      hat /= sum;
+    for (double &shape : shapes)
+      shape /= sum;
+    cut.shapes = std::move(shapes);
+  }
+
+
+  template <int dim>
+  void OpenCells<dim>::reinit()
+  {
+    constexpr double on_ground = 1e-9; // cells: what is nearer lies on the ground
+    constexpr double nothing   = 1e-12;
+    entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
+    cut_cells.clear();
+    const auto unit_cube = simplices_of_cube(Point<dim>(), 1.);
+    for (const auto &cell : grid.fine_cells().cells())
+      {
+        if (!grid.fine_cells().is_owned(cell) || !(surface.least_distance(cell.index) < on_ground * grid.cell_size()))
+          continue;
+        auto simplices = unit_cube;
+        for (Simplex<dim> &simplex : simplices)
+          for (SimplexCorner<dim> &corner : simplex)
+            {
+              const double distance = surface.view(cell.index, corner.place).distance / grid.cell_size();
+              corner.side           = std::abs(distance) < on_ground ? 0. : distance;
+            }
+        CutCell<dim> cut;
+        cut.cell        = cell.index;
+        const auto open = open_part(std::move(simplices), linear_crossing<dim>);
+        integrate_open_part(open, cut);
+        integrate_ground(open, cut);
+        if (cut.open_fraction > 1. - nothing && cut.area == 0.)
+          continue;
+        entry_of_cell[cell.index] = cut_cells.size();
+        cut_cells.push_back(std::move(cut));
+      }
+  }
+
+  template struct CutCell<2>;
+  template struct CutCell<3>;
+  template class OpenCells<2>;
+  template class OpenCells<3>;
+} // namespace scree

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/bed_projection.h>
+#include <scree/tensor/vector.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    using Field = NodalField<dim>;
+
+    /// Unit vectors along a surface.
+    std::array<Tensor<1, 2>, 1> tangents(const Tensor<1, 2> &normal)
+    {
+      return { { cross_product_2d(normal) } };
+    }
+    std::array<Tensor<1, 3>, 2> tangents(const Tensor<1, 3> &normal)
+    {
+      unsigned int least = 0;
+      for (unsigned int a = 1; a < 3; ++a)
+        if (std::abs(normal[a]) < std::abs(normal[least]))
+          least = a;
+      Tensor<1, 3> axis;
+      axis[least]              = 1.;
+      const Tensor<1, 3> along = cross_product_3d(normal, axis), first = along / along.norm();
+      return { { first, cross_product_3d(normal, first) } };
+    }
+  } // namespace
+
+
+  template <int dim>
+  BedProjection<dim>::BedProjection(const BackgroundGrid<dim> &grid,
+                                    const RigidSurface<dim> &bed,
+                                    const OpenCells<dim> &open_cells,
+                                    const double relative_tolerance)
+      : grid(grid)
+      , bed(bed)
+      , open_cells(open_cells)
+      , relative_tolerance(relative_tolerance)
+      , impulses(grid.numbering())
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::reinit()
+  {
+    impulses.reinit();
+    of_segments.assign(open_cells.cells().size(), Impulses()); // The next step begins its search from nothing.
+  }
+
+
+  template <int dim>
+  double BedProjection<dim>::sum(const double value) const
+  {
+    return Utilities::MPI::sum(value, grid.triangulation().get_communicator());
+  }
+
+
+  template <int dim>
+  double BedProjection<dim>::max(const double value) const
+  {
+    return Utilities::MPI::max(value, grid.triangulation().get_communicator());
+  }
+
+
+  template <int dim>
+  template <typename Values>
+  double BedProjection<dim>::speed_of(const Row &row, const Values &values_of_node) const
+  {
+    const CutCell<dim> &cut   = open_cells.cells()[contacts[row.contact].segment];
+    const unsigned int *nodes = grid.nodes(cut.cell);
+    double speed              = 0.;
+    for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+      {
+        const double *values = values_of_node(nodes[i]);
+        for (unsigned int c = 0; c < dim; ++c)
+          speed += cut.shapes[i] * row.direction[c] * values[c];
+      }
+    return speed;
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::find_mobility(Row &row, const MixtureNodes<dim> &nodes) const
+  {
+    // Without walls: ranks that do not own a node know its masses only.
+    const Contact &contact  = contacts[row.contact];
+    const CutCell<dim> &cut = open_cells.cells()[contact.segment];
+    for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+      {
+        const unsigned int node = grid.nodes(cut.cell)[i];
+        const double soil = nodes.soil[node][Field<dim>::mass], water = nodes.water[node][Field<dim>::mass];
+        const double own   = contact.phase == Phase::soil ? soil : water,
+                     other = contact.phase == Phase::soil ? water : soil;
+        const double drag  = nodes.pores[node][PoreField<dim>::drag];
+        if (own > 0.)
+          row.mobility += cut.shapes[i] * cut.shapes[i] *
+                          (other > 0. ? (other + drag) / (own * other + drag * (own + other)) : 1. / own);
+      }
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::add_contact(const unsigned int segment,
+                                       const Phase phase,
+                                       const bool is_unilateral,
+                                       const MixtureNodes<dim> &nodes)
+  {
+    const CutCell<dim> &cut = open_cells.cells()[segment];
+    impulses.activate_cell(cut.cell);
+    Contact contact{};
+    contact.segment       = segment;
+    contact.phase         = phase;
+    contact.is_unilateral = is_unilateral;
+    contact.rubs          = phase == Phase::soil && bed.friction_coefficient > 0.;
+    contact.first_row     = rows.size();
+    contact.n_rows        = contact.rubs ? dim : 1;
+    contacts.push_back(contact);
+    const auto along = tangents(cut.normal);
+    for (unsigned int r = 0; r < contact.n_rows; ++r)
+      {
+        Row row;
+        row.contact   = contacts.size() - 1;
+        row.area      = cut.area;
+        row.direction = r == 0 ? cut.normal : along[r - 1];
+        find_mobility(row, nodes);
+        const auto &field = phase == Phase::soil ? nodes.soil : nodes.water;
+        row.speed         = speed_of(row, [&](const unsigned int node) { return field[node] + Field<dim>::velocity; });
+        rows.push_back(row);
+      }
+    // Unilateral soil that neither presses nor comes near is left alone.
+    const Impulses &before = of_segments[segment];
+    if (is_unilateral && rows[contact.first_row].speed <= 0. &&
+        !((phase == Phase::soil ? before.soil : before.water) * cut.normal > 0.))
+      {
+        contacts.pop_back();
+        rows.resize(contact.first_row);
+      }
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::sum_at_nodes(const std::vector<double> &of_rows)
+  {
+    for (const unsigned int node : impulses.active_nodes())
+      std::fill_n(impulses[node], 2 * dim, 0.);
+    impulses.clear_ghosts();
+    for (unsigned int k = 0; k < rows.size(); ++k)
+      if (of_rows[k] != 0.)
+        {
+          const Contact &contact   = contacts[rows[k].contact];
+          const CutCell<dim> &cut  = open_cells.cells()[contact.segment];
+          const unsigned int *ids  = grid.nodes(cut.cell);
+          const unsigned int first = contact.phase == Phase::soil ? 0 : dim;
+          for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              impulses[ids[i]][first + c] += of_rows[k] * cut.shapes[i] * rows[k].direction[c];
+        }
+    impulses.add_contributions();
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::respond(const std::vector<double> &of_rows)
+  {
+    sum_at_nodes(of_rows);
+    for (const auto &[node, pair] : pairs)
+      {
+        double *values                   = impulses[node];
+        const SoilAndWater<dim> velocity = pair.solve({ vector_of<dim>(values), vector_of<dim>(values + dim) });
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            values[c]       = velocity.soil[c];
+            values[dim + c] = velocity.water[c];
+          }
+      }
+    impulses.update_ghosts();
+    response.resize(rows.size());
+    for (unsigned int k = 0; k < rows.size(); ++k)
+      {
+        const unsigned int first = contacts[rows[k].contact].phase == Phase::soil ? 0 : dim;
+        response[k]              = speed_of(rows[k], [&](const unsigned int node) { return impulses[node] + first; });
+      }
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::iterate()
+  {
+    constexpr unsigned int most_iterations = 100;
+    const unsigned int n                   = rows.size();
+    const auto scaled                      = [&](const unsigned int k) {
+      return rows[k].is_free && rows[k].mobility > 0. ? residual[k] / rows[k].mobility : 0.;
+    };
+    double own_product = 0., own_square = 0.;
+    const auto judge = [&] { // product of the residual with itself, scaled; its square over the ground
+      own_product = own_square = 0.;
+      for (unsigned int k = 0; k < n; ++k)
+        if (rows[k].is_free && rows[k].mobility > 0.)
+          {
+            own_product += residual[k] * scaled(k);
+            own_square += rows[k].area * residual[k] * residual[k];
+          }
+    };
+    judge();
+    double product = sum(own_product);
+    direction.resize(n);
+    for (unsigned int k = 0; k < n; ++k)
+      direction[k] = scaled(k);
+    for (unsigned int i = 0; i < most_iterations && sum(own_square) > tolerance * tolerance; ++i)
+      {
+        respond(direction);
+        double curvature = 0.;
+        for (unsigned int k = 0; k < n; ++k)
+          curvature += direction[k] * response[k];
+        curvature = sum(curvature);
+        if (!(curvature > 0.))
+          break; // Walls hold what is left.
+        const double length = product / curvature;
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            rows[k].impulse += length * direction[k];
+            residual[k] -= length * response[k];
+          }
+        judge();
+        const double next = sum(own_product);
+        for (unsigned int k = 0; k < n; ++k)
+          direction[k] = scaled(k) + next / product * direction[k];
+        product = next;
+      }
+  }
+
+
+  template <int dim>
+  bool BedProjection<dim>::find_states()
+  {
+    bool changed   = false;
+    const auto set = [&](Row &row, const double impulse) {
+      changed     = changed || std::abs(impulse - row.impulse) * row.mobility * std::sqrt(row.area) > tolerance;
+      row.impulse = impulse;
+    };
+    for (Contact &contact : contacts)
+      {
+        if (!contact.is_unilateral || contact.is_off)
+          continue;
+        Row *of_contact = &rows[contact.first_row];
+        if (of_contact[0].impulse + contact.base[0] <= 0.)
+          {
+            contact.is_off = true;
+            for (unsigned int r = 0; r < contact.n_rows; ++r)
+              {
+                set(of_contact[r], -contact.base[r]);
+                of_contact[r].is_free = false;
+              }
+            continue;
+          }
+        if (!contact.rubs)
+          continue;
+        Tensor<1, dim> needed; // along the ground
+        for (unsigned int r = 1; r < contact.n_rows; ++r)
+          needed[r] = of_contact[r].impulse + contact.base[r];
+        const double available = bed.available(of_contact[0].impulse + contact.base[0]);
+        if (!contact.slides && needed.norm() <= available)
+          continue;
+        contact.slides    = true;
+        const double size = needed.norm();
+        for (unsigned int r = 1; r < contact.n_rows; ++r)
+          {
+            set(of_contact[r], (size > 0. ? available / size * needed[r] : 0.) - contact.base[r]);
+            of_contact[r].is_free = false;
+          }
+      }
+    return max(double(changed)) > 0.;
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::project(const MixtureNodes<dim> &nodes,
+                                   const MixtureStep<dim> &step,
+                                   const double wanted,
+                                   StepBalance<dim> &balance)
+  {
+    constexpr unsigned int most_passes = 8;
+    double own_square                  = 0.;
+    for (const Row &row : rows)
+      own_square += row.area * row.speed * row.speed;
+    largest_flow = std::max(largest_flow, std::sqrt(sum(own_square)));
+    tolerance    = wanted * largest_flow;
+    if (tolerance == 0.)
+      return;
+    pairs.clear();
+    for (const unsigned int node : impulses.active_nodes())
+      if (nodes.soil[node][Field<dim>::mass] > 0. || nodes.water[node][Field<dim>::mass] > 0.)
+        pairs.emplace_back(node, step.pair_at(nodes, node));
+
+    std::vector<double> of_rows(rows.size());
+    for (unsigned int pass = 0; pass < most_passes; ++pass)
+      {
+        for (unsigned int k = 0; k < rows.size(); ++k)
+          of_rows[k] = rows[k].impulse;
+        respond(of_rows);
+        residual.resize(rows.size());
+        for (unsigned int k = 0; k < rows.size(); ++k)
+          residual[k] = rows[k].speed - response[k];
+        iterate();
+        if (!find_states())
+          break;
+      }
+
+    for (unsigned int k = 0; k < rows.size(); ++k)
+      {
+        of_rows[k]             = rows[k].impulse;
+        const Contact &contact = contacts[rows[k].contact];
+        Impulses &given        = of_segments[contact.segment];
+        (contact.phase == Phase::soil ? given.soil : given.water) += rows[k].impulse * rows[k].direction;
+      }
+    sum_at_nodes(of_rows);
+    for (const auto &[node, pair] : pairs)
+      {
+        SoilAndWater<dim> given{ -vector_of<dim>(impulses[node]), -vector_of<dim>(impulses[node] + dim) };
+        if (pair.soil_mass > 0.)
+          balance.bed_impulse += given.soil;
+        if (pair.water_mass > 0.)
+          balance.bed_impulse += given.water;
+        step.push(nodes, node, given, balance);
+      }
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::predict(const MixtureNodes<dim> &nodes,
+                                   const Mixture<dim> &mixture,
+                                   const MixtureStep<dim> &step,
+                                   const double time_step,
+                                   StepBalance<dim> &balance)
+  {
+    impulses.clear();
+    contacts.clear();
+    rows.clear();
+    largest_flow = 0.;
+    for (Impulses &segment : of_segments)
+      segment.soil = segment.water = Tensor<1, dim>();
+    const bool is_fixed = std::isinf(bed.friction_coefficient);
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (const CutCell<dim> *cut = open_cells.find(cell.cell);
+          cut && cut->area > 0. && cell.soil_mass > 0. && !cell.is_rigid)
+        add_contact(cut - open_cells.cells().data(), Phase::soil, !is_fixed, nodes);
+    for (Row &row : rows)
+      row.impulse = time_step * (of_segments[contacts[row.contact].segment].force * row.direction);
+    project(nodes, step, relative_tolerance, balance);
+    for (Impulses &segment : of_segments)
+      segment.force = segment.soil / time_step;
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::correct(const MixtureNodes<dim> &nodes,
+                                   const Mixture<dim> &mixture,
+                                   const MixtureStep<dim> &step,
+                                   const FreeSurfaceLocator<dim> &surface,
+                                   StepBalance<dim> &balance)
+  {
+    impulses.clear();
+    contacts.clear();
+    rows.clear();
+    const bool is_fixed = std::isinf(bed.friction_coefficient);
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (const CutCell<dim> *cut = open_cells.find(cell.cell); cut && cut->area > 0.)
+        {
+          const unsigned int segment = cut - open_cells.cells().data();
+          if (cell.soil_mass > 0. && !cell.is_rigid)
+            add_contact(segment, Phase::soil, !is_fixed, nodes);
+          if (cell.water_volume > 0.)
+            add_contact(segment, Phase::water, !surface.has_unknown(cell.cell), nodes);
+        }
+    for (Contact &contact : contacts)
+      if (contact.phase == Phase::soil)
+        for (unsigned int r = 0; r < contact.n_rows; ++r)
+          contact.base[r] = of_segments[contact.segment].soil * rows[contact.first_row + r].direction;
+    constexpr double coarser = 10.; // the next predictor finds what is left; nothing at rest or in motion is worse
+    project(nodes, step, coarser * relative_tolerance, balance);
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::count_dissipation(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const
+  {
+    // The work of an impulse is its product with the mean velocity.
+    const auto mean = [](const double *values, const unsigned int c) {
+      return values[Field<dim>::velocity + c] - 0.5 * values[Field<dim>::velocity_change + c];
+    };
+    for (unsigned int s = 0; s < of_segments.size(); ++s)
+      {
+        const Impulses &given = of_segments[s];
+        if (given.soil.norm_square() + given.water.norm_square() == 0.)
+          continue;
+        const CutCell<dim> &cut = open_cells.cells()[s];
+        for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+          {
+            const unsigned int node = grid.nodes(cut.cell)[i];
+            for (unsigned int c = 0; c < dim; ++c)
+              balance.bed_dissipation += cut.shapes[i] * (given.soil[c] * mean(nodes.soil[node], c) +
+                                                          given.water[c] * mean(nodes.water[node], c));
+          }
+      }
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::put_back(PointSet<dim> &points) const
+  {
+    const double width         = grid.cell_size();
+    const double inside        = 1e-6 * width; // where points are put
+    const FineCells<dim> &fine = grid.fine_cells();
+    for (const auto &cell : points.cells())
+      {
+        if (bed.samples->least_distance(cell.cell) > width) // no point moves farther in a step
+          continue;
+        const Point<dim> lower = fine.box().corner(fine.cells()[fine.of_index(cell.cell)].place);
+        for_each_point(cell, [&](const auto &point) {
+          const SurfaceView<dim> view = bed.samples->view(point.cell, Point<dim>((point.location - lower) / width));
+          if (view.distance < 0.)
+            point.location += (inside - view.distance) * view.normal;
+        });
+      }
+  }
+
+  template class BedProjection<2>;
+  template class BedProjection<3>;
+} // namespace scree

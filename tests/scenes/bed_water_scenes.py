@@ -1,0 +1,197 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""bed_water_scenes.py SCREE SCENE: water and saturated soil on a bed that is oblique to the mesh, as scenes.py.
+
+Bounds are from closed forms, from the same physics with walls of the box along the mesh and gravity turned, and from the reference
+numbers of the prototype (an independent 2D code with the same equations), or, where it says "ours", a frame around what was found.
+"""
+
+import math
+
+import numpy as np
+
+from scene_tools import check, main, run
+
+# scene_tools has put doc/ on the path.
+import render
+from bed_scenes import ANGLES, GRAVITY, Plane, slope_of
+
+WEIGHT = 1000 * GRAVITY  # of water, N/m^3
+CELL = 0.05
+
+
+def frame(theta, slope=0., height=1.1):
+    """A floor at `theta` degrees to the mesh, and gravity at `slope` to the floor's normal; (plane, corner of the box)."""
+    angle = math.radians(theta)
+    origin = np.array([height * math.sin(angle) + 2.37 * CELL, 2.259 * CELL])
+    down = np.array([math.cos(angle), math.sin(angle)])
+    plane = Plane(origin, (-down[1], down[0]), down, slope)
+    corner = [CELL * math.ceil(size / CELL + 4) for size in (3 * down[0] + height * down[1], 3 * down[1] + height * down[0])]
+    return plane, {"Mesh/Upper corner": "%g, %g" % tuple(corner), "Gravity": "%.15g, %.15g" % tuple(plane.gravity)}
+
+
+def gain(table):
+    """Largest gain of energy over what gravity released."""
+    dissipation = np.array(table["Numerical dissipation (J)"])
+    return np.max(np.maximum.accumulate(dissipation) - dissipation) / np.ptp(table["Potential energy (J)"])
+
+
+def check_balance(name, table):
+    """Mass of soil and water and their momentum to rounding."""
+    mass = np.array(table["Mass (kg)"]) + np.array(table["Water mass (kg)"])
+    check(name + ": relative change of mass", np.ptp(mass) / mass[0], 0, 1e-12)
+    check(name + ": momentum residual over weight times time",
+          max(table["Momentum residual (N s)"]) / (mass[0] * GRAVITY * table["Time (s)"][-1]), 0, 1e-11)
+
+
+def pressure_error(name, surface, cell, up):
+    """Of the water's points, over the weight of a cell: root mean square and largest."""
+    water = render.read_points(name, None, "water")
+    error = (water.arrays["pressure"].ravel() - WEIGHT * (surface - water.positions[:, up])) / (WEIGHT * cell)
+    return math.sqrt(np.mean(error**2)), np.max(np.abs(error))
+
+
+def floor(theta):
+    """A floor that rises from y = 0.13 m."""
+    angle = math.radians(theta)
+    return "%.15g*x + %.15g*(y - 0.13)" % (-math.sin(angle), math.cos(angle))
+
+
+def bed_tank(scree):
+    """Water at rest over an inclined floor: hydrostatic, also if it starts without pressure."""
+    for theta in (0, 10, 27):
+        for start in ("hydrostatic", "none"):
+            table = run(scree, "hydrostatic", "tank",
+                        {"End time": "1", "Mesh/Upper corner": "1, 1.2", "Time step/Maximum time step": "4e-3", "Water/Region": "y < 0.8",
+                         "Water/Initial pressure": start, "Bed/Type": "free slip", "Bed/Level set expression": floor(theta),
+                         "Output/Graphics": "points", "Output/Interval": "1"})
+            name = "tank, %d degrees, start %s" % (theta, start)
+            check(name + ": largest error of p over that of a cell", pressure_error("tank", 0.8, 0.1, 1)[1], 0, 5e-5)
+            exact = 1000 * (0.67 - math.tan(math.radians(theta)) / 2)
+            check(name + ": relative error of the mass", abs(table["Water mass (kg)"][0] / exact - 1), 0, 1e-6)
+            check_balance(name, table)
+
+
+def bed_saturated_rest(scree):
+    """Saturated elastic soil at rest on a rough floor."""
+    for conductivity, bound in (("1e-3", 0.002), ("1e-8", 0.007)):
+        for theta in (0, 10, 27):
+            table = run(scree, "saturated_rest", "saturated",
+                        {"End time": "0.5", "Mesh/Upper corner": "1, 1.2", "Mesh/Cell size": "0.1", "Soil/Region": "y < 0.8",
+                         "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.25",
+                         "Soil/Initial state/K0": "%.15g" % (1 / 3), "Water/Hydraulic conductivity": conductivity,
+                         "Water/Pressure/Relative tolerance": "1e-8", "Bed/Type": "fixed", "Bed/Level set expression": floor(theta),
+                         "Output/Graphics": "points", "Output/Interval": "0.5", "Probes/Displacement": "true"})
+            name = "saturated soil at rest, %d degrees, k = %s m/s" % (theta, conductivity)
+            check(name + ": rms error of p over that of a cell", pressure_error("saturated", 0.8, 0.1, 1)[0], 0, bound)
+            moved = np.linalg.norm(render.read_points("saturated").arrays["displacement"], axis=1)
+            check(name + ": largest displacement over a cell", np.max(moved) / 0.1, 0, 2e-4)
+            check_balance(name, table)
+
+
+def dam_break(scree, name, entries, plane):
+    """Place behind which 99 % of the water are, m, and the gain of energy."""
+    table = run(scree, "bed/dam_break_on_slope", name,
+                {"Water/Volume correction rate": "0", **entries, "Output/Graphics": "points", "Output/Interval": "0.6"})
+    water = render.read_points(name, None, "water")
+    place, mass = (water.positions[:, :2] - plane.origin) @ plane.down, water.arrays["mass"].ravel()
+    order = np.argsort(place)
+    check_balance(name, table)
+    return place[order][np.searchsorted(np.cumsum(mass[order]), 0.99 * mass.sum())], gain(table), table
+
+
+def bed_dam_break(scree):
+    """Dam break in a tank at an angle to the mesh, against the same on walls of the box."""
+    for slope, angles in ((0, ANGLES), (27, (27,))):
+        level = Plane((0, 0), (0, 1), (1, 0), slope)
+        reference, reference_gain, _ = dam_break(
+            scree, "walls", {"Bed/Type": "none", "Bed/Level set expression": "", "Mesh/Upper corner": "4, 1.1",
+                             "Gravity": "%.15g, %.15g" % tuple(level.gravity), "Water/Region": "x < 0.5 && y < 1"}, level)
+        for theta in angles:
+            plane, entries = frame(theta, slope)
+            along, across = plane.along(plane.down), plane.along(plane.normal)
+            front, gained, table = dam_break(
+                scree, "turned", {**entries, "Bed/Level set expression": "min(%s, %s)" % (along, across),
+                                  "Water/Region": "%s < 0.5 && %s < 1" % (along, across)}, plane)
+            name = "dam break, tank at %d degrees, slope %d degrees" % (theta, slope)
+            check(name + ": front 99 % over that on walls", front / reference, 0.99, 1.01)
+            check(name + ": gain of energy beyond that on walls, over released", gained - reference_gain, -1, 1e-3)
+            # Cubes that two planes cut at a corner; at the start water fills the corner that the samples of the bed round.
+            check(name + ": relative error of the mass", abs(table["Water mass (kg)"][0] / 500 - 1), 0, 2e-4)
+            check(name + ": depth of the deepest point below the bed, m", max(0., -min(table["Least distance from bed (m)"][1:])), 0, 5e-4)
+
+
+def slab(scree, case, plane, entries):
+    """Acceleration of 1 x 0.3 m along the plane over g, from 0.1 s on."""
+    along = plane.along(plane.down)
+    region = "%s > 0.6 && %s < 1.6 && %s < 0.3" % (along, along, plane.along(plane.normal))
+    body = {"Water/Region": region} if case == "hydrostatic" else {"Soil/Region": region, "Soil/Initial state/Type": "none"}
+    table = run(scree, case, "slab",
+                {**body, "End time": "0.4", "Mesh/Cell size": "%g" % CELL, "Water/Initial pressure": "none",
+                 "Time step/Maximum time step": "2e-3", "Bed/Type": "free slip", "Bed/Level set expression": plane.along(plane.normal),
+                 "Output/Statistics interval": "0.01", "Output/Interval": "0.4", **entries})
+    check_balance("slab", table)
+    mass = table["Mass (kg)"][0] + table["Water mass (kg)"][0]
+    return slope_of(table, plane.column(table, "Momentum", plane.down) / mass, 0.1) / GRAVITY, table
+
+
+def bed_slab(scree):
+    """Slabs of water and of saturated elastic soil slide down a smooth floor of 27 degrees."""
+    soil = {"Soil/Initial state/K0": "0.5", "Soil/Linear elastic/Young's modulus": "1e6"}
+    for theta in ANGLES:
+        plane, entries = frame(theta, 27)
+        acceleration, _ = slab(scree, "hydrostatic", plane, entries)
+        check("slab of water, %d degrees: error of acceleration over g" % theta, abs(acceleration - math.sin(plane.slope)), 0, 1e-3)
+        acceleration, table = slab(scree, "saturated_rest", plane, {**entries, **soil})
+        check("saturated slab, %d degrees: error of acceleration over g" % theta, abs(acceleration - math.sin(plane.slope)), 0, 5e-3)
+        check("saturated slab, %d degrees: gain of energy over released" % theta, gain(table), 0, 1e-3)
+
+
+def bed_wet_friction(scree):
+    """The saturated slab with mu = 0.3 on the bed, against one on a wall of the box. Its weight comes within 0.1 s."""
+    def entries(plane):
+        return {"Body force": plane.entries()["Body force"], "End time": "0.5", "Soil/Initial state/K0": "0.5",
+                "Soil/Linear elastic/Young's modulus": "1e6"}
+
+    for conductivity, bound in (("1e-2", 0.005), ("1e-3", 0.012)):
+        water = {"Water/Hydraulic conductivity": conductivity}
+        level = Plane((0, 0), (0, 1), (1, 0), 27)
+        reference, _ = slab(scree, "saturated_rest", level,
+                            {**entries(level), **water, "Mesh/Upper corner": "4, 1.1", "Bed/Type": "none", "Bed/Level set expression": "",
+                             "Gravity": "%.15g, %.15g" % tuple(level.gravity), "Boundaries/Bottom": "friction 16.69924423"})
+        for theta in ANGLES:
+            plane, box = frame(theta, 27)
+            acceleration, table = slab(scree, "saturated_rest", plane,
+                                       {**box, **entries(plane), **water, "Bed/Type": "friction", "Bed/Friction angle": "16.69924423"})
+            name = "saturated slab with friction, %d degrees, k = %s m/s" % (theta, conductivity)
+            check(name + ": acceleration over g beyond that on a wall (ours)", acceleration - reference, -bound, bound)
+            check(name + ": gain of energy over released", gain(table), 0, 1e-3)
+
+
+def bed_water_3d(scree):
+    """A tank at rest and a slab of water on a smooth plane that is oblique to all axes."""
+    box = {"Dimension": "3", "Mesh/Lower corner": "0, 0, 0", "Bed/Type": "free slip", "Water/Points per cell": "2",
+           "Water/Initial pressure": "none"}
+    plane = Plane((0, 0.1, 0.13), (-0.45, 0.2, 0.9), (1, 0, 0), 0)
+    table = run(scree, "hydrostatic", "tank_3d",
+                {**box, "End time": "0.4", "Mesh/Upper corner": "1, 0.6, 1.2", "Gravity": "0, 0, %g" % -GRAVITY, "Water/Region": "z < 0.8",
+                 "Time step/Maximum time step": "4e-3", "Bed/Level set expression": plane.along(plane.normal),
+                 "Output/Graphics": "points", "Output/Interval": "0.4"})
+    check("tank in 3D: largest error of p over that of a cell", pressure_error("tank_3d", 0.8, 0.1, 2)[1], 0, 5e-5)
+    check_balance("tank in 3D", table)
+    plane = Plane((0.6, 0.7, 0.9), (0.3, 0.25, 0.92), (1, 0.4, 0), 27)
+    side = np.cross(plane.normal, plane.down)
+    along, beside = plane.along(plane.down), plane.along(side)
+    table = run(scree, "hydrostatic", "slab_3d",
+                {**box, "End time": "0.3", "Mesh/Upper corner": "2.4, 2, 1.6", "Mesh/Cell size": "0.1",
+                 "Gravity": ", ".join("%.15g" % g for g in plane.gravity), "Time step/Maximum time step": "4e-3",
+                 "Water/Region": "%s > 0 && %s < 0.6 && %s > 0 && %s < 0.6 && %s < 0.3" % (along, along, beside, beside,
+                                                                                        plane.along(plane.normal)),
+                 "Bed/Level set expression": plane.along(plane.normal), "Output/Statistics interval": "0.01"})
+    speed = plane.column(table, "Momentum", plane.down) / table["Water mass (kg)"][0]
+    check("slab in 3D: error of acceleration over g", abs(slope_of(table, speed, 0.1) / GRAVITY - math.sin(plane.slope)), 0, 1e-3)
+    check_balance("slab in 3D", table)
+
+
+if __name__ == "__main__":
+    main(globals())
