@@ -163,7 +163,7 @@ void test(const std::string &basis, std::ostream &out)
   WaterBoundaryParameters wall_parameters;
   wall_parameters.top = "impermeable";
   const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
-  FreeSurfaceLocator<dim> surface(grid, corners, walls, FreeSurface::distance);
+  FreeSurfaceLocator<dim> surface(grid, corners, walls, FreeSurface::distance, nullptr);
   CornerVector pressure(corners.partitioner());
   surface.locate(mixture, pressure);
   double error = 0, unknowns = 0;
@@ -191,7 +191,7 @@ void test(const std::string &basis, std::ostream &out)
         field->update_ghosts();
       }
     CornerVector sums(corners.partitioner());
-    MixtureDivergence<dim>(grid, corners, Divergence::expanded)
+    MixtureDivergence<dim>(grid, corners, surface, Divergence::expanded, nullptr)
         .integrate(mixture, soil_field, water_field, pores, sums);
     CornerVector expected(corners.partitioner());
     const double trace = dim == 2 ? 3. : 6.;
