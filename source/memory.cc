@@ -186,8 +186,8 @@ namespace scree
     const double n_coarse_cells = grid.is_adaptive() ? 0. : n_cells / std::pow(1l << n_halvings, dim);
 
     std::vector<char> is_inside(Utilities::pow(samples_of_axis<dim>, dim)); // any of the regions
-    const auto cells_in = [&](const std::string &subsection, const std::string &region) {
-      const std::vector<char> is_inside_this = samples_in(Region<dim>(entry_name(subsection, "Region"), region), grid);
+    const auto cells_in = [&](const Region<dim> &region) {
+      const std::vector<char> is_inside_this = samples_in(region, grid);
       std::transform(
           is_inside.begin(), is_inside.end(), is_inside_this.begin(), is_inside.begin(), std::logical_or<char>());
       return cells_of(is_inside_this, grid);
@@ -195,11 +195,11 @@ namespace scree
     const auto soil = parameters.soil_regions();
     for (unsigned int i = 0; i < soil.size(); ++i)
       estimate.n_soil_points +=
-          cells_in(soil[i].name, soil[i].region) * std::pow(parameters.bodies[i].seeding.points_per_cell, dim);
+          cells_in(soil[i].template places<dim>()) * std::pow(parameters.bodies[i].seeding.points_per_cell, dim);
     double n_wet_cells = 0;
     if (parameters.has_water)
       for (const WaterPart &part : water_parts(parameters.water, soil))
-        n_wet_cells += cells_in("Water", part.region);
+        n_wet_cells += cells_in(Region<dim>(entry_name("Water", "Region"), part.region));
     estimate.n_cells = grid.is_adaptive() ? cells_around<dim>(is_inside, grid) : n_cells;
     if (parameters.water.point_sets_kind() == PointSets::double_point)
       estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim);

@@ -109,6 +109,7 @@ namespace scree
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
         check();
+        read_maps();
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
     catch (const EntryError &error)
@@ -235,7 +236,7 @@ namespace scree
     grid.check(dimension);
     transfer.check();
     output.check(end_time);
-    output.maps.check(dimension, !bodies.empty());
+    output.maps.check(!bodies.empty());
     boundaries.check(dimension);
     bed.check(dimension);
     for (const ObstacleParameters &obstacle : obstacles)
@@ -261,11 +262,38 @@ namespace scree
   }
 
 
+  void Parameters::read_maps()
+  {
+    for (BodyParameters &body : bodies)
+      {
+        SeedingParameters &seeding = body.seeding;
+        seeding.source.check(body.name, dimension, has_water, bed.is_set());
+        if (!seeding.source.is_set())
+          continue;
+        try
+          {
+            seeding.map =
+                std::make_shared<const SourceMap>(seeding.source, body.name, bed, grid.lower_corner, grid.upper_corner);
+          }
+        catch (const ValueError &error) // the bed's expression
+          {
+            throw EntryError(error.what());
+          }
+      }
+  }
+
+
   void Parameters::check_water() const
   {
     water.check(gravity, bodies.size());
     pressure.check(bodies.size());
     water_boundaries.check(dimension);
+    require_entry(bed.friction_angles.empty(),
+                  "Bed",
+                  "Friction angles",
+                  bed.friction_angles,
+                  "with water the bed has one angle of friction yet. Write a \"Friction angle\", or remove subsection "
+                  "Water.");
     for (const WaterWall &wall : water_boundaries.walls(dimension))
       require_entry(wall.type != WaterWallType::drained || wall.pressure >= pressure.cavitation_pressure,
                     "Water/Pressure",
@@ -320,7 +348,8 @@ namespace scree
   {
     std::vector<SoilRegion> regions;
     for (const auto &body : bodies)
-      regions.push_back({ body.name, body.seeding.region, body.initial_porosity(), body.bulk_density() });
+      regions.push_back(
+          { body.name, body.seeding.expression(), body.initial_porosity(), body.bulk_density(), body.seeding.map });
     return regions;
   }
 

@@ -32,8 +32,7 @@ namespace scree
       const auto parts = std::make_shared<std::vector<Part>>();
       const auto soil  = parameters.soil_regions();
       for (unsigned int i = 0; i < soil.size(); ++i)
-        parts->push_back({ Region<dim>(entry_name(soil[i].name, "Region"), soil[i].region),
-                           parameters.bodies[i].seeding.points_per_cell });
+        parts->push_back({ soil[i].template places<dim>(), parameters.bodies[i].seeding.points_per_cell });
       if (parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point)
         for (const WaterPart &part : water_parts(parameters.water, soil))
           parts->push_back(
@@ -101,6 +100,8 @@ namespace scree
       bed = std::make_unique<SampledSurface<dim>>(grid, *ground);
     if (bed && parameters.has_water)
       open_cells = std::make_unique<OpenCells<dim>>(grid, *bed);
+    if (!parameters.bed.friction_angles.empty())
+      bed_friction = read_friction(parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner);
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);
@@ -201,9 +202,9 @@ namespace scree
   {
     std::vector<RigidSurface<dim>> surfaces;
     if (bed)
-      surfaces.push_back({ bed.get(), parameters.bed.friction_coefficient() });
+      surfaces.push_back({ bed.get(), parameters.bed.friction_coefficient(), bed_friction ? &*bed_friction : nullptr });
     for (const Obstacle<dim> &obstacle : obstacles)
-      surfaces.push_back({ &obstacle.surface, obstacle.friction_coefficient, &obstacle });
+      surfaces.push_back({ &obstacle.surface, obstacle.friction_coefficient, nullptr, &obstacle });
     return surfaces;
   }
 
@@ -307,7 +308,7 @@ namespace scree
     auto entries = parameters.bodies.begin();
     for (const auto &body : bodies)
       {
-        const std::string &region = (entries++)->seeding.region;
+        const auto [entry, region] = (entries++)->seeding.place();
         for (const Obstacle<dim> &obstacle : obstacles)
           {
             std::string fault;
@@ -315,7 +316,7 @@ namespace scree
               if (fault.empty() && obstacle.contains(point.location))
                 fault = entry_message(
                     body.name,
-                    "Region",
+                    entry,
                     region,
                     "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) + ", for instance at " +
                         number_text(std::vector<double>(point.location.begin_raw(), point.location.end_raw())) +

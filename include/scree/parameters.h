@@ -115,6 +115,7 @@ namespace scree
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
     void check() const;
+    void read_maps();
     void check_water() const;
     void check_dry() const;
     void check_without_soil() const;

@@ -14,6 +14,7 @@
 #include <deal.II/base/timer.h>
 
 #include <list>
+#include <optional>
 
 namespace scree
 {
@@ -81,6 +82,7 @@ namespace scree
     std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
     std::list<SurfaceLoad<dim>> loads;
     std::list<Obstacle<dim>> obstacles;
+    std::optional<Raster> bed_friction;         ///< coefficients of friction; nothing if they are the same everywhere
     std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
     std::unique_ptr<SampledSurface<dim>> bed;   ///< the same as the mesh sees it
     std::unique_ptr<OpenCells<dim>> open_cells; ///< what it leaves of the cells; null without water or bed

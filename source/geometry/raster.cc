@@ -73,6 +73,43 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Bilinear between the four values around a place; `missing` makes a number of one that is NaN.
+    template <typename Missing>
+    double bilinear(const Raster &raster, const double x, const double y, const Missing &missing)
+    {
+      const double u = (x - raster.x) / raster.spacing, v = (y - raster.y) / raster.spacing;
+      const double i = std::floor(u), j = std::floor(v);
+      double sum = 0.;
+      for (const unsigned int right : { 0, 1 })
+        for (const unsigned int up : { 0, 1 })
+          {
+            const double weight = (right ? u - i : 1. - (u - i)) * (up ? v - j : 1. - (v - j));
+            const double column = i + right, row = j + up;
+            const bool is_there = column >= 0 && column < raster.n_columns && row >= 0 && row < raster.n_rows;
+            if (weight > 0.)
+              sum +=
+                  weight * missing(is_there ? raster(static_cast<unsigned int>(column), static_cast<unsigned int>(row))
+                                            : std::numeric_limits<double>::quiet_NaN());
+          }
+      return sum;
+    }
+  } // namespace
+
+
+  double Raster::value_at(const double x, const double y) const
+  {
+    return bilinear(*this, x, y, [](const double value) { return value; });
+  }
+
+
+  double Raster::value_or_zero_at(const double x, const double y) const
+  {
+    return bilinear(*this, x, y, [](const double value) { return std::isnan(value) ? 0. : value; });
+  }
+
+
   Raster read_raster(const std::string &file, const std::string &where)
   {
     const std::string name = where + " = " + file + ": ";

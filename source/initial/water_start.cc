@@ -13,7 +13,7 @@ namespace scree
   {
     std::vector<typename Overburden<dim>::Layer> layers;
     for (const SoilRegion &body : soil)
-      layers.push_back({ Region<dim>(entry_name(body.name, "Region"), body.region), body.bulk_density });
+      layers.push_back({ body.template places<dim>(), body.bulk_density });
     if (water && water->initial_pressure_kind() == InitialPressure::hydrostatic)
       for (const WaterPart &part : water_parts(*water, soil))
         if (part.soil)

@@ -34,8 +34,10 @@ namespace scree
   }
 
 
-  std::vector<std::vector<double>>
-  read_number_table(const std::string &file, const std::string &where, const std::vector<std::string> &columns)
+  std::vector<std::vector<double>> read_number_table(const std::string &file,
+                                                     const std::string &where,
+                                                     const std::vector<std::string> &columns,
+                                                     const FirstColumn first_column)
   {
     const std::string name = where + " = " + file + ": ";
     std::string wanted;
@@ -59,7 +61,7 @@ namespace scree
         if (!is_whole)
           throw EntryError(place + "is no row of " + std::to_string(columns.size()) + " numbers. Write " + wanted +
                            " in each line, separated by commas.");
-        if (!rows.empty() && !(row[0] > rows.back()[0]))
+        if (first_column == FirstColumn::ascending && !rows.empty() && !(row[0] > rows.back()[0]))
           throw EntryError(place + "has " + number_text(row[0]) + " after " + number_text(rows.back()[0]) +
                            " in the first column. Sort the rows by ascending " + columns[0] + ", each once.");
         rows.push_back(row);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace scree
@@ -113,14 +114,50 @@ namespace scree
     for (std::size_t c = 0; c < deposit.size(); ++c)
       deposit[c] = thickness[c] - first_thickness[c];
     std::replace_if(
-        arrival.begin(), arrival.end(), [](const double t) { return t < 0.; }, no_data);
-    write_map("thickness_" + number_text(time) + "s", thickness);
-    write_map("thickness", thickness);
-    write_map("mass", mass);
-    write_map("deposit", deposit);
-    write_map("largest_thickness", largest_thickness);
-    write_map("largest_speed", largest_speed);
-    write_map("arrival_time", arrival);
+        arrival.begin(),
+        arrival.end(),
+        [](const double t) { return t < 0.; },
+        dim == 2 ? std::numeric_limits<double>::quiet_NaN() : no_data);
+    const std::vector<std::pair<std::string, const Map *>> maps{ { "thickness (m)", &thickness },
+                                                                 { "mass (kg/m^2)", &mass },
+                                                                 { "deposit (m)", &deposit },
+                                                                 { "largest thickness (m)", &largest_thickness },
+                                                                 { "largest speed (m/s)", &largest_speed },
+                                                                 { "arrival time (s)", &arrival } };
+    const std::string of_time = '_' + number_text(time) + 's';
+    if (dim == 2)
+      {
+        write_table("profile" + of_time, maps);
+        write_table("profile", maps);
+        return;
+      }
+    write_map("thickness" + of_time, thickness);
+    for (const auto &[name, map] : maps)
+      {
+        std::string file = name.substr(0, name.find(" ("));
+        std::replace(file.begin(), file.end(), ' ', '_');
+        write_map(file, *map);
+      }
+  }
+
+
+  template <int dim>
+  void Maps<dim>::write_table(const std::string &name,
+                              const std::vector<std::pair<std::string, const Map *>> &maps) const
+  {
+    std::ostringstream text;
+    text << "x (m)";
+    for (const auto &map : maps)
+      text << ", " << map.first;
+    text << '\n';
+    for (std::size_t c = 0; c < mass.size(); ++c)
+      {
+        text << std::setprecision(15) << grid.lower_corner()[0] + (c + 0.5) * grid.cell_size() << std::setprecision(9);
+        for (const auto &map : maps)
+          text << ", " << (*map.second)[c];
+        text << '\n';
+      }
+    folder.write("maps/" + name + ".csv", text.str());
   }
 
 

@@ -14,7 +14,7 @@ namespace scree
     prm.add_parameter("Write",
                       write,
                       "Whether maps of the soil (thickness, largest speed, arrival time, ...) on the columns of cells "
-                      "are written with each picture, 3D: ESRI ASCII grids.",
+                      "are written with each picture: ESRI ASCII grids, in 2D tables along x.",
                       Patterns::Bool());
     prm.add_parameter("Least thickness",
                       least_thickness,
@@ -24,16 +24,9 @@ namespace scree
   }
 
 
-  void MapParameters::check(const unsigned int dim, const bool has_soil) const
+  void MapParameters::check(const bool has_soil) const
   {
     const std::string subsection = "Output/Maps";
-    require_entry(
-        !write || dim == 3,
-        subsection,
-        "Write",
-        "true",
-        "maps are of scenes in space. Write \"Dimension = 3\", or remove the entry; in the plane \"Verticals\" "
-        "of subsection Probes tell the thickness.");
     require_entry(!write || has_soil,
                   subsection,
                   "Write",

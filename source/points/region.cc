@@ -52,8 +52,11 @@ namespace scree
 
 
   template <int dim>
-  Region<dim>::Region(const std::string &where, const std::string &expression)
+  Region<dim>::Region(const std::string &where,
+                      const std::string &expression,
+                      const std::shared_ptr<const SourceMap> &map)
       : function(parse_expression<dim>(where, expression, 1))
+      , map(map)
   {
   }
 

@@ -19,6 +19,7 @@ namespace scree
                       "Where the body is: inside where this expression of x, y (and z), in m, is true, e.g. "
                       "if(x < 2, y < 2, y < 4 - x).",
                       Patterns::Anything());
+    source.add_parameters(prm);
     prm.add_parameter(
         "Points per cell", points_per_cell, "Points along each axis of a cell.", Patterns::Integer(1, 32));
     prm.add_parameter(
@@ -46,7 +47,7 @@ namespace scree
   {
     const std::string where_region = entry_name(body, "Region");
     const std::string where_speed  = entry_name(body, "Initial velocity");
-    require_entry(region != SeedingParameters().region,
+    require_entry(region != SeedingParameters().region || source.is_region(),
                   body,
                   "Region",
                   region,
@@ -71,6 +72,18 @@ namespace scree
   }
 
 
+  std::string SeedingParameters::expression() const
+  {
+    return region == SeedingParameters().region && source.is_region() ? "1" : region;
+  }
+
+
+  std::pair<std::string, std::string> SeedingParameters::place() const
+  {
+    return source.is_region() ? source.first() : std::make_pair(std::string("Region"), region);
+  }
+
+
   template <int dim>
   void require_apart(const std::vector<SoilRegion> &soil,
                      const unsigned int points_per_cell,
@@ -79,7 +92,7 @@ namespace scree
   {
     std::vector<Region<dim>> regions;
     for (const SoilRegion &body : soil)
-      regions.emplace_back(entry_name(body.name, "Region"), body.region);
+      regions.push_back(body.places<dim>());
     const auto body_at = [&](const Point<dim> &x, const unsigned int first) {
       unsigned int body = first;
       while (body < regions.size() && !regions[body].contains(x))
@@ -103,9 +116,9 @@ namespace scree
           if (second < regions.size())
             fault =
                 entry_message(soil[second].name,
-                              "Region",
-                              soil[second].region,
-                              "it overlaps that of " + quoted(soil[first].name) + ", " + soil[first].region +
+                              soil[second].entry().first,
+                              soil[second].entry().second,
+                              "it overlaps that of " + quoted(soil[first].name) + ", " + soil[first].entry().second +
                                   ": both are true at " + number_text(std::vector<double>(x.begin_raw(), x.end_raw())) +
                                   " m, and would be filled twice. Leave the place to one of them.");
         }
@@ -120,7 +133,7 @@ namespace scree
             const double cell_size,
             const LevelSet<dim> *ground)
   {
-    const Region<dim> region(entry_name(body.name, "Region"), parameters.region);
+    const Region<dim> region(entry_name(body.name, "Region"), parameters.expression(), parameters.map);
     const auto velocity =
         parameters.initial_velocity.empty()
             ? nullptr
@@ -143,8 +156,8 @@ namespace scree
       volume += one.volume;
     require_entry(Utilities::MPI::sum(volume, communicator) > 0,
                   body.name,
-                  "Region",
-                  parameters.region,
+                  parameters.place().first,
+                  parameters.place().second,
                   ground
                       ? "it is nowhere true in the box of subsection Mesh and above the ground of subsection Bed. Move "
                         "the region, the box or the bed."

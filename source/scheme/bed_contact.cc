@@ -105,6 +105,7 @@ namespace scree
     Contact contact;
     contact.force    = point.properties + body.layout.contact_force(surface);
     contact.surface  = surface;
+    contact.friction = surfaces[surface].friction_at(point.location);
     contact.normal   = view.normal;
     contact.approach = least_approach(view.distance - point.properties[body.layout.touching_distance(surface)], dt);
     contact.inertia  = row.mobility > 0. ? 1. / row.mobility : 0.;
@@ -112,7 +113,7 @@ namespace scree
     const double normal    = J * view.normal;
     contact.normal_impulse = std::max(0., normal);
     contact.tangent_impulse =
-        coulomb_friction<dim>(J - normal * view.normal, surfaces[surface].available(contact.normal_impulse)).impulse;
+        coulomb_friction<dim>(J - normal * view.normal, contact.available(contact.normal_impulse)).impulse;
     constexpr double irrational[3] = { 1., 0.7548776662466927, 0.5698402909980532 };
     contact.order                  = 0.;
     for (unsigned int a = 0; a < dim; ++a)

@@ -268,7 +268,8 @@ namespace scree
         Tensor<1, dim> needed; // along the ground
         for (unsigned int r = 1; r < contact.n_rows; ++r)
           needed[r] = of_contact[r].impulse + contact.base[r];
-        const double available = bed.available(of_contact[0].impulse + contact.base[0]);
+        const double pressing  = of_contact[0].impulse + contact.base[0];
+        const double available = pressing > 0. ? bed.friction_coefficient * pressing : 0.;
         if (!contact.slides && needed.norm() <= available)
           continue;
         contact.slides    = true;

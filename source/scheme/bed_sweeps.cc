@@ -66,7 +66,7 @@ namespace scree
           continue;
         const Tensor<1, dim> tangent =
             coulomb_friction<dim>(contact.tangent_impulse - contact.inertia * (at_foot - across * contact.normal),
-                                  surface.available(normal))
+                                  contact.available(normal))
                 .impulse;
         const Tensor<1, dim> change =
             (normal - contact.normal_impulse) * contact.normal + (tangent - contact.tangent_impulse);
@@ -128,7 +128,7 @@ namespace scree
         const double along = speed > 0. ? mobility(slip / speed) : 0.;
         const Tensor<1, dim> needed =
             contact.tangent_impulse - (along * contact.inertia >= smallest ? slip / along : Tensor<1, dim>());
-        const Tensor<1, dim> tangent = coulomb_friction<dim>(needed, surface.available(normal)).impulse;
+        const Tensor<1, dim> tangent = coulomb_friction<dim>(needed, contact.available(normal)).impulse;
         push<n>(cell, c, tangent - contact.tangent_impulse);
         contact.tangent_impulse = tangent;
       }

@@ -109,4 +109,29 @@ def slide():
         compare(run(folder, text, "--resume", ranks=ranks), f"resumed from {folder} on {ranks}")
 
 
-{"block": block, "slide": slide}[sys.argv[3]]()
+def profile():
+    """The block in the plane: a table along x. It rises and flies with 3 m/s along x."""
+    plane = BLOCK.replace("set Dimension = 3\n", "").replace("0, 0, 0", "0, 0")
+    plane = plane.replace("600000, 5100000, 1000", "600000, 1000").replace("600001.2, 5100000.8, 1000.8", "600001.2, 1000.8")
+    plane = plane.replace("y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6", "y > 1000.2 && y < 1000.6").replace("3; 0; 1", "3; 1")
+    for ranks in (1, 2):
+        results = run(f"profile_{ranks}", plane + MAPS, ranks=ranks)
+        lines = (results / "maps" / "profile.csv").read_text(encoding="utf-8").splitlines()
+        table = dict(zip(lines[0].split(", "), np.array([[float(word) for word in line.split(",")] for line in lines[1:]]).T))
+        close(table["x (m)"], 600000 + 0.1 * (np.arange(12) + 0.5), "x")
+        at_end = np.zeros(12)
+        at_end[4:9] = 0.05, 0.35, 0.4, 0.35, 0.05
+        at_start = np.roll(at_end, -3)
+        close(table["thickness (m)"], at_end, "thickness")
+        close(table["mass (kg/m^2)"], 2000 * at_end, "mass")
+        close(table["deposit (m)"], at_end - at_start, "deposit")
+        largest = np.maximum(at_start, at_end)
+        close(table["largest thickness (m)"], largest, "largest thickness")
+        close(table["largest speed (m/s)"], np.sqrt(10) * (largest > 0), "largest speed")
+        arrival = np.where(at_start > 0, 0, np.where(at_end > 0, 0.1, np.nan))
+        check(np.array_equal(np.isnan(table["arrival time (s)"]), np.isnan(arrival)), "arrival where there was nothing")
+        close(np.nan_to_num(table["arrival time (s)"]), np.nan_to_num(arrival), "arrival time")
+        check((results / "maps" / "profile_0s.csv").exists() and (results / "maps" / "profile_0.1s.csv").exists(), "profiles of their times")
+
+
+{"block": block, "slide": slide, "profile": profile}[sys.argv[3]]()

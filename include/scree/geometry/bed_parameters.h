@@ -3,6 +3,7 @@
 #define scree_geometry_bed_parameters_h
 
 #include <scree/geometry/level_set.h>
+#include <scree/geometry/raster.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -30,6 +31,7 @@ namespace scree
     std::string type      = "none";
     double friction_angle = 0; ///< degrees
     std::string expression, profile, raster;
+    std::string friction_angles; ///< file; of the bed only
 
     void add_parameters(dealii::ParameterHandler &prm);
 
@@ -52,6 +54,11 @@ namespace scree
     /// Entry and value of the geometry, for messages.
     std::pair<std::string, std::string> geometry() const;
   };
+
+  /// The coefficients of friction of a raster of angles, which covers the box.
+  /// @param lower, upper corners of the box, m
+  Raster
+  read_friction(const BedParameters &parameters, const std::vector<double> &lower, const std::vector<double> &upper);
 
   /// The surface; null if there is none. Reads its file; throws EntryError if that is no ground for the box.
   /// @param lower, upper corners of the box, m

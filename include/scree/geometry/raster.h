@@ -30,6 +30,12 @@ namespace scree
 
     /// Values that are missing.
     std::size_t n_missing() const;
+
+    /// Bilinear between the values; NaN where one that counts is missing.
+    double value_at(const double x, const double y) const;
+
+    /// The same with 0 for what is missing, beyond the values, too.
+    double value_or_zero_at(const double x, const double y) const;
   };
 
   /// Reads an ESRI ASCII grid, whose values are those at the middles of its cells. Throws EntryError, which begins with

@@ -15,8 +15,9 @@
 
 namespace scree
 {
-  /// Maps of the soil that can move, on the columns of the mesh's fine cells along z: ESRI ASCII grids in the folder
-  /// `maps` of a run. All ranks hold all columns. Does nothing unless the case asks for maps.
+  /// Maps of the soil that can move, on the columns of the mesh's fine cells along the last axis: ESRI ASCII grids in
+  /// the folder `maps` of a run, in 2D one table along x. All ranks hold all columns. Does nothing unless the case asks
+  /// for maps.
   template <int dim>
   class Maps
   {
@@ -26,7 +27,7 @@ namespace scree
     /// Takes the state at `time`, s, into the maps. Collective.
     void sample(const std::list<SoilBody<dim>> &bodies, const double time);
 
-    /// Writes all maps as of the last sample, and the thickness also under a name with its `time`, s.
+    /// Writes all maps as of the last sample, and the thickness (in 2D the table) also under a name with its `time`, s.
     void write(const double time) const;
 
     template <class Archive>
@@ -38,7 +39,11 @@ namespace scree
   private:
     using Map = std::vector<double>; // by column, along x first
 
+    /// A map in space.
     void write_map(const std::string &name, const Map &map) const;
+
+    /// All maps in the plane: a row a column of cells, with the x of its middle.
+    void write_table(const std::string &name, const std::vector<std::pair<std::string, const Map *>> &maps) const;
 
     /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
     /// columns outside the box counts for those at its edge, so that the weights' sum is 1.

@@ -33,7 +33,7 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at maps of a scene that has none.
-    void check(const unsigned int dim, const bool has_soil) const;
+    void check(const bool has_soil) const;
   };
 
   /// Subsection Output.

@@ -3,6 +3,7 @@
 #define scree_points_region_h
 
 #include <scree/geometry/level_set.h>
+#include <scree/geometry/source_map.h>
 #include <scree/input/expression.h>
 
 #include <memory>
@@ -11,17 +12,23 @@
 
 namespace scree
 {
-  /// A part of space: inside where an expression of the coordinates is true (not 0).
+  /// A part of space: inside where an expression of the coordinates is true (not 0), and maps agree if there are any.
   template <int dim>
   class Region
   {
   public:
     /// @param where entry_name(), for the message if the expression does not parse
-    Region(const std::string &where, const std::string &expression);
+    /// @param map null without maps; not in 2D
+    Region(const std::string &where,
+           const std::string &expression,
+           const std::shared_ptr<const SourceMap> &map = nullptr);
 
     /// Throws ValueError if the expression is no number there.
     bool contains(const dealii::Point<dim> &x) const
     {
+      if constexpr (dim == 3)
+        if (map && !map->contains(x))
+          return false;
       return function->value(x) != 0.;
     }
 
@@ -42,6 +49,7 @@ namespace scree
     static dealii::Point<dim> middle(const dealii::Point<dim> &lower, const double width);
 
     std::unique_ptr<Expression<dim>> function;
+    std::shared_ptr<const SourceMap> map;
   };
 } // namespace scree
 

@@ -3,6 +3,8 @@
 #define scree_points_seeding_h
 
 #include <scree/geometry/level_set.h>
+#include <scree/geometry/source_map.h>
+#include <scree/input/input_error.h>
 #include <scree/points/soil_body.h>
 #include <scree/points/region.h>
 
@@ -16,27 +18,48 @@ namespace scree
   /// Where a body is and how densely it is filled with points.
   struct SeedingParameters
   {
-    std::string region           = "0";
-    unsigned int points_per_cell = 4;    ///< along each axis
-    double jitter                = 0;    ///< over the points' spacing
-    double grain_density         = 2500; ///< kg/m^3
-    double initial_porosity      = -1;   ///< below 0: as the law says
-    std::string initial_velocity = "";   ///< m/s, one expression an axis; empty: at rest
+    std::string region = "0";
+    SourceMapParameters source;           ///< maps that bound the region, too
+    std::shared_ptr<const SourceMap> map; ///< of them, once they are read; null without
+    unsigned int points_per_cell = 4;     ///< along each axis
+    double jitter                = 0;     ///< over the points' spacing
+    double grain_density         = 2500;  ///< kg/m^3
+    double initial_porosity      = -1;    ///< below 0: as the law says
+    std::string initial_velocity = "";    ///< m/s, one expression an axis; empty: at rest
 
     /// Declares the entries in the body's subsection.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if an expression does not read; `body` is the name of the subsection.
     void check(const std::string &body, const unsigned int dim) const;
+
+    /// The expression of the region; true everywhere if maps alone tell where the body is.
+    std::string expression() const;
+
+    /// Entry and value of what tells where the body is, for messages.
+    std::pair<std::string, std::string> place() const;
   };
 
   /// Where a body of soil is at the start, and what water finds there.
   struct SoilRegion
   {
-    std::string name;    ///< of the body
-    std::string region;  ///< expression
-    double porosity;     ///< volume of pores over total volume
-    double bulk_density; ///< dry, kg/m^3
+    std::string name;                               ///< of the body
+    std::string region;                             ///< expression
+    double porosity;                                ///< volume of pores over total volume
+    double bulk_density;                            ///< dry, kg/m^3
+    std::shared_ptr<const SourceMap> map = nullptr; ///< that bounds it, too; null without
+
+    template <int dim>
+    Region<dim> places() const
+    {
+      return Region<dim>(entry_name(name, "Region"), region, map);
+    }
+
+    /// Entry and value, for messages.
+    std::pair<std::string, std::string> entry() const
+    {
+      return map ? map->entry : std::make_pair(std::string("Region"), region);
+    }
   };
 
   /// Throws EntryError, with a place, if two bodies claim the same one; looks at 2 places an axis for each of

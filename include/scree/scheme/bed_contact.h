@@ -18,13 +18,13 @@ namespace scree
   {
     const SampledSurface<dim> *samples;
     double friction_coefficient;               ///< infinite: soil that presses does not slip
+    const Raster *friction_map      = nullptr; ///< coefficients in place of it; null: the same everywhere
     const Obstacle<dim> *obstacle   = nullptr; ///< whose surface it is; null: the bed
     dealii::Tensor<1, dim> velocity = {};      ///< in the current step, m/s
 
-    /// The impulse along the surface, N s, that friction allows for one across it.
-    double available(const double normal_impulse) const
+    double friction_at(const dealii::Point<dim> &x) const
     {
-      return normal_impulse > 0. ? friction_coefficient * normal_impulse : 0.;
+      return friction_map ? friction_map->value_at(x[0], x[1]) : friction_coefficient;
     }
   };
 
@@ -67,12 +67,19 @@ namespace scree
     {
       double *force; ///< the point's slots
       unsigned int surface;
+      double friction; ///< coefficient
       dealii::Tensor<1, dim> normal;
       double approach;                        ///< least velocity along the normal from the surface, m/s
       double inertia;                         ///< 1/sum A_i^2/m_i, kg; 0 where nothing can move
       double normal_impulse;                  ///< N s, not negative
       dealii::Tensor<1, dim> tangent_impulse; ///< N s
       double order;                           ///< of the points in a cell, the same on any rank
+
+      /// The impulse along the surface, N s, that friction allows for one across it.
+      double available(const double normal_impulse) const
+      {
+        return normal_impulse > 0. ? friction * normal_impulse : 0.;
+      }
     };
 
     /// The contacts of a cell; their rows and its nodes lie behind each other.

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_geometry_source_map_h
+#define scree_geometry_source_map_h
+
+#include <scree/geometry/bed_parameters.h>
+#include <scree/geometry/level_set.h>
+#include <scree/geometry/polygon.h>
+#include <scree/geometry/raster.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+  /// Where a body is, by maps: entries of its subsection.
+  struct SourceMapParameters
+  {
+    std::string thickness, upper_surface, lower_surface, outline; ///< files
+
+    /// Declares the entries in the subsection that the handler is in.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations; `body` is the name of the subsection.
+    void check(const std::string &body, const unsigned int dim, const bool has_water, const bool has_bed) const;
+
+    bool is_set() const
+    {
+      return !thickness.empty() || !upper_surface.empty() || !lower_surface.empty() || !outline.empty();
+    }
+
+    /// Whether they bound the body below and above, so that it needs no expression.
+    bool is_region() const
+    {
+      return !thickness.empty() || !upper_surface.empty();
+    }
+
+    /// Entry and value of the first that is given, for messages.
+    std::pair<std::string, std::string> first() const;
+  };
+
+  /// The part of space that a body's maps tell: above its bed or a lower surface, by less than a thickness or up to an
+  /// upper surface, within an outline. Between their values rasters are bilinear; where a thickness is missing it is 0,
+  /// where a height is missing the body is not.
+  class SourceMap
+  {
+  public:
+    /// Reads the files; throws EntryError if they are no source in the box and above the bed.
+    /// @param body name of the subsection
+    /// @param lower, upper corners of the box, m
+    SourceMap(const SourceMapParameters &parameters,
+              const std::string &body,
+              const BedParameters &bed,
+              const std::vector<double> &lower,
+              const std::vector<double> &upper);
+
+    bool contains(const dealii::Point<3> &x) const;
+
+    /// Entry and value, for messages.
+    const std::pair<std::string, std::string> entry;
+
+  private:
+    /// Throws EntryError unless every place with a value that counts lies in the box and on ground.
+    void check(const std::string &body, const dealii::Point<3> &lower, const dealii::Point<3> &upper) const;
+
+    std::unique_ptr<LevelSet<3>> ground; // the bed; null without it
+    std::optional<Raster> thickness, upper_surface, lower_surface;
+    std::optional<Polygon> outline;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/source_map.h>
+#include <scree/input/input_error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void SourceMapParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+        "Thickness",
+        thickness,
+        "3D: file of the soil's thickness above the bed or above \"Lower surface\", upwards, in m, an ESRI "
+        "ASCII grid; 0 where it is missing. The body is where this and all else that is written says so.",
+        Patterns::Anything());
+    prm.add_parameter("Upper surface",
+                      upper_surface,
+                      "3D: file of the heights of the body's upper surface, in m, an ESRI ASCII grid; no soil where it "
+                      "is missing.",
+                      Patterns::Anything());
+    prm.add_parameter("Lower surface",
+                      lower_surface,
+                      "3D: the same of its lower surface, in place of the bed.",
+                      Patterns::Anything());
+    prm.add_parameter("Outline",
+                      outline,
+                      "3D: file of the corners x, y of a polygon in which the body is on the map, in m, one a line.",
+                      Patterns::Anything());
+  }
+
+
+  std::pair<std::string, std::string> SourceMapParameters::first() const
+  {
+    if (!thickness.empty())
+      return { "Thickness", thickness };
+    if (!upper_surface.empty())
+      return { "Upper surface", upper_surface };
+    if (!lower_surface.empty())
+      return { "Lower surface", lower_surface };
+    return { "Outline", outline };
+  }
+
+
+  void SourceMapParameters::check(const std::string &body,
+                                  const unsigned int dim,
+                                  const bool has_water,
+                                  const bool has_bed) const
+  {
+    const auto [entry, value] = first();
+    require_entry(dim == 3 || !is_set(), body, entry, value, "maps are for scenes in space. Write a \"Region\".");
+    require_entry(!has_water || !is_set(),
+                  body,
+                  entry,
+                  value,
+                  "bodies by maps are not possible with water yet. Remove subsection Water, or write a \"Region\".");
+    require_entry(thickness.empty() || upper_surface.empty(),
+                  body,
+                  "Upper surface",
+                  upper_surface,
+                  "the top is given twice. Keep one of \"Thickness\" and \"Upper surface\".");
+    require_entry(thickness.empty() || has_bed || !lower_surface.empty(),
+                  body,
+                  "Thickness",
+                  thickness,
+                  "above what? There is no bed. Add subsection Bed, or write a \"Lower surface\".");
+    require_entry(is_region() || lower_surface.empty(),
+                  body,
+                  "Lower surface",
+                  lower_surface,
+                  "where does the body end above? Write a \"Thickness\" or an \"Upper surface\".");
+  }
+
+
+  namespace
+  {
+    std::optional<Raster> read(const std::string &body, const std::string &entry, const std::string &file)
+    {
+      if (file.empty())
+        return {};
+      return read_raster(file, entry_name(body, entry));
+    }
+  } // namespace
+
+
+  SourceMap::SourceMap(const SourceMapParameters &parameters,
+                       const std::string &body,
+                       const BedParameters &bed,
+                       const std::vector<double> &lower,
+                       const std::vector<double> &upper)
+      : entry(parameters.first())
+      , ground(make_bed<3>(bed, lower, upper, 1.))
+      , thickness(read(body, "Thickness", parameters.thickness))
+      , upper_surface(read(body, "Upper surface", parameters.upper_surface))
+      , lower_surface(read(body, "Lower surface", parameters.lower_surface))
+  {
+    if (!parameters.outline.empty())
+      outline = read_polygon(parameters.outline, entry_name(body, "Outline"));
+    if (thickness || upper_surface)
+      check(body, { lower[0], lower[1], lower[2] }, { upper[0], upper[1], upper[2] });
+  }
+
+
+  void SourceMap::check(const std::string &body, const Point<3> &lower, const Point<3> &upper) const
+  {
+    const auto require = [&](const bool possible, const double x, const double y, const std::string &remedy) {
+      if (!possible)
+        require_entry(false, body, entry.first, entry.second, "at " + number_text({ x, y }) + " m " + remedy);
+    };
+    const Raster &map = thickness ? *thickness : *upper_surface;
+    bool is_anywhere  = false;
+    for (unsigned int row = 0; row < map.n_rows; ++row)
+      for (unsigned int column = 0; column < map.n_columns; ++column)
+        {
+          const double x = map.x + column * map.spacing, y = map.y + row * map.spacing, value = map(column, row);
+          require(!thickness || !(value < 0.), x, y, "it is negative. Write 0 where there is no soil.");
+          if (std::isnan(value) || (thickness && value == 0.) || (outline && !outline->contains({ x, y })))
+            continue;
+          is_anywhere = true;
+          require(x >= lower[0] && x <= upper[0] && y >= lower[1] && y <= upper[1],
+                  x,
+                  y,
+                  "there is soil outside the box of subsection Mesh. Write a larger box, or nothing there.");
+          const double bottom = lower_surface ? lower_surface->value_at(x, y) : lower[2];
+          require(!std::isnan(bottom), x, y, "there is soil, but the lower surface has no height. Write one.");
+          require(lower_surface || !ground || !ground->is_open({ x, y, lower[2] }),
+                  x,
+                  y,
+                  "there is soil, but no bed below it in the box. Write a bed without gaps there, or a deeper box.");
+          const bool ends_in_box = upper_surface   ? value <= upper[2]
+                                   : lower_surface ? bottom + value <= upper[2]
+                                                   : ground->is_open({ x, y, upper[2] - value });
+          require(ends_in_box, x, y, "it reaches above the box of subsection Mesh. Write a higher box.");
+        }
+    require_entry(is_anywhere, body, entry.first, entry.second, "it has no soil anywhere. Look at the file.");
+  }
+
+
+  bool SourceMap::contains(const Point<3> &x) const
+  {
+    if (outline && !outline->contains({ x[0], x[1] }))
+      return false;
+    if (upper_surface && !(x[2] < upper_surface->value_at(x[0], x[1])))
+      return false;
+    const double part = thickness ? thickness->value_or_zero_at(x[0], x[1]) : 0.;
+    if (thickness && !(part > 0.))
+      return false;
+    if (lower_surface)
+      {
+        const double above = x[2] - lower_surface->value_at(x[0], x[1]);
+        return above > 0. && (!thickness || above < part);
+      }
+    // Less than a thickness above the ground is what would be below it by that much less.
+    return !ground || (ground->is_open(x) && (!thickness || !ground->is_open({ x[0], x[1], x[2] - part })));
+  }
+} // namespace scree

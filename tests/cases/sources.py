@@ -1,0 +1,137 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""sources.py SCREE LAUNCHER TEST: bodies by maps: what they weigh, and where they are.
+
+Each test is a function below (case_tools.py).
+"""
+
+import pathlib
+import sys
+
+import numpy as np
+
+from case_tools import check, run
+
+# case_tools has put doc/ on the path.
+import relief
+import render
+
+SPACING, CORNER, COLUMNS, ROWS = 5., (1000., 2000.), 41, 33
+DENSITY = 1500.
+TEXT = """
+set Dimension        = 3
+set Gravity          = 0, 0, -9.81
+set End time         = 1e-3
+set Output directory = results
+subsection Mesh
+  set Lower corner = 1010, 2010, 80
+  set Upper corner = 1190, 2150, 230
+  set Cell size    = 5
+end
+subsection Bed
+  set Type   = fixed
+  set Raster = ../bed.asc
+end
+subsection Soil
+  set Material      = linear elastic
+  set Grain density = 1500
+  set Points per cell = 3
+  subsection Linear elastic
+    set Young's modulus = 1e6
+  end
+%s
+end
+subsection Output
+  set Graphics = none
+  subsection Maps
+    set Write = true
+  end
+end
+"""
+
+
+def write_raster(name, values):
+    """Values by row with ascending y; nan where there is none."""
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(f"ncols {COLUMNS}\nnrows {ROWS}\nxllcenter {CORNER[0]}\nyllcenter {CORNER[1]}\ncellsize {SPACING}\nNODATA_value -1\n")
+        for row in np.nan_to_num(values, nan=-1.)[::-1]:
+            file.write(" ".join("%.6f" % value for value in row) + "\n")
+
+
+def mountain():
+    """Heights of a rough slope and the thickness of a slide on it, m; writes them. The thickness is missing around it."""
+    x, y = np.meshgrid(SPACING * np.arange(COLUMNS), SPACING * np.arange(ROWS))
+    heights = 100 + 0.5 * x + 6 * np.sin(x / 17.) * np.cos(y / 23.)
+    thickness = 20 * (1 - ((x - 90) / 50.)**2 - ((y - 80) / 40.)**2)
+    thickness[thickness <= 0] = np.nan
+    write_raster("bed.asc", heights)
+    write_raster("thickness.asc", thickness)
+    write_raster("upper.asc", heights + thickness)
+    return heights, thickness
+
+
+def mass_of(results):
+    return render.column(render.read_statistics(results), "Mass (kg)")[0]
+
+
+def thickness():
+    """A slide as thick as a map says weighs what the map holds, and lies where it says, on one rank and two."""
+    _, values = mountain()
+    exact = DENSITY * SPACING**2 * np.nansum(values)
+    source = "  set Thickness = ../thickness.asc"
+    results = run("thickness", TEXT % source)
+    relative = mass_of(results) / exact - 1
+    print(f"mass over that of the map - 1: {relative:.2e}")
+    check(abs(relative) <= 0.01, f"mass: {relative}")
+    # The maps' columns are those of the mesh, whose middles lie between the raster's.
+    seeded = relief.read_raster(results / "maps" / "thickness_0s.asc").values[::-1]
+    full = np.nan_to_num(values)
+    there = 0.25 * (full[2:30, 2:38] + full[3:31, 2:38] + full[2:30, 3:39] + full[3:31, 3:39])
+    difference = np.max(np.abs(seeded - there))
+    print(f"largest difference of the thickness: {difference:.2e} m of 20 m")
+    check(seeded.shape == there.shape and difference <= 1., f"thickness: {difference}")
+    two = mass_of(run("two_ranks", TEXT % source, ranks=2))
+    check(abs(two / mass_of(results) - 1) <= 1e-12, f"mass on two ranks: {two}")
+
+
+def surfaces():
+    """Between two surfaces, or from the bed up to one, there is the same soil; within an outline only that of its place."""
+    _, values = mountain()
+    # Where a height is missing, so is the soil around it: whole squares count.
+    corners = [values[j:ROWS - 1 + j, i:COLUMNS - 1 + i] for j in (0, 1) for i in (0, 1)]
+    exact = DENSITY * SPACING**2 * np.nansum(sum(corners) / 4)
+    between = mass_of(run("between", TEXT % "  set Upper surface = ../upper.asc\n  set Lower surface = ../bed.asc"))
+    above = mass_of(run("above", TEXT % "  set Upper surface = ../upper.asc"))
+    for name, mass in (("two surfaces", between), ("upper surface", above)):
+        print(f"{name}: mass over the exact one - 1: {mass / exact - 1:.2e}")
+        check(abs(mass / exact - 1) <= 0.01, f"{name}: {mass / exact - 1}")
+
+    corners = np.array([(1040, 2040), (1150, 2052), (1120, 2120), (1083, 2080), (1050, 2131)], dtype=float)
+    pathlib.Path("outline.csv").write_text("x, y\n" + "".join("%g, %g\n" % tuple(c) for c in np.vstack([corners, corners[:1]])), encoding="utf-8")
+    x, y = corners.T
+    area = 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+    mass = mass_of(run("outline", TEXT % "  set Region = z > 202.5 && z < 220\n  set Outline = ../outline.csv"))
+    relative = mass / (DENSITY * area * 17.5) - 1
+    print(f"outline: mass over the exact one - 1: {relative:.2e}")
+    check(abs(relative) <= 0.01, f"outline: {relative}")
+
+
+def friction():
+    """A slide on a bed whose angle of friction a map tells: as with one angle where all are the same, and by the place where they are not."""
+    mountain()
+    x = np.tile(SPACING * np.arange(COLUMNS), (ROWS, 1))
+    write_raster("same.asc", 20 + 0. * x)
+    write_raster("halves.asc", np.where(x < 90, 20., 30.))
+    text = TEXT.replace("End time         = 1e-3", "End time         = 0.5") % "  set Thickness = ../thickness.asc"
+    impulse = {}
+    for name, entry in (("angle", "Friction angle = 20"), ("same", "Friction angles = ../same.asc"), ("halves", "Friction angles = ../halves.asc"),
+                        ("steep", "Friction angle = 30")):
+        results = run(name, text.replace("set Type   = fixed", "set Type   = friction\n  set " + entry))
+        impulse[name] = render.column(render.read_statistics(results), "Bed impulse x (N s)")[-1]
+    print(impulse)
+    check(abs(impulse["same"] / impulse["angle"] - 1) <= 1e-9, "the same angles in a map")
+    steps = sorted([impulse["angle"], impulse["steep"]])
+    check(steps[0] < impulse["halves"] < steps[1], "angles by place")
+
+
+{"thickness": thickness, "surfaces": surfaces, "friction": friction}[sys.argv[3]]()
