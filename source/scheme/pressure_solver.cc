@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/pressure_solver.h>
 
-#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Of this rank's numbers.
+    double local_square(const CornerVector &vector)
+    {
+      return std::inner_product(vector.begin(), vector.end(), vector.begin(), 0.);
+    }
+  } // namespace
+
 
   template <int dim>
   struct PressureSolver<dim>::Multigrid
@@ -31,7 +42,6 @@ namespace scree
                                       const PressureParameters &parameters)
       : grid(grid)
       , corners(corners)
-      , relative_tolerance(parameters.relative_tolerance)
       , maximum_iterations(parameters.maximum_iterations)
   {
     // Hat functions on the unit cell: one-dimensional mass and stiffness, multiplied.
@@ -164,7 +174,8 @@ namespace scree
         take(corner);
     for_corners_of_cells(take);
 
-    for (CornerVector *vector : { &source, &solution, &scratch })
+    for (CornerVector *vector :
+         { &source, &solution, &scratch, &remainder, &preconditioned, &product, &direction, &direction_product })
       vector->reinit(partitioner);
     is_worn = true;
   }
@@ -327,51 +338,105 @@ namespace scree
 
 
   template <int dim>
-  void PressureSolver<dim>::converge(SolveReport &report)
+  typename PressureSolver<dim>::Iterations PressureSolver<dim>::iterate(const unsigned int most)
   {
     const Operator system{ *this };
-    const auto iterate = [&](const unsigned int most) {
-      SolverControl control(most, tolerance);
-      try
-        {
-          SolverCG<CornerVector>(control).solve(system, solution, source, multigrid->preconditioner);
-        }
-      catch (const SolverControl::NoConvergence &)
-        {
-        }
-      report.n_iterations += control.last_step();
-      return control;
+    const auto n_owned = diagonal.size();
+    system.vmult(remainder, solution);
+    remainder.sadd(-1., 1., source);
+    direction         = 0.;
+    direction_product = 0.;
+    Iterations result{ 0, remainder.l2_norm() };
+    double last_projection = 1., last_length = 1.;
+    while (result.residual > tolerance && result.n < most)
+      {
+        multigrid->preconditioner.vmult(preconditioned, remainder);
+        system.vmult(product, preconditioned);
+        const double *r = remainder.begin(), *z = preconditioned.begin(), *w = product.begin();
+        const double *s = direction_product.begin();
+        double rr = 0, rz = 0, zw = 0, rw = 0, ww = 0, rs = 0, ws = 0, ss = 0;
+        for (unsigned int i = 0; i < n_owned; ++i)
+          {
+            rr += r[i] * r[i];
+            rz += r[i] * z[i];
+            zw += z[i] * w[i];
+            rw += r[i] * w[i];
+            ww += w[i] * w[i];
+            rs += r[i] * s[i];
+            ws += w[i] * s[i];
+            ss += s[i] * s[i];
+          }
+        std::array<double, 8> sums{ { rr, rz, zw, rw, ww, rs, ws, ss } };
+        Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                            grid.triangulation().get_communicator(),
+                            ArrayView<double>(sums.data(), sums.size()));
+        std::tie(rr, rz, zw, rw, ww, rs, ws, ss) = std::tuple_cat(sums);
+
+        const double turn      = result.n == 0 ? 0. : rz / last_projection;
+        const double curvature = zw - (result.n == 0 ? 0. : turn * rz / last_length);
+        const double length    = rz / curvature;
+        direction.sadd(turn, 1., preconditioned);
+        direction_product.sadd(turn, 1., product);
+        solution.add(length, direction);
+        remainder.add(-length, direction_product);
+        last_projection = rz;
+        last_length     = length;
+        ++result.n;
+
+        const double square =
+            rr - 2. * length * (rw + turn * rs) + length * length * (ww + 2. * turn * ws + turn * turn * ss);
+        constexpr double rounded_away = 1e-8;
+        result.residual               = square > rounded_away * rr ? std::sqrt(square) : remainder.l2_norm();
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::converge(SolveReport &report)
+  {
+    Iterations last{};
+    const auto has_converged = [&](const unsigned int most) {
+      last = iterate(most);
+      report.n_iterations += last.n;
+      return last.residual <= tolerance;
     };
     // A front that enters new cells can make the kept preconditioner useless within a step.
     const unsigned int patience = std::min(maximum_iterations, iterations_when_new + iterations_worth_a_preconditioner);
     if (tolerance > 0. && // else nothing flows
-        (is_worn || iterate(patience).last_check() != SolverControl::success))
+        (is_worn || !has_converged(patience)))
       {
         make_preconditioner();
-        report.made_preconditioner  = true;
-        const SolverControl control = iterate(maximum_iterations);
+        report.made_preconditioner = true;
+        const bool is_done         = has_converged(maximum_iterations);
         AssertThrow(
-            control.last_check() == SolverControl::success,
-            ExcMessage("The pressure solver did not converge: after " + std::to_string(control.last_step()) +
-                       " iterations the residual is " + std::to_string(control.last_value() / tolerance) +
+            is_done,
+            ExcMessage("The pressure solver did not converge: after " + std::to_string(last.n) +
+                       " iterations the residual is " + std::to_string(last.residual / tolerance) +
                        " times the wanted one. Remedies: a smaller 'Courant number' in subsection Time step, "
                        "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection Water/Pressure."));
         is_worn             = false;
-        iterations_when_new = control.last_step();
+        iterations_when_new = last.n;
         surplus_iterations  = 0;
       }
   }
 
 
   template <int dim>
-  SolveReport PressureSolver<dim>::solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change)
+  SolveReport PressureSolver<dim>::solve(const CornerVector &rhs,
+                                         const CornerVector &pressure,
+                                         const double relative_tolerance,
+                                         CornerVector &change)
   {
     take(pressure, solution);
     Operator{ *this }.vmult(scratch, solution);
-    const double rounding = 1e-12 * scratch.l2_norm();
     take(rhs, source);
     take(change, solution);
-    tolerance = std::max(rounding, relative_tolerance * source.l2_norm());
+    constexpr double rounding = 1e-12;
+    const std::vector<double> squares{ local_square(scratch), local_square(source) };
+    std::vector<double> of_ranks(2);
+    Utilities::MPI::sum(squares, grid.triangulation().get_communicator(), of_ranks);
+    tolerance = std::max(rounding * std::sqrt(of_ranks[0]), relative_tolerance * std::sqrt(of_ranks[1]));
     SolveReport report;
     converge(report);
     for (unsigned int i = 0; i < diagonal.size(); ++i)

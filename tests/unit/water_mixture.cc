@@ -210,9 +210,8 @@ void test(const std::string &basis, std::ostream &out)
   // 4. The solver: a unit source at every unknown corner is what the found pressure carries away.
   for (MixtureCell<dim> &cell : mixture.cells())
     cell.mobility = 1e-3 * (1. + 0.5 * pattern(corners.position(corners.nodes(cell.cell)[0])));
-  PressureParameters solver_parameters;
-  solver_parameters.relative_tolerance = 1e-12;
-  PressureSolver<dim> solver(grid, corners, solver_parameters);
+  constexpr double relative_tolerance = 1e-12;
+  PressureSolver<dim> solver(grid, corners, PressureParameters());
   CornerVector source(corners.partitioner()), change(corners.partitioner());
   for (const unsigned int corner : surface.wet_corners())
     if (surface.kind(corner) == CornerKind::unknown)
@@ -222,7 +221,7 @@ void test(const std::string &basis, std::ostream &out)
     {
       solver.assemble(
           mixture, surface, 1e-3, [](const unsigned int) { return 0.; }, 0.);
-      const SolveReport report = solver.solve(source, pressure, change);
+      const SolveReport report = solver.solve(source, pressure, relative_tolerance, change);
       sum                      = source * change;
       if (&sum == work)
         out << "  solved with a preconditioner made: " << (report.made_preconditioner ? "yes" : "NO");

@@ -125,7 +125,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const Splitting splitting;
     const PreviousPressure previous_pressure;
-    const double projection, bulk_modulus, cavitation_pressure;
+    const double relative_tolerance, projection, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
     NodeNumbering<dim> corners;

@@ -45,9 +45,11 @@ namespace scree
                   const double projection);
 
     /// Solves for the change of the pressure, Pa, at the unknown corners (0 at the others); `rhs`, m^3/s, is read at
-    /// owned unknown corners. Starts from what `change` holds. What `pressure` drives sets the size below which a
+    /// owned unknown corners. Starts from what `change` holds, and ends when the residual is below this part of the
+    /// right-hand side. What `pressure` drives sets the size below which a
     /// residual is rounding. Collective; throws if the solver does not converge.
-    SolveReport solve(const CornerVector &rhs, const CornerVector &pressure, CornerVector &change);
+    SolveReport
+    solve(const CornerVector &rhs, const CornerVector &pressure, const double relative_tolerance, CornerVector &change);
 
     /// Keeps the pressure from falling below `least`, Pa: where the solution of solve(), in `change`, would take it
     /// there, it is prescribed, and the mixture opens; it is set free again where the mixture would close, L dp < b.
@@ -95,6 +97,18 @@ namespace scree
     /// Sets `to` to the values of the owned unknown corners, and to 0 elsewhere.
     void take(const CornerVector &from, CornerVector &to) const;
 
+    /// What iterate() came to.
+    struct Iterations
+    {
+      unsigned int n;
+      double residual; ///< m^3/s
+    };
+
+    /// At most this many steps of conjugate gradients on `solution`, until the residual is below the tolerance. The
+    /// sums over all ranks are taken together, once a step (Chronopoulos & Gear 1989); they also tell the residual at
+    /// the step's end.
+    Iterations iterate(const unsigned int most);
+
     /// Solves the system from what `solution` holds; adds to the report.
     void converge(SolveReport &report);
 
@@ -105,7 +119,6 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &corners;
-    const double relative_tolerance;
     const unsigned int maximum_iterations;
 
     CellMatrix laplacian, fluctuation; // of the unit cell
@@ -119,6 +132,8 @@ namespace scree
     double unit = 1.;             // diagonal of the other numbers, m^3/(Pa s): of the size of the unknowns', for a
                                   // preconditioner that is kept while corners turn from one to the other
     CornerVector source, solution, scratch;
+    // Of iterate(): what is left of the source, that preconditioned, that times L; the step's direction, that times L.
+    CornerVector remainder, preconditioned, product, direction, direction_product;
     double tolerance = 0; // of the last solve's residual, m^3/s
 
     struct Multigrid; // what Trilinos keeps of the preconditioner
