@@ -220,8 +220,8 @@ namespace scree
     progress.summarise(clock.time(),
                        timer,
                        Utilities::MPI::sum(point_updates - point_updates_before, communicator),
-                       Utilities::MPI::n_mpi_processes(communicator),
-                       scene.name_of_a_point());
+                       scene.name_of_a_point(),
+                       communicator);
     progress.summarise_ranks(
         seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
     if (scene.grid.follows_points())

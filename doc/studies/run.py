@@ -22,7 +22,6 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parent / "cases")]
 
@@ -79,7 +78,6 @@ def make_run(study, variant, folder, arguments):
         environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
     command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
-    start = time.monotonic()
     with open(screen, "w", encoding="utf-8") as output:
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT)
         _, status, usage = os.wait4(process.pid, 0)
@@ -87,9 +85,12 @@ def make_run(study, variant, folder, arguments):
     process.returncode = code  # it has been waited for
     if code in INTERRUPTED:
         raise RuntimeError(f"{prm} was interrupted; {screen} has what it said. Start the study again: it goes on from here.")
-    record = {"exit_code": code, "core_seconds": usage.ru_utime + usage.ru_stime, "wall_seconds": time.monotonic() - start}
+    record = {"exit_code": code, "core_seconds": usage.ru_utime + usage.ru_stime}
+    run = Run(folder, variant.labels, **record)
+    if run.ended:
+        study.after(run, arguments.program)
     (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
-    return Run(folder, variant.labels, **record)
+    return run
 
 
 def expected_seconds(name):

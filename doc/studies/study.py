@@ -76,7 +76,7 @@ class Study:
     short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
     no measures. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
     its headline is the share of these cells that are stable. program: scree or scree-element.
-    environment(): variables that it is run with.
+    environment(): variables that it is run with. after(run, program): what else is to be made in a run's folder, right after it.
     """
     title: str
     base: str
@@ -92,17 +92,18 @@ class Study:
     default: dict | None = None
     program: str = "scree"
     environment: Callable = dict
+    after: Callable = lambda run, program: None
 
 
 class Run:
     """A finished run: its folder, what the program said, and what it cost."""
 
-    def __init__(self, folder, labels, exit_code, core_seconds, wall_seconds):
+    def __init__(self, folder, labels, exit_code, core_seconds):
         self.folder = folder
         self.labels = labels
         self.exit_code = exit_code
         self.reference = None
-        self._whole = core_seconds, wall_seconds
+        self._core_seconds = core_seconds
         self._columns = None
 
     @property
@@ -142,16 +143,13 @@ class Run:
     def cost(self):
         """Steps, core-seconds of the steps, ns per point and step; nan where the run did not come to its end.
 
-        Core-seconds are processor time, which a busy machine disturbs less than the clock on the wall: that of the whole process by the
-        share of the steps in its wall time.
+        Core-seconds are processor time, which a busy machine disturbs less than the clock on the wall: that of the steps and the output, as the
+        log tells it.
         """
         log = self.folder / "log.txt"
         text = log.read_text(encoding="utf-8") if log.exists() else ""
-        total = re.search(r"^total .* ([\d.e+-]+)$", text, re.MULTILINE)
-        updates = re.search(r"/ ([\d.e+-]+) point updates", text)
-        core_seconds, wall_seconds = self._whole
-        if not total or not updates:
-            return {"steps": math.nan, "core-seconds": core_seconds, "ns per point and step": math.nan}
-        updates = float(updates.group(1))
-        of_steps = core_seconds * min(1., 1e-9 * float(total.group(1)) * updates / wall_seconds)
-        return {"steps": self.statistics("Step")[-1], "core-seconds": of_steps, "ns per point and step": 1e9 * of_steps / updates}
+        of_steps = re.search(r"/ ([\d.e+-]+) point updates; processor time ([\d.e+-]+) s", text)
+        if not of_steps:
+            return {"steps": math.nan, "core-seconds": self._core_seconds, "ns per point and step": math.nan}
+        updates, seconds = map(float, of_steps.groups())
+        return {"steps": self.statistics("Step")[-1], "core-seconds": seconds, "ns per point and step": 1e9 * seconds / updates}

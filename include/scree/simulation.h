@@ -47,6 +47,10 @@ namespace scree
     /// One step of `time_step` s.
     void advance(const double time_step);
 
+    /// Output of the state as it is. Collective.
+    void write_row();
+    void write_picture();
+
     const std::list<SoilBody<dim>> &bodies() const
     {
       return scene.bodies;
@@ -122,8 +126,6 @@ namespace scree
     void check_speed(const double time_step) const;
 
     void report();
-    void write_row();
-    void write_picture();
     ProbedState<dim> probed_state(const WaterView<dim> *view) const;
     void write_checkpoint();
 

@@ -2,6 +2,8 @@
 #include <scree/advice/measure.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <ctime>
 
 #include <sys/resource.h>
@@ -31,7 +33,12 @@ namespace scree
   template <int dim>
   StepCost measure_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator)
   {
-    simulation.advance(simulation.stable_step()); // makes room
+    const auto core_seconds_of = [&](const auto &act) {
+      const double start = processor_time();
+      act();
+      return Utilities::MPI::sum(processor_time() - start, communicator);
+    };
+    const double first  = core_seconds_of([&] { simulation.advance(simulation.stable_step()); });
     const auto parts_of = [&] {
       std::map<StepPart, double> seconds;
       for (const StepPart part : step_parts)
@@ -53,16 +60,20 @@ namespace scree
       }
     const double wall = MPI_Wtime() - wall_start;
 
-    cost.seconds = Utilities::MPI::sum(processor_time() - processor_start, communicator) / cost.n_steps;
+    cost.seconds       = Utilities::MPI::sum(processor_time() - processor_start, communicator) / cost.n_steps;
+    cost.first_seconds = std::max(0., first - cost.seconds);
     for (const auto &[part, of_part] : parts_of())
       cost.parts[part] = cost.seconds * (of_part - before[part]) / wall;
     // A body that has hardly moved yet is not sorted.
     for (PointSet<dim> *points : simulation.point_sets())
-      {
-        const double sort_start = processor_time();
-        points->sort();
-        cost.sorting += Utilities::MPI::sum(processor_time() - sort_start, communicator);
-      }
+      cost.sorting += core_seconds_of([&] { points->sort(); });
+    // The first of them make files and start libraries.
+    simulation.write_row();
+    cost.row           = core_seconds_of([&] { simulation.write_row(); });
+    const auto picture = [&] { simulation.write_picture(); };
+    cost.picture       = core_seconds_of(picture);
+    if (cost.picture < seconds)
+      cost.picture = core_seconds_of(picture);
     cost.memory = Utilities::MPI::sum(peak_memory(), communicator);
     cost.program_memory *= Utilities::MPI::n_mpi_processes(communicator);
     return cost;

@@ -9,9 +9,6 @@ namespace scree
 {
   namespace
   {
-    /// Sinking of the centre of mass over the height from which on a scene runs out.
-    constexpr double least_fall = 0.05;
-
     /// Why the law of elastic soil, measured where a constant load drains, does not decide; empty: it does.
     std::string gap_of_elastic_law(const SceneNumbers &scene)
     {
@@ -33,7 +30,7 @@ namespace scree
   {
     // Measured, doc/verification.md: fronts of columns and slopes at h = .1, .05, .025 m against the extrapolated one;
     // Terzaghi's column at T_v = .1 with 20 cells, order 1.9 to 2.25; the dam break's tip at h = .1 and .05 m.
-    const bool falls = scene.fall > least_fall * scene.height;
+    const bool falls = scene.falls();
     if (!scene.has_soil)
       return { "of the water's tip", 0.5, 1., falls ? "" : "its law is that of water that falls and runs" };
     if (!scene.is_elastic)

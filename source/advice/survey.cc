@@ -100,6 +100,7 @@ namespace scree
           return;
         scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;
         scene.water_fills_soil = parameters.water.is_where_soil_is();
+        scene.corrects_volume  = parameters.water.volume_correction_rate > 0.;
         scene.water_density    = parameters.water.density;
       }
 

@@ -80,11 +80,13 @@ namespace scree
   void Progress::summarise(const double time,
                            const TimerOutput &parts,
                            const double point_updates,
-                           const unsigned int n_ranks,
-                           const std::string &point)
+                           const std::string &point,
+                           const MPI_Comm communicator)
   {
     if (point_updates <= 0)
       return;
+    const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
+    const double processor_time = Utilities::MPI::sum(clock.cpu_time(), communicator);
     summarise_steps(time);
     const double total            = clock.wall_time();
     const double to_ns            = 1e9 * n_ranks / point_updates;
@@ -103,7 +105,10 @@ namespace scree
         }
     line("everything else", total - accounted);
     line("total", total);
-    folder.log(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates)", n_ranks, point_updates));
+    folder.log(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates; processor time %.4g s)",
+                      n_ranks,
+                      point_updates,
+                      processor_time));
   }
 
 

@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What `scree --advise` says a case will cost, against what it costs: every case of `prm/` and `prm/benchmarks`, as it stands or, where it runs for
 many minutes, its first part (column "simulated", s). Cost is processor time of the steps and the output, without the start-up. The advice is asked for
-the same shortened case, after the runs, on the same machine, which other programs kept busy: a core-second of it then does now more, now less, and
-runs of the same soil differ by 1.3 in the time of a point and step. What it says comes from half a core-second of the case's first steps; the factors by
+the same shortened case, right after its run, on the same machine, which other programs kept busy: a core-second of it then does now more, now less, by a
+factor of two within minutes. What it says comes from half a core-second of the case's first steps, a row and a picture; the factors by
 which later steps are longer or shorter, and dearer where soil yields, were set on these cases and on whole runs of the saturated slopes, so that this
 page shows how well a few factors serve all of them, not what a case of another kind will do. Whole runs of the saturated slopes to 12 s (not in the
 table; seconds of an earlier run on the clock on the wall, and core-seconds predicted since): dense 775 and 840, loose 841 and 848, dense single-point 842
 and 796, loose single-point 890 and 792; steps 41389, 40948, 41669, 41128 and 43200."""
 
 import math
-import pathlib
 import re
 import subprocess
-import sys
 
 from charts import Curves
 from study import ROOT, Claim, Study, Variant
@@ -33,14 +31,13 @@ def cases():
     return [Variant({"case": file.stem}, {"End time": PARTS[file.stem]} if file.stem in PARTS else {}, str(file.relative_to(ROOT))) for file in files]
 
 
-def program():
-    """The program that the runs were made with."""
-    after = dict(zip(sys.argv, sys.argv[1:]))
-    return pathlib.Path(after.get("--program", ROOT / "build" / "scree")).resolve()
+def ask(run, program):
+    with open(run.folder / "advice.txt", "w", encoding="utf-8") as answer:
+        subprocess.run([program, "--advise", run.folder / "case.prm"], cwd=ROOT, stdout=answer, check=True)
 
 
 def measure(run):
-    text = subprocess.run([program(), "--advise", run.folder / "case.prm"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    text = (run.folder / "advice.txt").read_text(encoding="utf-8")
     cost = text[text.index("Cost of the case"):text.index("Recommendation")]
 
     predicted = float(re.search(r"^  run +([\d.e+-]+)", cost, re.MULTILINE).group(1))
@@ -79,5 +76,5 @@ def draw(figure, rows):
     axes.legend(loc="upper left")
 
 
-STUDY = Study(title="What a case will cost: predicted and measured", base="prm", variants=cases(), measure=measure, verdict=verdict,
+STUDY = Study(title="What a case will cost: predicted and measured", base="prm", variants=cases(), measure=measure, verdict=verdict, after=ask,
               quick=lambda labels: labels["case"] in TINY, chart=Curves(draw, size=(7.5, 7), timed=True))

@@ -17,7 +17,9 @@ namespace scree
     double n_steps = 0;               ///< looked at
     double seconds = 0;               ///< a step, of all ranks together
     std::map<StepPart, double> parts; ///< of `seconds`
-    double sorting        = 0;        ///< all points in memory, core-seconds
+    double first_seconds = 0;         ///< what the first step takes beyond `seconds`: to make room, start libraries
+    double sorting       = 0;         ///< all points in memory, core-seconds
+    double picture = 0, row = 0;      ///< writing one, core-seconds
     double memory         = 0;        ///< of all ranks, bytes
     double program_memory = 1.2e8;    ///< of `memory`, what does not grow with points and cells, bytes
   };

@@ -7,7 +7,8 @@
 
 namespace scree
 {
-  /// Takes the time of the first steps of a run, until rank 0 has spent `seconds` core-seconds. Collective.
+  /// Takes the time of the first steps of a run, until rank 0 has spent `seconds` core-seconds, and of what is written
+  /// then. Collective.
   template <int dim>
   StepCost measure_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator);
 } // namespace scree

@@ -48,6 +48,7 @@ namespace scree
     bool has_water        = false;
     bool is_single_point  = false;
     bool water_fills_soil = false; ///< in all the soil's pores and nowhere else
+    bool corrects_volume  = false; ///< free water moves from where it crowds
     double water_density  = 1000;  ///< kg/m^3
     double conductivity   = 0;     ///< m/s, at Earth's gravity
 
@@ -56,6 +57,13 @@ namespace scree
     double n_occupied     = 0; ///< cells with points
     double n_soil_points  = 0;
     double n_water_points = 0;
+
+    /// Whether the scene collapses or runs out.
+    bool falls() const
+    {
+      constexpr double least_part = 0.05; // of the height
+      return fall > least_part * height;
+    }
 
     /// M = K + 4/3 G of the soil, Pa, mean: the modulus of compression without lateral strain.
     double constrained_modulus() const

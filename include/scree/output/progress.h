@@ -25,7 +25,7 @@ namespace scree
     }
 
     /// Writes the table of seconds by part, and ns per point and step; before that how many steps a second of motion
-    /// takes, what bounded them, and how long it takes to compute.
+    /// takes, what bounded them, and how long it takes to compute. Collective.
     /// @param time s, of the end
     /// @param parts timed sections of this rank
     /// @param point_updates points times steps, of all ranks
@@ -33,8 +33,8 @@ namespace scree
     void summarise(const double time,
                    const dealii::TimerOutput &parts,
                    const double point_updates,
-                   const unsigned int n_ranks,
-                   const std::string &point = "point");
+                   const std::string &point,
+                   const MPI_Comm communicator);
 
     /// Writes how evenly several ranks have worked. Collective.
     /// @param waiting time that this rank has waited for others, s
