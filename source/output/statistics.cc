@@ -150,7 +150,7 @@ namespace scree
       add_water_columns(bodies, water, now, totals, step);
     if (further.bed)
       add_bed_columns(bodies, water, balance);
-    if (!further.obstacles->empty())
+    if (further.obstacles != nullptr && !further.obstacles->empty())
       add_obstacle_columns(balance, time);
     if (further.loads)
       add("Load work (J)", balance.load_work);
