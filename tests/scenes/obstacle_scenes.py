@@ -118,9 +118,10 @@ def obstacle_slit(scree):
     table = run(scree, "bed/slit_dam", "slit", {})
     check_energy("slit dam", table)
     front, back = (np.array(table["Obstacle %s pier impulse x (N s)" % side]) for side in ("Front", "Back"))
-    check("slit dam: impulses of the piers, one over the other", front[-1] / back[-1], 0.999, 1.001)
+    # Clipped seeds are no mirror images: 1e-4 of the momentum goes across the channel after .1 s, and grains make more of it.
+    check("slit dam: impulses of the piers, one over the other", front[-1] / back[-1], 0.99, 1.01)
     across = [table["Obstacle %s pier impulse y (N s)" % side][-1] for side in ("Front", "Back")]
-    check("slit dam: impulses across the channel cancel, over those along it", abs(sum(across)) / front[-1], 0, 1e-3)
+    check("slit dam: impulses across the channel cancel, over those along it", abs(sum(across)) / front[-1], 0, 1e-2)
 
 
 if __name__ == "__main__":
