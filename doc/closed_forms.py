@@ -8,7 +8,7 @@
 - consolidation at large strain of soil that is elastic in logarithmic strain: exact end state, course in time by
   finite differences
 - hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
-- dam break on a wet bed in shallow water: Stoker 1957
+- dam break on a wet bed in shallow water: Stoker 1957; of grains on a plane: Mangeney, Heinrich & Roche 2000
 - viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923), viscosity and settling of suspensions
 
 Needs numpy.
@@ -347,6 +347,32 @@ def stoker_bore(upstream, downstream, gravity=GRAVITY):
     return Bore(behind * depth / (depth - downstream), depth, behind)
 
 
+class GrainDamBreak(NamedTuple):
+    """A layer of grains of depth h on a plane, held at x = 0 (x down the plane, depth across it), is released; shallow flow (Mangeney, Heinrich & Roche 2000).
+
+    The plane is as steep as theta, its friction angle is delta <= theta. With c = sqrt(g h cos theta) and m = g cos theta (tan theta - tan delta) the depth at time t is
+    (2 c - x/t + m t/2)^2/(9 g cos theta) from x = m t^2/2 - c t, where it is h, to the front x = m t^2/2 + 2 c t. The layer behind slides with m t.
+    """
+    layer: float            # h, m
+    slope: float            # theta, radians
+    friction: float         # delta, radians
+    gravity: float = GRAVITY  # m/s^2
+
+    @property
+    def wave_speed(self):
+        """c, m/s."""
+        return math.sqrt(self.gravity * self.layer * math.cos(self.slope))
+
+    def place(self, part, time):
+        """x, m, of a part of the wave: -1 at its end in the layer, 2 at its front (number or array)."""
+        acceleration = self.gravity * math.cos(self.slope) * (math.tan(self.slope) - math.tan(self.friction))
+        return acceleration * time**2 / 2 + part * self.wave_speed * time
+
+    def depth(self, part):
+        """Depth over h at a part of the wave from -1 to 2, the same at any time."""
+        return (2 - np.asarray(part, dtype=float))**2 / 9
+
+
 # Viscous flow ---------------------------------------------------------------------------------------------------------
 
 
@@ -484,6 +510,12 @@ def _self_test():
     _check(failures, "Stoker: momentum that passes the bore over the force on it",
            abs(.2 * bore.speed * bore.velocity / force - 1), 1e-9)
     _check(failures, "Stoker: a low step runs with sqrt(g h)", abs(stoker_bore(1.0001, 1.).speed / math.sqrt(GRAVITY) - 1), 1e-4)
+
+    flow, part, dt = GrainDamBreak(.2, .35, .17), np.linspace(-1, 2, 3001), 1e-5
+    volume = [.2 * np.trapz(flow.depth(part), flow.place(part, time)) for time in (1., 1. + dt)]
+    speed = float(flow.place(-1., 1. + dt / 2) + flow.wave_speed * (1. + dt / 2)) * 2 / (1. + dt / 2)  # of the layer: m t
+    end = float(flow.place(-1., 1. + dt) - flow.place(-1., 1.)) / dt
+    _check(failures, "dam break of grains: growth of the wave's volume over what enters from the layer", abs((volume[1] - volume[0]) / dt / (.2 * (speed - end)) - 1), 1e-4)
 
     _check(failures, "hydrostatics: 1 m of water", abs(float(hydrostatic_pressure(0.25, 1.25)) - 9810), 1e-9)
 

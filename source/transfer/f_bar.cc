@@ -4,8 +4,6 @@
 #include <scree/simd/records.h>
 #include <scree/tensor/matrix.h>
 
-#include <cmath>
-
 namespace scree
 {
   using namespace dealii;
@@ -28,25 +26,25 @@ namespace scree
     }
 
 
-    /// Gives all points the cell's mean of ln J_e = 1/2 ln det b_e.
+    /// Gives all points the cell's J_e = sum V / sum (V/J_e), with J_e^2 = det b_e.
     template <int dim>
-    void average_elastic_volume_strain(const double *volumes, const MaterialPoints<dim> &points)
+    void average_elastic_volume_ratio(const double *volumes, const MaterialPoints<dim> &points)
     {
       if (points.n_points == 1)
         return;
       const Batch zero = simd::broadcast<Batch>(0.);
-      Batch weighted = zero, volume = zero, b[n_symmetric_components<dim>];
+      Batch unloaded = zero, volume = zero, b[n_symmetric_components<dim>];
       for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
         read_left_cauchy_green(points, indices, b);
         const Batch own = simd::select<Batch>(simd::first_lanes(n), load(volumes + indices[0]), zero);
-        weighted += own * simd::log<Batch>(determinant_of_components<dim>(b));
+        unloaded += own / simd::sqrt<Batch>(determinant_of_components<dim>(b));
         volume += own;
       });
-      // b scales by exp(2/3 (mean ln J_e - ln J_e)) = (exp(mean ln det b) / det b)^(1/3)
-      const double mean = std::exp(simd::sum_of_lanes(weighted) / simd::sum_of_lanes(volume));
+      const double ratio       = simd::sum_of_lanes(volume) / simd::sum_of_lanes(unloaded);
+      const double determinant = ratio * ratio; // of b_e; b scales by the cube root of its change
       for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int) {
         const auto records = read_left_cauchy_green(points, indices, b);
-        const Batch scale  = simd::cube_root<Batch>(mean / determinant_of_components<dim>(b));
+        const Batch scale  = simd::cube_root<Batch>(determinant / determinant_of_components<dim>(b));
         for (Batch &component : b)
           component *= scale;
         simd::store_records<n_symmetric_components<dim>>(b, records);
@@ -94,7 +92,7 @@ namespace scree
     if (kind == FBar::none)
       return;
     if (kind == FBar::modified)
-      average_elastic_volume_strain(&motion.volume[first], points);
+      average_elastic_volume_ratio(&motion.volume[first], points);
     average_volume_change(kind, first, points.n_points, motion);
   }
 

@@ -191,6 +191,43 @@ def bed_arc(scree):
     check_bed("arc", table)
 
 
+def bed_arc_friction(scree):
+    """The block on the arc rubs: where and when it turns, against the equation of a rigid body that slides on the arc.
+
+    With the angle a from the lowest place, mass m, distance r of the centroid from the middle and radius of gyration k about it:
+    k^2 a'' = -g r sin a - mu R (g cos a + r a'^2) sign(a'), as the normal forces of a short block are parallel.
+    """
+    radius, length, height, start, friction = 2., 0.4, 0.15, math.pi / 4, 0.2
+    normal = np.array([math.sin(start), math.cos(start)])
+    centre = np.array([2 + 0.37 * 0.05, radius + 0.3 + 0.61 * 0.05])
+    down = np.array([normal[1], -normal[0]])
+    sag = radius - math.sqrt(radius**2 - length**2 / 4)
+    plane = Plane(centre - radius * normal - length / 2 * down + sag * normal, normal, down, 0)
+    table = run_block(scree, "rubs", plane, friction,
+                      {"End time": "1.6", "Gravity": "0, %g" % -GRAVITY, "Body force": "",
+                       "Bed/Level set expression": "%g - sqrt((x - %.15g)^2 + (y - %.15g)^2)" % (radius, *centre)},
+                      length=length, height=height)
+    s, z = np.meshgrid(np.linspace(-length / 2, length / 2, 401), np.linspace(0, height + sag, 401) - radius)
+    inside = s**2 + z**2 < radius**2
+    r, k2 = -z[inside].mean(), (s**2 + z**2)[inside].mean()
+    angle, rate, time, dt = start, 0., 0., 1e-4
+    while rate <= 0.:  # midpoint rule
+        half = [a + 0.5 * dt * b for a, b in ((angle, rate), (rate, 0.))]
+        for _ in range(3):
+            slope = (-GRAVITY * r * math.sin(half[0]) + friction * radius * (GRAVITY * math.cos(half[0]) + r * half[1]**2)) / k2
+            half = [angle + 0.5 * dt * half[1], rate + 0.5 * dt * slope]
+        angle, rate, time = angle + dt * half[1], rate + dt * slope, time + dt
+    mass, moment = table["Mass (kg)"][0], np.array(table["Momentum x (N s)"])
+    turn = next(i for i in range(5, len(moment) - 1) if moment[i] < 0 <= moment[i + 1] or moment[i] > 0 >= moment[i + 1])
+    found = table["Time (s)"][turn] - moment[turn] * (table["Time (s)"][turn + 1] - table["Time (s)"][turn]) / (moment[turn + 1] - moment[turn])
+    potential = table["Potential energy (J)"]
+    rise = (potential[turn] - potential[0]) / (mass * GRAVITY) / r  # cos a changes by - rise
+    check("arc with friction: time of the turn over that of the rigid body", found / time, 0.99, 1.01)
+    check("arc with friction: angle of the turn, degrees, beside that of the rigid body",
+          math.degrees(math.acos(math.cos(start) - rise) - abs(angle)), -0.5, 0.5)
+    check_bed("arc with friction", table)
+
+
 def spread(name, plane):
     """Of the points in the last picture: the distance from the middle within which 90 % of the mass are, and height of the centroid, m."""
     points = render.read_points(name)

@@ -103,21 +103,21 @@ void average(const std::string &f_bar, const PropertyLayout<dim> &layout, std::v
 {
   if (f_bar == "none")
     return;
-  double volume = 0, change = 0, log_elastic = 0;
+  double volume = 0, change = 0, unloaded = 0;
   const auto elastic = [&](Reference<dim> &point) { return &point.properties[layout.left_cauchy_green]; };
   for (auto &point : points)
     {
       const double own = point.properties[layout.volume];
       volume += own;
       change += own * point.volume_change;
-      log_elastic += own * std::log(determinant_of_components<dim>(elastic(point)));
+      unloaded += own / std::sqrt(determinant_of_components<dim>(elastic(point)));
     }
   for (auto &point : points)
     {
       if (f_bar == "modified")
         {
           const double scale =
-              std::cbrt(std::exp(log_elastic / volume) / determinant_of_components<dim>(elastic(point)));
+              std::cbrt(Utilities::fixed_power<2>(volume / unloaded) / determinant_of_components<dim>(elastic(point)));
           for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
             elastic(point)[c] *= scale;
         }
