@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/gdal_raster.h>
 #include <scree/geometry/raster.h>
 #include <scree/input/input_error.h>
 #include <scree/input/number_table.h>
@@ -64,6 +65,19 @@ namespace scree
       const std::string name;
       std::map<std::string, std::string> entries;
     };
+
+
+    /// Whether a file begins with text; then it is left where it begins.
+    bool is_text(std::istream &in)
+    {
+      char first[64];
+      in.read(first, sizeof(first));
+      const bool is_text = std::all_of(
+          first, first + in.gcount(), [](const unsigned char c) { return std::isprint(c) || std::isspace(c); });
+      in.clear();
+      in.seekg(0);
+      return is_text;
+    }
   } // namespace
 
 
@@ -114,6 +128,8 @@ namespace scree
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_file(file, name);
+    if (!is_text(in))
+      return read_gdal_raster(file, name);
     const Header head(in, name);
     const double columns = head.number("ncols"), rows = head.number("nrows");
     constexpr double most = 1e9;

@@ -13,7 +13,7 @@ shift 4
 rm -rf "$directory"
 mkdir -p "$directory"
 cd "$directory" || exit 2
-cp "$source"/*.prm "$source"/*.part .
+cp "$source"/*.prm "$source"/*.part "$source"/*.tif .
 
 # Do not wait a second for ranks that end by themselves.
 export OMPI_MCA_odls_base_sigkill_timeout=0

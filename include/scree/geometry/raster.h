@@ -38,8 +38,8 @@ namespace scree
     double value_or_zero_at(const double x, const double y) const;
   };
 
-  /// Reads an ESRI ASCII grid, whose values are those at the middles of its cells. Throws EntryError, which begins with
-  /// `where` (see entry_name()), if it is none.
+  /// Reads an ESRI ASCII grid, whose values are those at the middles of its cells; what is no text is left to GDAL.
+  /// Throws EntryError, which begins with `where` (see entry_name()), if it is none.
   Raster read_raster(const std::string &file, const std::string &where);
 } // namespace scree
 
