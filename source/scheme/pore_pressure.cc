@@ -278,7 +278,7 @@ namespace scree
                                           StepBalance<dim> &balance)
   {
     // It moves a part of a surplus only; what this misses is left to the next steps.
-    constexpr double tolerance_of_potential = 1e-2;
+    const double tolerance_of_potential = std::min(1e-2, 100. * relative_tolerance);
     count(solver.solve(source, pressure, tolerance_of_potential, potential), balance);
     potential.update_ghost_values();
     surface.extrapolate(mixture, potential);

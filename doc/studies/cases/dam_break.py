@@ -79,9 +79,10 @@ def verdict(rows):
               and ratio(rows, "half the step") > 0.9 and ratio(rows, "twice the step") > 1.2, quick=False),
         Claim(f"A relative tolerance of the pressure of 1e-6, the default before this study, has {ratio(rows, 'tolerance 1e-6'):.4g} times the error for "
               f"{ratio(rows, 'tolerance 1e-6', 'CG iterations'):.2g} times the iterations; 1e-2 has {ratio(rows, 'tolerance 1e-2'):.4g} times the error for "
-              f"{ratio(rows, 'tolerance 1e-2', 'CG iterations'):.2g} times.",
+              f"{ratio(rows, 'tolerance 1e-2', 'CG iterations'):.2g} times. The solve of the volume correction ends at a "
+              "hundred times the tolerance, at 1 % at most.",
               abs(ratio(rows, "tolerance 1e-6") - 1) < 0.005 and ratio(rows, "tolerance 1e-6", "CG iterations") > 1.15 and abs(ratio(rows, "tolerance 1e-2") - 1) < 0.02
-              and ratio(rows, "tolerance 1e-2", "CG iterations") < 0.6),
+              and ratio(rows, "tolerance 1e-2", "CG iterations") < 0.75),
         Claim(f"3 x 3 points are as accurate as 4 x 4 ({ratio(rows, '3 x 3 points'):.2g} times the error) with a volume error of "
               f"{100 * at_finest(rows, '3 x 3 points', 'largest volume error'):.0f} instead of {100 * at_finest(rows, DEFAULTS, 'largest volume error'):.0f} %; "
               f"2 x 2 leave gaps: {ratio(rows, '2 x 2 points'):.2g} times the error, growing as cells shrink.",
