@@ -3,7 +3,7 @@
 and chart: rms over time (each 0.04 s from 0.2 s on) and over three lengths, the fronts that hold 90 and 99 % of the water and the height of its centre
 of mass, of their distance to the reference, over what each has moved in it by the end. The verdict adds what the reference itself lacks of the limit, by
 the fit error = A (h^p - (1/60 m)^p) to the case's three meshes: A (1/60 m)^p, for all methods. Methods differ from the case (TPIC, splines, 4 x 4 points a cell,
-steps of at most 0.04 s/m times the cell size and Advection number 0.3, volume correction at 7 1/s (in the tables, which are older than that rate, 0.05 a step), relative tolerance of the pressure 1e-4) in one
+steps of at most 0.04 s/m times the cell size and Advection number 0.3, volume correction at 7 1/s, relative tolerance of the pressure 1e-4) in one
 thing."""
 
 import math
