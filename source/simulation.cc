@@ -492,7 +492,7 @@ namespace scree
       folder.require_presence();
     if (row_is_due)
       write_row();
-    if (row_is_due || picture_is_due)
+    else if (picture_is_due)
       maps.sample(scene.bodies, time);
     if (picture_is_due)
       write_picture();
@@ -509,6 +509,7 @@ namespace scree
     folder.try_to_write("statistics",
                         [&] { rows.append((rows.is_empty() ? statistics.head() : "") + statistics.row()); });
     probes.write_rows(probed_state(scheme->water_view().get()));
+    maps.sample(scene.bodies, clock.time());
   }
 
 

@@ -10,7 +10,7 @@ mkdir advice
 cp -r "$prm" . # cases include each other from where scree is started
 export TMPDIR="$PWD/advice"
 
-for case in prm/*.prm prm/benchmarks/*.prm; do
+for case in prm/*.prm prm/bed/*.prm prm/benchmarks/*.prm prm/terrain/*.prm; do
   "$scree" --advise "$case" >text
   for part in Scales Size "Cost of the case as it stands" "Recommendation for a relative error of 0.05"; do
     grep -q "^$part" text || { echo "$case: no part \"$part\""; exit 1; }
