@@ -90,22 +90,22 @@ namespace scree
 
 
   template <int dim>
-  void BedProjection<dim>::find_mobility(Row &row, const MixtureNodes<dim> &nodes) const
+  double
+  BedProjection<dim>::mobility_at(const CutCell<dim> &cut, const Phase phase, const MixtureNodes<dim> &nodes) const
   {
     // Without walls: ranks that do not own a node know its masses only.
-    const Contact &contact  = contacts[row.contact];
-    const CutCell<dim> &cut = open_cells.cells()[contact.segment];
+    double mobility = 0.;
     for (unsigned int i = 0; i < cut.shapes.size(); ++i)
       {
         const unsigned int node = grid.nodes(cut.cell)[i];
         const double soil = nodes.soil[node][Field<dim>::mass], water = nodes.water[node][Field<dim>::mass];
-        const double own   = contact.phase == Phase::soil ? soil : water,
-                     other = contact.phase == Phase::soil ? water : soil;
-        const double drag  = nodes.pores[node][PoreField<dim>::drag];
+        const double own = phase == Phase::soil ? soil : water, other = phase == Phase::soil ? water : soil;
+        const double drag = nodes.pores[node][PoreField<dim>::drag];
         if (own > 0.)
-          row.mobility += cut.shapes[i] * cut.shapes[i] *
-                          (other > 0. ? (other + drag) / (own * other + drag * (own + other)) : 1. / own);
+          mobility += cut.shapes[i] * cut.shapes[i] *
+                      (other > 0. ? (other + drag) / (own * other + drag * (own + other)) : 1. / own);
       }
+    return mobility;
   }
 
 
@@ -125,14 +125,15 @@ namespace scree
     contact.first_row     = rows.size();
     contact.n_rows        = contact.rubs ? dim : 1;
     contacts.push_back(contact);
-    const auto along = tangents(cut.normal);
+    const auto along      = tangents(cut.normal);
+    const double mobility = mobility_at(cut, phase, nodes);
     for (unsigned int r = 0; r < contact.n_rows; ++r)
       {
         Row row;
-        row.contact   = contacts.size() - 1;
-        row.area      = cut.area;
-        row.direction = r == 0 ? cut.normal : along[r - 1];
-        find_mobility(row, nodes);
+        row.contact       = contacts.size() - 1;
+        row.area          = cut.area;
+        row.direction     = r == 0 ? cut.normal : along[r - 1];
+        row.mobility      = mobility;
         const auto &field = phase == Phase::soil ? nodes.soil : nodes.water;
         row.speed         = speed_of(row, [&](const unsigned int node) { return field[node] + Field<dim>::velocity; });
         rows.push_back(row);
@@ -268,8 +269,7 @@ namespace scree
         Tensor<1, dim> needed; // along the ground
         for (unsigned int r = 1; r < contact.n_rows; ++r)
           needed[r] = of_contact[r].impulse + contact.base[r];
-        const double pressing  = of_contact[0].impulse + contact.base[0];
-        const double available = pressing > 0. ? bed.friction_coefficient * pressing : 0.;
+        const double available = available_friction(bed.friction_coefficient, of_contact[0].impulse + contact.base[0]);
         if (!contact.slides && needed.norm() <= available)
           continue;
         contact.slides    = true;

@@ -19,6 +19,12 @@ namespace scree
     bool sticks;                    ///< it stops the motion, and more was available
   };
 
+  /// The tangential impulse, N s, that friction allows for one across a surface; the coefficient may be infinite.
+  inline double available_friction(const double coefficient, const double normal_impulse)
+  {
+    return normal_impulse > 0. ? coefficient * normal_impulse : 0.;
+  }
+
   /// Coulomb's law, in impulses (N s, or m/s for those of a unit mass).
   /// @param needed the impulse along the surface that would stop the motion along it
   /// @param available friction coefficient times normal impulse, not negative

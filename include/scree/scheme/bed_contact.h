@@ -78,7 +78,7 @@ namespace scree
       /// The impulse along the surface, N s, that friction allows for one across it.
       double available(const double normal_impulse) const
       {
-        return normal_impulse > 0. ? friction * normal_impulse : 0.;
+        return available_friction(friction, normal_impulse);
       }
     };
 

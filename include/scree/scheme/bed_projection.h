@@ -88,7 +88,9 @@ namespace scree
                      const Phase phase,
                      const bool is_unilateral,
                      const MixtureNodes<dim> &nodes);
-    void find_mobility(Row &row, const MixtureNodes<dim> &nodes) const;
+
+    /// What an impulse of 1 at a segment gives to the velocity of a phase there, 1/kg, in any direction.
+    double mobility_at(const CutCell<dim> &cut, const Phase phase, const MixtureNodes<dim> &nodes) const;
 
     /// Finds the impulses of the rows, from what they hold, and gives them to the nodes. Collective.
     /// @param wanted flow through the ground that may be left, over the largest of the step
