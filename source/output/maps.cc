@@ -35,7 +35,7 @@ namespace scree
     std::size_t n_columns = 1;
     for (unsigned int a = 0; a + 1 < dim; ++a)
       n_columns *= n[a];
-    for (Map *map : { &thickness, &mass, &largest_thickness, &largest_speed })
+    for (Map *map : { &thickness, &mass, &largest_thickness, &largest_speed, &largest_pressure })
       map->assign(n_columns, 0.);
     arrival_time.assign(n_columns, -1.);
   }
@@ -95,7 +95,9 @@ namespace scree
         largest_thickness[c]    = std::max(largest_thickness[c], thickness[c]);
         if (of_column[1] == 0. || thickness[c] < parameters.least_thickness)
           continue;
-        largest_speed[c] = std::max(largest_speed[c], vector_of<dim>(of_column + 2).norm() / of_column[1]);
+        const double speed  = vector_of<dim>(of_column + 2).norm() / of_column[1];
+        largest_speed[c]    = std::max(largest_speed[c], speed);
+        largest_pressure[c] = std::max(largest_pressure[c], of_column[1] / of_column[0] * speed * speed);
         if (arrival_time[c] < 0.)
           arrival_time[c] = time;
       }
@@ -123,6 +125,7 @@ namespace scree
                                                                  { "deposit (m)", &deposit },
                                                                  { "largest thickness (m)", &largest_thickness },
                                                                  { "largest speed (m/s)", &largest_speed },
+                                                                 { "largest impact pressure (Pa)", &largest_pressure },
                                                                  { "arrival time (s)", &arrival } };
     const std::string of_time = '_' + number_text(time) + 's';
     if (dim == 2)

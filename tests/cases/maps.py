@@ -17,7 +17,7 @@ from case_tools import HERE, check, run
 import relief
 import render
 
-NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "arrival_time"]
+NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "largest_impact_pressure", "arrival_time"]
 MAPS = """
 subsection Output
   subsection Maps
@@ -78,6 +78,8 @@ def block():
     is_reached = largest >= 0.02
     close(speed[is_reached], np.sqrt(10), "largest speed")
     close(speed[~is_reached], 0, "largest speed where there was nothing")
+    pressure = read_map(results, "largest_impact_pressure")
+    close(pressure / 2e4, is_reached, "largest impact pressure over density times speed squared")
     close(arrival[at_start >= 0.02], 0, "arrival time at the source")
     close(arrival[is_reached & (at_start < 0.02)], 0.1, "arrival time")
     check(np.all(np.isnan(arrival[~is_reached])), "arrival where there was nothing")
@@ -128,6 +130,7 @@ def profile():
         largest = np.maximum(at_start, at_end)
         close(table["largest thickness (m)"], largest, "largest thickness")
         close(table["largest speed (m/s)"], np.sqrt(10) * (largest > 0), "largest speed")
+        close(table["largest impact pressure (Pa)"] / 2e4, largest > 0, "largest impact pressure over density times speed squared")
         arrival = np.where(at_start > 0, 0, np.where(at_end > 0, 0.1, np.nan))
         check(np.array_equal(np.isnan(table["arrival time (s)"]), np.isnan(arrival)), "arrival where there was nothing")
         close(np.nan_to_num(table["arrival time (s)"]), np.nan_to_num(arrival), "arrival time")

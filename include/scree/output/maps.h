@@ -33,7 +33,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &thickness &first_thickness &mass &largest_thickness &largest_speed &arrival_time;
+      archive &thickness &first_thickness &mass &largest_thickness &largest_speed &largest_pressure &arrival_time;
     }
 
   private:
@@ -57,6 +57,7 @@ namespace scree
     Map mass;                       // over area, now, kg/m^2
     Map largest_thickness;          // m
     Map largest_speed;              // of a column's momentum over its mass, m/s
+    Map largest_pressure;           // momentum flux over thickness: bulk density times square of that speed, Pa
     Map arrival_time;               // s; negative: not yet
   };
 } // namespace scree
