@@ -4,6 +4,8 @@
 
 /usr/bin/python3 doc/render.py results/quickstart --field deviatoric_stress --times 0,0.5,1
 
+With --animate gif (or mp4, which needs ffmpeg) it makes a film of them instead: points.gif, water.gif.
+
 Writes points.png, of the soil, water.png, of the water, and statistics.png into the run folder; what is asked for (--field, --times, --limits)
 is part of a picture's name. --probe NAME draws a probe instead. Needs Debian's python3-vtk9 and python3-matplotlib.
 """
@@ -19,6 +21,7 @@ try:
     import matplotlib
 
     matplotlib.use("Agg")
+    import matplotlib.animation
     import matplotlib.collections
     import matplotlib.pyplot as plt
     import numpy as np
@@ -370,6 +373,41 @@ def render_points(run, output, name, times=None, limits=None, collection="points
     plt.close(figure)
 
 
+FILM_WRITERS = {"gif": ("pillow", "Pillow", "python3-pil"), "mp4": ("ffmpeg", "ffmpeg", "ffmpeg")}  # of matplotlib; program; Debian's package
+
+
+def film_writer(kind, frames_per_second=10):
+    """matplotlib's writer of a kind of film."""
+    name, program, package = FILM_WRITERS[kind]
+    if not matplotlib.animation.writers.is_available(name):
+        other = next(one for one in FILM_WRITERS if one != kind)
+        raise ValueError(f"--animate {kind}: {program} is missing. Install {package}, or write --animate {other}")
+    return matplotlib.animation.writers[name](fps=frames_per_second)
+
+
+def animate_points(run, output, name, kind, times=None, limits=None, collection="points"):
+    """A film of all pictures, or of those next to `times`, ten a second; colours are the same in all of them."""
+    box, writer = read_box(run), film_writer(kind)
+    available = read_times(run, collection)
+    frames = available if times is None else sorted({min(available, key=lambda one, wanted=wanted: abs(one - wanted)) for wanted in times})
+    if limits is None:
+        shown = [available[i] for i in np.unique(np.linspace(0, len(available) - 1, 5).astype(int))]
+        limits = colour_limits(np.concatenate([field_values(read_points(run, time, collection), name) for time in shown]), name)
+    figure, axes = panels(1, 1, box)
+    panel = axes[0, 0]
+    with writer.saving(figure, output, dpi=100):
+        for number, time in enumerate(frames):
+            panel.clear()
+            drawn = draw_points(panel, read_points(run, time, collection), box, name, limits)
+            panel.set_title(f"t = {time:.4g} s", fontsize="medium")
+            if box.dim == 2:
+                draw_ground(panel, run, box, time)
+            if number == 0:
+                figure.colorbar(drawn, ax=axes, label=field_label(name), extend="both", aspect=40, shrink=0.8, pad=0.02 if box.dim == 2 else 0.08)
+            writer.grab_frame()
+    plt.close(figure)
+
+
 # Title of the panel, and the columns of the statistics that belong to it. A scene has some of them: water's, soil's, a load's.
 STATISTICS_PANELS = {
     "energy": ["Kinetic energy (J)", "Potential energy (J)", "Elastic energy (J)", "Plastic dissipation (J)", "Wall dissipation (J)",
@@ -503,16 +541,18 @@ def _collections(arguments):
     return chosen
 
 
-def _output(arguments, name):
+def _output(arguments, name, ending=".png"):
     """The file of a picture: what is asked for makes its name, so that no other picture is overwritten."""
     if arguments.output:
-        output = arguments.output.with_name(arguments.output.stem + (f"_{name}" if name else "") + (arguments.output.suffix or ".png"))
+        output = arguments.output.with_name(arguments.output.stem + (f"_{name}" if name else "") + (arguments.output.suffix or ending))
+        if ending != ".png" and output.suffix != ending:
+            raise ValueError(f"{output}: a film of --animate {ending[1:]} ends with {ending}")
         if output.exists() and not arguments.force:
             raise ValueError(f"{output} is there already: write another name, or add --force.")
         return output
     asked = [f"{option}_{value}" if option != "field" else value
              for option, value in (("field", arguments.field), ("t", arguments.times), ("limits", arguments.limits)) if value]
-    return arguments.run / ("_".join([name or "points"] + ([] if name.startswith("statistics") else asked)).replace(",", "_").replace(" ", "") + ".png")
+    return arguments.run / ("_".join([name or "points"] + ([] if name.startswith("statistics") else asked)).replace(",", "_").replace(" ", "") + ending)
 
 
 def draw(arguments):
@@ -520,6 +560,12 @@ def draw(arguments):
     times, limits = _numbers("--times", arguments.times), _numbers("--limits", arguments.limits, 2)
     chosen = _collections(arguments)
     only = len(chosen) == 1 and arguments.output
+    if arguments.animate:
+        for collection, field in chosen.items():
+            output = _output(arguments, "" if only else collection, "." + arguments.animate)
+            animate_points(arguments.run, output, field, arguments.animate, times, limits, collection)
+            print(f"Wrote {output}")
+        return
     outputs = {collection: _output(arguments, "" if only else collection) for collection in chosen}
     panels_of_statistics = arguments.panels.split(",") if arguments.panels else None
     statistics = _output(arguments, "_".join(["statistics"] + (panels_of_statistics or [])).replace(" ", "_"))
@@ -539,6 +585,7 @@ def main():
     parser.add_argument("--times", help="times in s, separated by commas; default: first, 1/4, 1/2 and last")
     parser.add_argument("--panels", help=f"of the statistics, separated by commas: {', '.join(STATISTICS_PANELS)}; default: all")
     parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
+    parser.add_argument("--animate", choices=list(FILM_WRITERS), help="a film of all pictures (or those of --times) in place of the panels")
     parser.add_argument("--output", type=pathlib.Path, help="another file, which must not be there; default: in the run folder, named after what it shows")
     parser.add_argument("--force", action="store_true", help="overwrite the file of --output")
     arguments = parser.parse_args()

@@ -91,6 +91,12 @@ def check_render(scripts):
     scripts.writes(["mine.png", "mine_statistics.png"], "render.py", "run", "--collection", "water", "--output", "mine.png")
     scripts.refuses("mine.png is there already", "render.py", "run", "--collection", "points", "--output", "mine.png")
     scripts.writes(["mine.png", "mine_statistics.png"], "render.py", "run", "--collection", "points", "--output", "mine.png", "--force")
+    scripts.writes(["run/points_t_0.gif", "run/water_t_0.gif"], "render.py", "run", "--animate", "gif", "--times", "0")
+    scripts.writes(["film.gif"], "render.py", "run", "--animate", "gif", "--collection", "water", "--output", "film.gif")
+    scripts.refuses("film.png: a film of --animate gif ends with .gif", "render.py", "run", "--animate", "gif", "--collection", "water",
+                    "--output", "film.png")
+    if shutil.which("ffmpeg") is None:
+        scripts.refuses("--animate mp4: ffmpeg is missing. Install ffmpeg, or write --animate gif", "render.py", "run", "--animate", "mp4")
     picture = max(pathlib.Path("run/solution").glob("water*.vtu"))
     text = picture.read_bytes()
     picture.write_bytes(text[:len(text) // 2])
