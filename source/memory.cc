@@ -74,6 +74,44 @@ namespace scree
     }
 
 
+    /// What an inflow brings until the end of the run, m^3 (2D: per m).
+    template <int dim>
+    double entering_volume(const InflowParameters &inflow, const Parameters &parameters)
+    {
+      const Hydrograph hydrograph(inflow);
+      const double end = inflow.end_time < 0 ? parameters.end_time : std::min(inflow.end_time, parameters.end_time);
+      constexpr unsigned int n_parts = 200; // of the time
+      double integral                = 0;
+      for (unsigned int i = 0; i < n_parts; ++i)
+        integral += hydrograph.integral(end * i / n_parts, end * (i + 1) / n_parts);
+      if (inflow.tells_discharge())
+        return integral;
+      // The open area, by samples.
+      const GridParameters &grid = parameters.grid;
+      const Region<dim> region(entry_name(inflow.subsection, "Region"), inflow.region);
+      constexpr unsigned int n = samples_of_axis<dim>;
+      const unsigned int axis  = inflow.face_number(dim) / 2;
+      double area              = 0;
+      for (unsigned int i = 0; i < Utilities::pow(n, dim - 1); ++i)
+        {
+          Point<dim> x;
+          x[axis]         = inflow.place(grid);
+          double of_place = 1;
+          for (unsigned int a = 0, rest = i; a < dim; ++a)
+            if (a != axis)
+              {
+                const double side = grid.upper_corner[a] - grid.lower_corner[a];
+                x[a]              = grid.lower_corner[a] + side * (rest % n + 0.5) / n;
+                of_place *= side / n;
+                rest /= n;
+              }
+          area += region.contains(x) ? of_place : 0.;
+        }
+      const unsigned int sign = inflow.face_number(dim) % 2;
+      return integral * area * inflow.unit_direction(dim)[axis] * (sign == 0 ? 1. : -1.);
+    }
+
+
     /// The number in a file; infinity if there is none, such as "max".
     double number_in(const std::string &file)
     {
@@ -196,13 +234,22 @@ namespace scree
     for (unsigned int i = 0; i < soil.size(); ++i)
       estimate.n_soil_points +=
           cells_in(soil[i].template places<dim>()) * std::pow(parameters.bodies[i].seeding.points_per_cell, dim);
-    double n_wet_cells = 0;
+    double n_wet_cells = 0, n_entered_water = 0;
     if (parameters.has_water)
       for (const WaterPart &part : water_parts(parameters.water, soil))
         n_wet_cells += cells_in(Region<dim>(entry_name("Water", "Region"), part.region));
-    estimate.n_cells = grid.is_adaptive() ? cells_around<dim>(is_inside, grid) : n_cells;
+    double n_entered_cells = 0; // full of what enters
+    for (const InflowParameters &inflow : parameters.inflows)
+      {
+        const double n_filled = entering_volume<dim>(inflow, parameters) / std::pow(grid.cell_size, dim);
+        const double n_points = n_filled * std::pow(parameters.points_per_cell(inflow), dim);
+        n_entered_cells += n_filled;
+        (inflow.is_water() ? n_entered_water : estimate.n_soil_points) += n_points;
+      }
+    estimate.n_cells =
+        grid.is_adaptive() ? std::min(cells_around<dim>(is_inside, grid) + n_entered_cells, n_cells) : n_cells;
     if (parameters.water.point_sets_kind() == PointSets::double_point)
-      estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim);
+      estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim) + n_entered_water;
 
     estimate.bytes_of_cells = bytes_of_cell[dim - 2] * estimate.n_cells + bytes_of_wet_cell[dim - 2] * n_wet_cells;
     estimate.bytes_of_points =

@@ -80,8 +80,10 @@ namespace scree
   {
     name_bodies();
     obstacles.emplace_back(ObstacleParameters::prefix + "Wall");
+    inflows.emplace_back(InflowParameters::prefix + "Torrent");
     declare(handler);
     declare_water(handler);
+    inflows.clear(); // It is there to be printed, and nothing reads entries into it.
   }
 
 
@@ -92,6 +94,7 @@ namespace scree
       {
         name_bodies();
         name_obstacles();
+        name_inflows();
         has_water = file.has_subsection("Water");
         // Suggestions know of water's entries also where a dry run's list of all entries leaves them out: read again,
         // that list must not make the scene wet.
@@ -108,6 +111,12 @@ namespace scree
           declare_water(handler);
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
+        for (const InflowParameters &inflow : inflows)
+          {
+            water.is_fed = water.is_fed || inflow.is_water();
+            for (BodyParameters &body : bodies)
+              body.seeding.is_fed = body.seeding.is_fed || inflow.body == body.name;
+          }
         check();
         read_maps();
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
@@ -136,7 +145,8 @@ namespace scree
     for (const std::string &name : Utilities::split_string_list(names))
       {
         const bool is_new   = seen.insert(name).second;
-        const bool is_taken = taken.count(name) > 0 || name.rfind(ObstacleParameters::prefix, 0) == 0;
+        const bool is_taken = taken.count(name) > 0 || name.rfind(ObstacleParameters::prefix, 0) == 0 ||
+                              name.rfind(InflowParameters::prefix, 0) == 0;
         require_entry(!name.empty() && is_new && !is_taken && name != "none",
                       "",
                       "Bodies",
@@ -152,21 +162,36 @@ namespace scree
   }
 
 
-  void Parameters::name_obstacles()
+  std::vector<std::string> Parameters::named_subsections(const std::string &prefix, const std::string &kind) const
   {
     std::set<std::string> seen;
-    for (const std::string &subsection : file.subsections(ObstacleParameters::prefix))
+    const auto subsections = file.subsections(prefix);
+    for (const std::string &subsection : subsections)
       {
         std::string lower_case = subsection;
         std::transform(subsection.begin(), subsection.end(), lower_case.begin(), [](const unsigned char c) {
           return std::tolower(c);
         });
         if (!seen.insert(lower_case).second)
-          throw EntryError("subsection " + subsection +
-                           ": another obstacle's name differs from it by case only, and so would the columns of the "
+          throw EntryError("subsection " + subsection + ": another " + kind +
+                           "'s name differs from it by case only, and so would the columns of the "
                            "statistics. Write another name.");
-        obstacles.emplace_back(subsection);
       }
+    return subsections;
+  }
+
+
+  void Parameters::name_obstacles()
+  {
+    for (const std::string &subsection : named_subsections(ObstacleParameters::prefix, "obstacle"))
+      obstacles.emplace_back(subsection);
+  }
+
+
+  void Parameters::name_inflows()
+  {
+    for (const std::string &subsection : named_subsections(InflowParameters::prefix, "inflow"))
+      inflows.emplace_back(subsection);
   }
 
 
@@ -174,6 +199,8 @@ namespace scree
   {
     if (subsection + ' ' == ObstacleParameters::prefix)
       return "An obstacle has a name. Write subsection Obstacle Wall, or another name.";
+    if (subsection + ' ' == InflowParameters::prefix)
+      return "An inflow has a name. Write subsection Inflow Torrent, or another name.";
     if (!file.sets(subsection, "Region") || subsection.find('/') != std::string::npos)
       return "";
     return "It is no body either: entry \"Bodies\" lists " + file.value("", "Bodies", "Soil") + ". Add " +
@@ -207,6 +234,8 @@ namespace scree
     bed.add_parameters(prm);
     for (ObstacleParameters &obstacle : obstacles)
       obstacle.add_parameters(prm);
+    for (InflowParameters &inflow : inflows)
+      inflow.add_parameters(prm);
     surface_load.add_parameters(prm);
     settling.add_parameters(prm);
     output.add_parameters(prm);
@@ -241,6 +270,8 @@ namespace scree
     bed.check(dimension);
     for (const ObstacleParameters &obstacle : obstacles)
       obstacle.check(dimension, has_water);
+    for (const InflowParameters &inflow : inflows)
+      check_inflow(inflow);
     surface_load.check(grid, dimension);
     body_force.check(dimension);
     base_motion.check(dimension);
@@ -259,6 +290,44 @@ namespace scree
       check_water();
     if (bodies.empty())
       check_without_soil();
+  }
+
+
+  void Parameters::check_inflow(const InflowParameters &inflow) const
+  {
+    const auto body =
+        std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == inflow.body; });
+    std::string names;
+    for (const BodyParameters &one : bodies)
+      names += (names.empty() ? "" : ", ") + one.name;
+    if (has_water)
+      names += (names.empty() ? "" : ", ") + std::string("Water");
+    require_entry(body != bodies.end() || (inflow.is_water() && has_water),
+                  inflow.subsection,
+                  "Body",
+                  inflow.body,
+                  inflow.is_water() ? "there is no subsection Water. Add one, or write the name of a body."
+                                    : "write what enters: " + names + ".");
+    require_entry(body == bodies.end() || !body->is_rigid(),
+                  inflow.subsection,
+                  "Body",
+                  inflow.body,
+                  "a body of \"Material = rigid\" does not move. Write another one.");
+    require_entry(!has_water || water.point_sets_kind() == PointSets::double_point,
+                  "Water",
+                  "Point sets",
+                  water.point_sets,
+                  "with subsection " + inflow.subsection +
+                      " water needs points of its own. Write double, or remove the inflow.");
+    inflow.check(grid, dimension, points_per_cell(inflow));
+  }
+
+
+  unsigned int Parameters::points_per_cell(const InflowParameters &inflow) const
+  {
+    const auto body =
+        std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == inflow.body; });
+    return body == bodies.end() ? water.points_per_cell : body->seeding.points_per_cell;
   }
 
 

@@ -37,13 +37,35 @@ namespace scree
         for (const WaterPart &part : water_parts(parameters.water, soil))
           parts->push_back(
               { Region<dim>(entry_name("Water", "Region"), part.region), parameters.water.points_per_cell });
+      struct Section // of an inflow
+      {
+        Region<dim> region;
+        unsigned int axis;
+        double lower; // coordinate of the lower side of a layer, m
+      };
+      const auto sections = std::make_shared<std::vector<Section>>();
+      for (const InflowParameters &inflow : parameters.inflows)
+        {
+          const unsigned int face = inflow.face_number(dim);
+          const double x          = inflow.place(parameters.grid);
+          sections->push_back(
+              { Region<dim>(entry_name(inflow.subsection, "Region"), inflow.region),
+                face / 2,
+                face % 2 == 0 ? x : x - parameters.grid.cell_size / parameters.points_per_cell(inflow) });
+        }
       unsigned int n_places = 0;
       for (const Part &part : *parts)
         n_places += Utilities::fixed_power<dim>(part.points_per_cell) * Region<dim>::n_places_of_cube;
       const auto loaded = [&parameters](const Point<dim> &cell) {
         return parameters.surface_load.touches_cell(cell.begin_raw(), parameters.grid, dim);
       };
-      const auto in_cell = [parts, loaded, &parameters](const Point<dim> &cell) {
+      const auto fed = [sections, &parameters](const Point<dim> &cell) {
+        return std::any_of(sections->begin(), sections->end(), [&](const Section &section) {
+          const double beyond = section.lower - cell[section.axis], width = parameters.grid.cell_size;
+          return beyond > -1e-6 * width && beyond < (1. - 1e-6) * width && section.region.touches_cube(cell, width);
+        });
+      };
+      const auto in_cell = [parts, loaded, fed, &parameters](const Point<dim> &cell) {
         const auto touches_cell = [&](const Part &part) {
           const unsigned int n = part.points_per_cell;
           const double width   = parameters.grid.cell_size / n;
@@ -57,10 +79,10 @@ namespace scree
             }
           return false;
         };
-        return loaded(cell) || std::any_of(parts->begin(), parts->end(), touches_cell);
+        return loaded(cell) || fed(cell) || std::any_of(parts->begin(), parts->end(), touches_cell);
       };
-      const auto at_place = [parts, loaded](const Point<dim> &cell, const Point<dim> &x) {
-        return loaded(cell) ||
+      const auto at_place = [parts, loaded, fed](const Point<dim> &cell, const Point<dim> &x) {
+        return loaded(cell) || fed(cell) ||
                std::any_of(parts->begin(), parts->end(), [&](const Part &part) { return part.region.contains(x); });
       };
       return { in_cell, at_place, n_places };
@@ -105,6 +127,9 @@ namespace scree
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);
+    for (const InflowParameters &inflow : parameters.inflows)
+      inflows.emplace_back(inflow, grid, parameters.grid.cell_size / parameters.points_per_cell(inflow), ground.get());
+    hold_at_inflows();
     if (parameters.surface_load.is_set())
       loads.emplace_back(grid, parameters.surface_load, points_per_cell(parameters).second);
   }
@@ -179,6 +204,7 @@ namespace scree
                   *open_cells,
                   parameters.pressure.relative_tolerance)
             : nullptr,
+        inflows,
         timer);
   }
 
@@ -194,6 +220,9 @@ namespace scree
       open_cells->reinit();
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.reinit();
+    for (Inflow<dim> &inflow : inflows)
+      inflow.reinit();
+    hold_at_inflows();
   }
 
 
@@ -215,14 +244,176 @@ namespace scree
     forcing.set_step(time, time_step);
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.begin_step(time, time_step);
+    unsigned int number = 0;
+    bool has_changed    = false;
+    for (Inflow<dim> &inflow : inflows)
+      {
+        has_changed = has_changed || inflow.is_open != inflow.lasts(time);
+        on_all_ranks(communicator, [&] { inflow.begin_step(time, time_step); });
+        constraints.set_inflow_velocity(number++, inflow.velocity());
+      }
+    if (has_changed)
+      hold_at_inflows();
   }
 
 
   template <int dim>
-  void Scene<dim>::end_step(const double time_step)
+  void Scene<dim>::end_step(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals)
   {
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.end_step(time_step);
+    for (const Inflow<dim> &inflow : inflows)
+      if (inflow.feeds_water)
+        totals.entered_energy += time_step * inflow.power_of_pressure(pressure);
+    for (Inflow<dim> &inflow : inflows)
+      if (const unsigned int n_layers = inflow.end_step(); n_layers > 0)
+        {
+          unsigned int n_points = 0;
+          for (unsigned int layer = 0; layer < n_layers; ++layer)
+            n_points += add_layer(inflow, n_layers - 1 - layer, pressure, totals);
+          AssertThrow(Utilities::MPI::sum(n_points, communicator) == n_layers * inflow.places().size(),
+                      ExcInternalError("Points entered beyond the cells of the section."));
+        }
+  }
+
+
+  template <int dim>
+  unsigned int Scene<dim>::add_layer(const Inflow<dim> &inflow,
+                                     const unsigned int back,
+                                     const PressureOfCell<dim> &pressure,
+                                     RunTotals<dim> &totals)
+  {
+    const auto body =
+        std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
+    PointSet<dim> &points = inflow.feeds_water ? water.front().points() : body->points;
+    const auto surfaces =
+        inflow.feeds_water || parameters.has_water ? std::vector<RigidSurface<dim>>() : rigid_surfaces();
+    std::vector<double> properties(points.stride());
+    unsigned int n_points = 0;
+    for (unsigned int i = 0; i < inflow.places().size(); ++i)
+      {
+        const auto &place  = inflow.places()[i];
+        const Point<dim> x = place.location + inflow.advance_of(back) * inflow.inward();
+        const auto *cell   = inflow.cell_at(x);
+        if (cell == nullptr)
+          continue;
+        const unsigned int index = (*cell)->active_cell_index();
+        const Point<dim> place_in_cell((x - (*cell)->vertex(0)) / grid.cell_size());
+        std::fill(properties.begin(), properties.end(), 0.);
+        if (inflow.feeds_water)
+          fill_entrant(inflow, water.front(), place.volume, pressure(index), place_in_cell, properties, totals);
+        else
+          {
+            fill_entrant(inflow, *body, place.volume, properties, totals);
+            set_touching_distances(*body, surfaces, index, place_in_cell, properties.data());
+            if (body->layout.has_start)
+              std::copy_n(x.begin_raw(), dim, properties.begin() + body->layout.start);
+          }
+        const double mass = properties[inflow.feeds_water ? water.front().layout.mass : body->layout.mass];
+        totals.entered_momentum += mass * inflow.velocity();
+        totals.entered_energy +=
+            mass * (0.5 * inflow.velocity().norm_square() - forcing.gravity() * (x - Point<dim>()));
+        points.add(*cell, x, points.next_id + i, properties);
+        ++n_points;
+      }
+    points.next_id += inflow.places().size();
+    points.finish_adding();
+    return n_points;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::fill_entrant(const Inflow<dim> &inflow,
+                                const SoilBody<dim> &body,
+                                const double volume,
+                                std::vector<double> &properties,
+                                RunTotals<dim> &totals) const
+  {
+    const auto &layout = body.layout;
+    const auto entry = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const BodyParameters &one) {
+      return one.name == body.name;
+    });
+    const InitialStateParameters &state = entry->initial_state;
+    std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + layout.velocity);
+    properties[layout.mass]                    = body.density * volume;
+    properties[layout.volume]                  = volume;
+    double stress[n_symmetric_components<dim>] = {};
+    if (state.stress_kind() == InitialStress::isotropic)
+      std::fill_n(stress, 3, -state.pressure);
+    body.material->initialise(stress,
+                              properties.data() + layout.left_cauchy_green,
+                              properties.data() + layout.stress,
+                              properties.data() + layout.internal_variables);
+    ++totals.n_entered;
+    totals.entered_mass += properties[layout.mass];
+    totals.entered_energy += volume * body.material->elastic_energy(properties.data() + layout.left_cauchy_green);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::fill_entrant(const Inflow<dim> &inflow,
+                                const WaterPhase<dim> &phase,
+                                const double volume,
+                                const std::array<double, (1 << dim)> &pressure,
+                                const Point<dim> &place,
+                                std::vector<double> &properties,
+                                RunTotals<dim> &totals) const
+  {
+    const auto &layout = phase.layout;
+    std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + layout.velocity);
+    properties[layout.mass]   = phase.density * volume;
+    properties[layout.volume] = volume;
+    for (unsigned int v = 0; v < pressure.size(); ++v)
+      {
+        properties[layout.pressure] += pressure[v] * GeometryInfo<dim>::d_linear_shape_function(place, v);
+        const Tensor<1, dim> slope = GeometryInfo<dim>::d_linear_shape_function_gradient(place, v);
+        for (unsigned int a = 0; a < dim; ++a)
+          properties[layout.pressure_gradient + a] += pressure[v] * slope[a] / grid.cell_size();
+      }
+    totals.entered_water_mass += properties[layout.mass];
+  }
+
+
+  template <int dim>
+  void Scene<dim>::hold_at_inflows()
+  {
+    if (inflows.empty())
+      return;
+    std::vector<unsigned int> inflow_of_node(grid.numbering().n_local(), Constraints<dim>::free);
+    std::vector<typename Constraints<dim>::MovedByInflow> moved;
+    for (const Inflow<dim> &inflow : inflows)
+      {
+        for (unsigned int node = 0; node < inflow_of_node.size(); ++node)
+          if (inflow.is_open && inflow.moves(node))
+            inflow_of_node[node] = moved.size();
+        moved.push_back({ inflow.velocity(), !inflow.feeds_water });
+      }
+    constraints.set_inflows(inflow_of_node, moved);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::include_inflows(Speeds &speeds) const
+  {
+    for (const Inflow<dim> &inflow : inflows)
+      if (inflow.is_open)
+        {
+          speeds.include_point(inflow.velocity().norm());
+          for (const SoilBody<dim> &body : bodies)
+            if (body.name == inflow.body)
+              speeds.include_wave(body.wave_speed(body.material->initial_bulk_modulus(0.), 0.));
+        }
+  }
+
+
+  template <int dim>
+  std::vector<std::string> Scene<dim>::texts_of_inflows() const
+  {
+    std::vector<std::string> texts;
+    for (const Inflow<dim> &inflow : inflows)
+      texts.push_back("Inflow " + inflow.name + ": " + number_text(inflow.area()) + (dim == 2 ? " m" : " m^2") +
+                      " are open; " + std::to_string(inflow.places().size()) + " points a layer of " + inflow.body);
+    return texts;
   }
 
 
@@ -240,6 +431,9 @@ namespace scree
       append(body.points, body.layout.velocity);
     for (const auto &part : water)
       append(part.points(), part.layout.velocity);
+    for (const auto &inflow : inflows)
+      if (inflow.is_open)
+        blocks.insert(blocks.end(), inflow.blocks().begin(), inflow.blocks().end());
     for (const auto &load : loads)
       for_each_point(load.points(),
                      [&](const auto &point) { grid.append_blocks(point.location, Tensor<1, dim>(), blocks); });
@@ -276,6 +470,7 @@ namespace scree
   {
     fill_with_points();
     constraints.hold_soil(rigid_nodes());
+    hold_at_inflows();
     set_initial_state();
   }
 
@@ -334,20 +529,31 @@ namespace scree
     const auto surfaces = rigid_surfaces();
     for (auto &body : bodies)
       for_each_point(body.points, [&](const auto &point) {
-        for (unsigned int s = 0; s < surfaces.size(); ++s)
-          {
-            double &distance = point.properties[body.layout.touching_distance(s)];
-            distance         = 0.5 * body.spacing;
-            if (!surfaces[s].samples->is_near(point.cell))
-              continue;
-            const SurfaceView<dim> view = surfaces[s].samples->view(point.cell, point.reference_location);
-            double largest              = 0.; // component of the normal
-            for (unsigned int a = 0; a < dim; ++a)
-              largest = std::max(largest, std::abs(view.normal[a]));
-            if (view.distance < body.spacing * largest * (1. + 1e-9)) // the lattice's lowest point over the surface
-              distance = std::max(0., view.distance);
-          }
+        set_touching_distances(body, surfaces, point.cell, point.reference_location, point.properties);
       });
+  }
+
+
+  template <int dim>
+  void Scene<dim>::set_touching_distances(const SoilBody<dim> &body,
+                                          const std::vector<RigidSurface<dim>> &surfaces,
+                                          const unsigned int cell,
+                                          const Point<dim> &place,
+                                          double *properties) const
+  {
+    for (unsigned int s = 0; s < surfaces.size(); ++s)
+      {
+        double &distance = properties[body.layout.touching_distance(s)];
+        distance         = 0.5 * body.spacing;
+        if (!surfaces[s].samples->is_near(cell))
+          continue;
+        const SurfaceView<dim> view = surfaces[s].samples->view(cell, place);
+        double largest              = 0.; // component of the normal
+        for (unsigned int a = 0; a < dim; ++a)
+          largest = std::max(largest, std::abs(view.normal[a]));
+        if (view.distance < body.spacing * largest * (1. + 1e-9)) // the lattice's lowest point over the surface
+          distance = std::max(0., view.distance);
+      }
   }
 
 

@@ -42,6 +42,7 @@ namespace scree
                    { !scene.loads.empty(),
                      parameters.water.volume_correction_rate > 0.,
                      parameters.water.viscosity > 0.,
+                     !parameters.inflows.empty(),
                      scene.bed.get(),
                      &scene.obstacles })
       , rows(folder.file("statistics"))
@@ -130,6 +131,8 @@ namespace scree
         folder.log(remark);
     if (const std::string base = scene.forcing.text_of_base(); !base.empty())
       folder.log(base);
+    for (const std::string &text : scene.texts_of_inflows())
+      folder.log(text);
   }
 
 
@@ -269,7 +272,15 @@ namespace scree
     point_updates += step.n_updates;
     scene.account_for_lost_points(totals, clock.time());
     if (is_released)
-      scene.end_step(time_step);
+      end_step(time_step);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::end_step(const double time_step)
+  {
+    const std::unique_ptr<WaterView<dim>> water = scene.inflows.empty() ? nullptr : scheme->water_view();
+    scene.end_step(time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
   }
 
 
@@ -322,7 +333,8 @@ namespace scree
         value = std::numeric_limits<double>::infinity();
     largest.push_back(static_cast<double>(stop.reason()));
     Utilities::MPI::max(largest, communicator, largest);
-    speeds      = { largest[0], largest[1] };
+    speeds = { largest[0], largest[1] };
+    scene.include_inflows(speeds);
     stop_reason = static_cast<StopReason>(largest.back());
     largest.pop_back();
   }
@@ -540,6 +552,10 @@ namespace scree
     archive &totals &statistics &graphics &rows &probes &maps;
     for (Obstacle<dim> &obstacle : scene.obstacles)
       archive &obstacle;
+    for (Inflow<dim> &inflow : scene.inflows)
+      archive &inflow;
+    for (PointSet<dim> *points : point_sets())
+      archive & points->next_id;
     clock.set(time, step);
   }
 

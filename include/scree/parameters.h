@@ -18,6 +18,7 @@
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
 #include <scree/scheme/explicit_step.h>
+#include <scree/scheme/inflow_parameters.h>
 #include <scree/scheme/pressure_parameters.h>
 #include <scree/scheme/time_step.h>
 #include <scree/transfer/transfer_parameters.h>
@@ -81,6 +82,7 @@ namespace scree
     BoundaryParameters boundaries;
     BedParameters bed;
     std::vector<ObstacleParameters> obstacles; ///< also those that are not set
+    std::vector<InflowParameters> inflows;
     SurfaceLoadParameters surface_load;
     SettlingParameters settling;
     OutputParameters output;
@@ -97,6 +99,9 @@ namespace scree
     /// The bed, and the obstacles that are set.
     unsigned int n_rigid_surfaces() const;
 
+    /// Points of what an inflow brings, along each axis of a cell.
+    unsigned int points_per_cell(const InflowParameters &inflow) const;
+
     /// Every entry with its value.
     CaseEntries entries() const;
 
@@ -112,11 +117,17 @@ namespace scree
   private:
     void name_bodies();
     void name_obstacles();
+    void name_inflows();
+
+    /// The subsections with this prefix. Throws EntryError if two differ by case only.
+    /// @param kind `obstacle`, for the message
+    std::vector<std::string> named_subsections(const std::string &prefix, const std::string &kind) const;
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
     void check() const;
     void read_maps();
     void check_water() const;
+    void check_inflow(const InflowParameters &inflow) const;
     void check_dry() const;
     void check_without_soil() const;
 

@@ -9,6 +9,7 @@
 #include <scree/parameters.h>
 #include <scree/scheme/bed_contact.h>
 #include <scree/scheme/forcing.h>
+#include <scree/scheme/inflow.h>
 #include <scree/scheme/scheme.h>
 
 #include <deal.II/base/timer.h>
@@ -34,8 +35,16 @@ namespace scree
     /// What acts on the soil in the step, s, that comes.
     void begin_step(const double time, const double time_step);
 
-    /// Moves the obstacles to where they are after the step. Collective.
-    void end_step(const double time_step);
+    /// Moves the obstacles to where they are after the step, and puts in what enters with it, which it books.
+    /// Collective.
+    /// @param pressure of the water, for its points that enter; read in scenes with water
+    void end_step(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
+
+    /// Adds the speeds of what enters.
+    void include_inflows(Speeds &speeds) const;
+
+    /// A line for the log about each inflow.
+    std::vector<std::string> texts_of_inflows() const;
 
     /// Fits what depends on the mesh and its partition to them. Collective.
     void reinit();
@@ -82,6 +91,7 @@ namespace scree
     std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
     std::list<SurfaceLoad<dim>> loads;
     std::list<Obstacle<dim>> obstacles;
+    std::list<Inflow<dim>> inflows;
     std::optional<Raster> bed_friction;         ///< coefficients of friction; nothing if they are the same everywhere
     std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
     std::unique_ptr<SampledSurface<dim>> bed;   ///< the same as the mesh sees it
@@ -92,6 +102,44 @@ namespace scree
     void fill_with_points();
     void set_velocity_gradients();
     void set_touching_distances();
+
+    /// Of one point of a body.
+    /// @param surfaces as rigid_surfaces()
+    /// @param cell active cell index
+    /// @param place in the cell, from 0 to 1 along each axis
+    void set_touching_distances(const SoilBody<dim> &body,
+                                const std::vector<RigidSurface<dim>> &surfaces,
+                                const unsigned int cell,
+                                const dealii::Point<dim> &place,
+                                double *properties) const;
+
+    /// Tells the nodes which inflow moves them.
+    void hold_at_inflows();
+
+    /// Puts in a layer of an inflow; returns how many points of this rank that are. `back` layers have entered after
+    /// it.
+    unsigned int add_layer(const Inflow<dim> &inflow,
+                           const unsigned int back,
+                           const PressureOfCell<dim> &pressure,
+                           RunTotals<dim> &totals);
+
+    /// Writes the properties of a point that enters, which are 0 before, and books its mass and energy.
+    void fill_entrant(const Inflow<dim> &inflow,
+                      const SoilBody<dim> &body,
+                      const double volume,
+                      std::vector<double> &properties,
+                      RunTotals<dim> &totals) const;
+
+    /// The same of a point of water.
+    /// @param pressure at the corners of its cell, Pa
+    /// @param place in the cell, from 0 to 1 along each axis
+    void fill_entrant(const Inflow<dim> &inflow,
+                      const WaterPhase<dim> &phase,
+                      const double volume,
+                      const std::array<double, (1 << dim)> &pressure,
+                      const dealii::Point<dim> &place,
+                      std::vector<double> &properties,
+                      RunTotals<dim> &totals) const;
     void require_points_outside_obstacles() const;
 
     /// The bed and the obstacles: what points in contact have slots for, in this order.

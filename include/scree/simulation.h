@@ -102,6 +102,9 @@ namespace scree
     /// Repartitions the mesh, if that is due and worthwhile.
     void repartition();
 
+    /// Moves on what the scene moves by itself, and puts in what enters.
+    void end_step(const double time_step);
+
     /// The blocks that are to be fine, of all ranks: around the points and on their way. Collective.
     Blocks blocks_ahead(const double time_step) const;
 

@@ -79,6 +79,14 @@ namespace scree
   void advise(Parameters &parameters, const double accuracy, const MPI_Comm communicator, std::ostream &out)
   {
     constexpr double seconds_of_steps = 0.5;
+    for (const InflowParameters &inflow : parameters.inflows)
+      require_entry(
+          false,
+          inflow.subsection,
+          "Body",
+          inflow.body,
+          "--advise looks at the points of the start, and cannot tell what a case costs whose points enter on "
+          "the way. Remove the inflow for it, and write its points as a body.");
     const PassingFolder folder(communicator);
 
     Advice advice;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace scree
 {
@@ -25,11 +26,12 @@ namespace scree
 
 
   template <int dim>
-  NodeConstraints<dim> Constraints<dim>::of_faces(const std::uint8_t faces, const bool is_rigid) const
+  NodeConstraints<dim>
+  Constraints<dim>::of_faces(const std::uint8_t faces, const bool is_rigid, const bool is_moved) const
   {
     NodeConstraints<dim> result;
     result.is_rigid = is_rigid;
-    if (is_rigid) // holds the soil in place of the walls
+    if (is_rigid || is_moved) // holds the soil in place of the walls
       for (unsigned int a = 0; a < dim; ++a)
         result.add({ Point<dim>::unit_vector(a) });
     else
@@ -48,10 +50,44 @@ namespace scree
 
 
   template <int dim>
+  void Constraints<dim>::add_inflow(const MovedByInflow &inflow, NodeConstraints<dim> &constraints) const
+  {
+    if (inflow.soil && !constraints.is_rigid)
+      constraints.soil_velocity = inflow.velocity;
+    if (!water_walls)
+      return;
+    constraints.water_velocity = inflow.velocity;
+    constraints.water_faces    = BearingFaces<dim>();
+    constraints.water_held.hold_all();
+  }
+
+
+  template <int dim>
   void Constraints<dim>::hold_soil(const std::vector<char> &is_rigid)
   {
     rigid = is_rigid;
+    inflow_of_node.clear();
     reinit();
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::set_inflows(const std::vector<unsigned int> &of_node,
+                                     const std::vector<MovedByInflow> &all_inflows)
+  {
+    inflow_of_node = of_node;
+    inflows        = all_inflows;
+    reinit();
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::set_inflow_velocity(const unsigned int inflow, const Tensor<1, dim> &velocity)
+  {
+    inflows[inflow].velocity = velocity;
+    for (unsigned int set = 0; set < inflow_of_set.size(); ++set)
+      if (inflow_of_set[set] == inflow)
+        add_inflow(inflows[inflow], sets[set]);
   }
 
 
@@ -60,21 +96,29 @@ namespace scree
   {
     set_of_node.assign(grid.numbering().n_local(), free);
     sets.clear();
+    inflow_of_set.clear();
     // Nodes on the same faces share a set.
-    std::map<std::pair<std::uint8_t, bool>, unsigned int> set_of_kind;
+    std::map<std::tuple<std::uint8_t, bool, unsigned int>, unsigned int> set_of_kind;
     for (unsigned int node = 0; node < set_of_node.size(); ++node)
       {
-        const std::uint8_t faces = grid.node_faces(node);
-        const bool is_rigid      = !rigid.empty() && rigid[node];
+        const std::uint8_t faces  = grid.node_faces(node);
+        const bool is_rigid       = !rigid.empty() && rigid[node];
+        const unsigned int inflow = inflow_of_node.empty() ? free : inflow_of_node[node];
         if (faces == 0 && !is_rigid)
           continue;
-        const auto [entry, is_new] = set_of_kind.emplace(std::make_pair(faces, is_rigid), free);
+        const auto [entry, is_new] = set_of_kind.emplace(std::make_tuple(faces, is_rigid, inflow), free);
         if (is_new)
-          if (const NodeConstraints<dim> constraints = of_faces(faces, is_rigid); constraints.any())
-            {
-              entry->second = sets.size();
-              sets.push_back(constraints);
-            }
+          {
+            NodeConstraints<dim> constraints = of_faces(faces, is_rigid, inflow != free && inflows[inflow].soil);
+            if (inflow != free)
+              add_inflow(inflows[inflow], constraints);
+            if (constraints.any())
+              {
+                entry->second = sets.size();
+                sets.push_back(constraints);
+                inflow_of_set.push_back(inflow);
+              }
+          }
         set_of_node[node] = entry->second;
       }
     if (!gate)

@@ -41,6 +41,10 @@ namespace scree
                                   &total.lost_mass,
                                   &total.lost_water_mass,
                                   &total.lost_energy,
+                                  &total.n_entered,
+                                  &total.entered_mass,
+                                  &total.entered_water_mass,
+                                  &total.entered_energy,
                                   &total.plastic_dissipation,
                                   &total.n_lost,
                                   &total.n_updates,
@@ -53,7 +57,8 @@ namespace scree
                                     &balance.pressure_impulse,
                                     &balance.load_impulse,
                                     &balance.bed_impulse,
-                                    &total.lost_momentum })
+                                    &total.lost_momentum,
+                                    &total.entered_momentum })
       for (unsigned int a = 0; a < dim; ++a)
         values.push_back(&(*vector)[a]);
     for (WallImpulses<dim> *walls : { &balance.soil_walls, &balance.water_walls })
@@ -113,8 +118,8 @@ namespace scree
     const RunTotals<dim> totals     = local.sum_over_ranks(communicator);
     const StepBalance<dim> &balance = totals.balance;
     const Tensor<1, dim> impulse    = balance.wall_impulse + balance.body_impulse + balance.pressure_impulse +
-                                   balance.load_impulse + balance.bed_impulse + balance.obstacle_impulse() -
-                                   totals.lost_momentum;
+                                   balance.load_impulse + balance.bed_impulse + balance.obstacle_impulse() +
+                                   totals.entered_momentum - totals.lost_momentum;
 
     const double energy = now.kinetic + now.potential + now.elastic;
     if (!has_start)
@@ -141,7 +146,7 @@ namespace scree
     add("Numerical dissipation (J)",
         start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.bed_dissipation -
             balance.drag_dissipation - balance.viscous_dissipation - totals.lost_energy + balance.load_work +
-            balance.correction_work + balance.obstacle_energy());
+            balance.correction_work + balance.obstacle_energy() + totals.entered_energy);
     if (!bodies.empty())
       add_soil_columns(bodies, now, totals, last_step);
     add("Points lost", totals.n_lost);
@@ -152,6 +157,8 @@ namespace scree
       add_bed_columns(bodies, water, balance);
     if (further.obstacles != nullptr && !further.obstacles->empty())
       add_obstacle_columns(balance, time);
+    if (further.inflows)
+      add_inflow_columns(water, totals);
     if (further.loads)
       add("Load work (J)", balance.load_work);
     if (further.volume_correction)
@@ -180,6 +187,19 @@ namespace scree
     add("Fallbacks", totals.n_fallbacks);
     add("Vertices", totals.n_vertices);
     add("Unresolved", totals.n_unresolved);
+  }
+
+
+  template <int dim>
+  void Statistics<dim>::add_inflow_columns(const std::list<WaterPhase<dim>> &water, const RunTotals<dim> &totals)
+  {
+    add("Points entered", totals.n_entered);
+    add("Mass entered (kg)", totals.entered_mass);
+    if (!water.empty())
+      add("Water entered (kg)", totals.entered_water_mass);
+    for (unsigned int a = 0; a < dim; ++a)
+      add(std::string("Momentum entered ") + "xyz"[a] + " (N s)", totals.entered_momentum[a]);
+    add("Energy entered (J)", totals.entered_energy);
   }
 
 

@@ -129,6 +129,7 @@ namespace scree
       }
     handler.update_cached_numbers();
     points.sort(); // brings the points of a cell together in memory
+    points.next_id += Utilities::MPI::sum(static_cast<types::particle_index>(seeds.size()), communicator);
   }
 
   template std::vector<Seed<2>>

@@ -200,6 +200,26 @@ namespace scree
 
 
   template <int dim>
+  void PointSet<dim>::add(const typename Triangulation<dim>::active_cell_iterator &cell,
+                          const Point<dim> &location,
+                          const types::particle_index id,
+                          const std::vector<double> &properties)
+  {
+    const unsigned int number = table.number_of(cell);
+    const unsigned int slot   = insert_into(number, location, id, make_array_view(properties));
+    entrants.push_back({ table[number].number, static_cast<unsigned int>(entrants.size()), number, slot });
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::finish_adding()
+  {
+    if (!entrants.empty())
+      update_lists();
+  }
+
+
+  template <int dim>
   void PointSet<dim>::hand_over(const Disorder disorder)
   {
     if (disorder != Disorder::none)

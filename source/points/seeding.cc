@@ -47,7 +47,7 @@ namespace scree
   {
     const std::string where_region = entry_name(body, "Region");
     const std::string where_speed  = entry_name(body, "Initial velocity");
-    require_entry(region != SeedingParameters().region || source.is_region(),
+    require_entry(region != SeedingParameters().region || source.is_region() || is_fed,
                   body,
                   "Region",
                   region,
@@ -154,7 +154,7 @@ namespace scree
     double volume = 0;
     for (const Seed<dim> &one : seeds)
       volume += one.volume;
-    require_entry(Utilities::MPI::sum(volume, communicator) > 0,
+    require_entry(Utilities::MPI::sum(volume, communicator) > 0 || parameters.is_fed,
                   body.name,
                   parameters.place().first,
                   parameters.place().second,

@@ -84,7 +84,8 @@ namespace scree
       });
 
       Utilities::MPI::sum(filled, communicator, filled);
-      require_entry(std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
+      require_entry(parameters.is_fed ||
+                        std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
                     "Water",
                     "Region",
                     parameters.region,

@@ -22,11 +22,13 @@ namespace scree
                                     std::list<SurfaceLoad<dim>> &loads,
                                     const OpenCells<dim> *open_cells,
                                     std::unique_ptr<BedProjection<dim>> bed,
+                                    const std::list<Inflow<dim>> &inflows,
                                     TimerOutput &timer)
       : grid(grid)
       , water_density(water_parameters.density)
       , fluidisation_porosity(water_parameters.fluidisation_porosity)
       , water(water)
+      , inflows(inflows)
       , timer(timer)
       , soil(grid, transfer_parameters, stabilisation, bodies, loads)
       , transfer(grid,
@@ -84,6 +86,9 @@ namespace scree
       transfer.soil_to_grid(body, mixture, pores);
     for (const auto &part : water)
       transfer.to_grid(part, mixture, water_field, pores);
+    for (const Inflow<dim> &inflow : inflows)
+      if (inflow.feeds_water)
+        inflow.add_to(mixture);
     mixture.finish();
   }
 

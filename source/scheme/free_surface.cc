@@ -148,6 +148,9 @@ namespace scree
               node[wet_cells] += open;
             }
         }
+    for (const EnteringWater<dim> &entering : mixture.entering())
+      for (unsigned int v = 0; v < entering.at_corner.size(); ++v)
+        filling[corners.nodes(entering.cell)[v]][filled] += entering.at_corner[v];
     filling.add_contributions();
     filling.update_ghosts();
   }

@@ -104,6 +104,14 @@ namespace scree
 
 
   template <int dim>
+  SoilAndWater<dim> MixtureStep<dim>::velocity_of_walls(const unsigned int node) const
+  {
+    const NodeConstraints<dim> *walls = constraints.at(node);
+    return walls != nullptr ? SoilAndWater<dim>{ walls->soil_velocity, walls->water_velocity } : SoilAndWater<dim>();
+  }
+
+
+  template <int dim>
   void MixtureStep<dim>::stand_in_for_rigid(const MixtureNodes<dim> &nodes, const unsigned int node) const
   {
     const NodeConstraints<dim> *walls = constraints.at(node);
@@ -178,7 +186,12 @@ namespace scree
     double &drag          = nodes.pores[node][PoreField<dim>::drag];
     const double slow     = drag;
     drag += inertial * (before.water - before.soil).norm(); // Contacts are found with the drag of the start.
-    DragPair<dim> pair      = pair_at(nodes, node);
+    DragPair<dim> pair                    = pair_at(nodes, node);
+    const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
+    // Velocities beside those of the walls: these hold what is left.
+    const Tensor<1, dim> drag_of_walls = pair.drag * (wall_velocity.water - wall_velocity.soil);
+    impulses.soil -= pair.soil_mass * wall_velocity.soil - drag_of_walls;
+    impulses.water -= pair.water_mass * wall_velocity.water + drag_of_walls;
     SoilAndWater<dim> after = pair.solve(impulses);
     if (pair.soil_mass > 0. && friction.find_contact(node, after.soil))
       {
@@ -198,9 +211,11 @@ namespace scree
         const SoilAndWater<dim> walls = pair.reactions(impulses, after);
         count_walls(node, walls, balance);
         // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
-        balance.wall_dissipation -=
-            0.5 * (walls.soil * (before.soil + after.soil) + walls.water * (before.water + after.water));
+        balance.wall_dissipation -= 0.5 * (walls.soil * (before.soil + after.soil + wall_velocity.soil) +
+                                           walls.water * (before.water + after.water + wall_velocity.water));
       }
+    after.soil += wall_velocity.soil;
+    after.water += wall_velocity.water;
     pair.follow(after);
     return after;
   }
@@ -264,8 +279,10 @@ namespace scree
   {
     const SoilAndWater<dim> walls = pair.reactions(impulses, change);
     count_walls(node, walls, balance);
-    // Before the correction the nodes were at rest there, so that only the start's velocity counts.
-    balance.wall_dissipation -= 0.5 * (walls.soil * before.soil + walls.water * before.water);
+    // Before the correction the nodes moved as the walls there, at rest or as an inflow.
+    const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
+    balance.wall_dissipation -=
+        0.5 * (walls.soil * (before.soil + wall_velocity.soil) + walls.water * (before.water + wall_velocity.water));
     const Tensor<1, dim> soil_after = soil_predicted + change.soil;
     const Tensor<1, dim> more       = friction.adjust(node, walls.soil, pair.soil_mass, soil_after);
     const SoilAndWater<dim> further = pair.solve({ more, Tensor<1, dim>() });
@@ -325,9 +342,10 @@ namespace scree
       {
         const SoilAndWater<dim> walls = pair.reactions(impulses, change);
         count_walls(node, walls, balance);
-        // As in the corrector, only the start's velocity counts.
-        balance.wall_dissipation -=
-            0.5 * (walls.soil * velocity_at_start<dim>(of_soil) + walls.water * velocity_at_start<dim>(of_water));
+        // As in the corrector.
+        const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
+        balance.wall_dissipation -= 0.5 * (walls.soil * (velocity_at_start<dim>(of_soil) + wall_velocity.soil) +
+                                           walls.water * (velocity_at_start<dim>(of_water) + wall_velocity.water));
       }
     pair.follow(change);
     add_to_velocities(change, of_soil, of_water);

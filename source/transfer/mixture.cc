@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/transfer/mixture.h>
 
+#include <deal.II/base/geometry_info.h>
+
 namespace scree
 {
   using namespace dealii;
@@ -36,6 +38,7 @@ namespace scree
     grains.clear();
     water.clear();
     porosities.clear();
+    entering_water.clear();
   }
 
 
@@ -60,6 +63,19 @@ namespace scree
     MixtureCell<dim> &cell = records[record];
     cell.find_fill();
     porosities[record].find(std::min(cell.fill, 1.) * cell.volume);
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::add_entering(const unsigned int cell, const Point<dim> &place, const double volume)
+  {
+    const unsigned int record = record_of_cell[cell];
+    if (record == numbers::invalid_unsigned_int || records[record].water_volume <= 0)
+      return;
+    EnteringWater<dim> entering{ cell, {} };
+    for (unsigned int v = 0; v < entering.at_corner.size(); ++v)
+      entering.at_corner[v] = volume * GeometryInfo<dim>::d_linear_shape_function(place, v);
+    entering_water.push_back(entering);
   }
 
 

@@ -11,8 +11,8 @@
 
 namespace scree
 {
-  /// The constraints of the nodes of this rank: of the walls of the box, of rigid bodies and, while it stands, of a
-  /// gate.
+  /// The constraints of the nodes of this rank: of the walls of the box, of rigid bodies, of inflows and, while it
+  /// stands, of a gate.
   template <int dim>
   class Constraints
   {
@@ -25,13 +25,30 @@ namespace scree
     /// Fits the constraints to the grid's current nodes.
     void reinit();
 
-    /// The same, with nodes at which soil does not move from here on.
+    /// The same, with nodes at which soil does not move from here on. Inflows have to be set after that.
     /// @param is_rigid of the nodes of this rank's cells, ghosts included; empty: none
     void hold_soil(const std::vector<char> &is_rigid);
 
     /// Soil and water do not move at the nodes in this region until the gate is opened.
     void close_gate(std::unique_ptr<Region<dim>> region);
     void open_gate();
+
+    /// What an inflow moves, in place of what walls do to it.
+    struct MovedByInflow
+    {
+      dealii::Tensor<1, dim> velocity; ///< m/s
+      bool soil;                       ///< or only the water
+    };
+
+    /// From here on these nodes move as inflows do.
+    /// @param inflow_of_node of the nodes of this rank's cells, ghosts included: the number of the inflow, or `free`;
+    /// empty: none
+    void set_inflows(const std::vector<unsigned int> &inflow_of_node, const std::vector<MovedByInflow> &inflows);
+
+    /// Velocity of an inflow, m/s.
+    void set_inflow_velocity(const unsigned int inflow, const dealii::Tensor<1, dim> &velocity);
+
+    static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
     /// Those of a node of this rank's cells; null where there are none.
     const NodeConstraints<dim> *at(const unsigned int node) const
@@ -47,19 +64,23 @@ namespace scree
     }
 
   private:
-    static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
+    NodeConstraints<dim> of_faces(const std::uint8_t faces, const bool is_rigid, const bool is_moved) const;
 
-    NodeConstraints<dim> of_faces(const std::uint8_t faces, const bool is_rigid) const;
+    /// What an inflow does to a node.
+    void add_inflow(const MovedByInflow &inflow, NodeConstraints<dim> &constraints) const;
 
     const BackgroundGrid<dim> &grid;
     const BoundaryConditions<dim> &walls;
     const WaterBoundaryConditions<dim> *water_walls;
     const bool is_unilateral;
     std::unique_ptr<Region<dim>> gate;
-    std::vector<char> rigid; // by node; empty: none
+    std::vector<char> rigid;                  // by node; empty: none
+    std::vector<unsigned int> inflow_of_node; // by node; empty: none
+    std::vector<MovedByInflow> inflows;
 
     std::vector<unsigned int> set_of_node; // by node, ghosts included
     std::vector<NodeConstraints<dim>> sets;
+    std::vector<unsigned int> inflow_of_set; // `free`: none
   };
 } // namespace scree
 

@@ -125,6 +125,7 @@ namespace scree
     HeldDirections<dim> water_held;            ///< free slip holds the normal, no slip all directions
     BearingFaces<dim> soil_faces, water_faces; ///< which walls these are
     bool is_rigid = false;                     ///< whether rigid soil stands here, which brings no mass to the node
+    dealii::Tensor<1, dim> soil_velocity, water_velocity; ///< of what holds them, m/s: of an inflow, else 0
 
     void add(const NodeConstraint<dim> &constraint)
     {
@@ -141,6 +142,7 @@ namespace scree
     /// Corrects the end-of-step velocity of dry soil, one constraint after the other.
     void apply(dealii::Tensor<1, dim> &velocity) const
     {
+      velocity -= soil_velocity;
       for (const NodeConstraint<dim> &constraint : soil)
         {
           const double normal_speed = velocity * constraint.normal;
@@ -151,6 +153,7 @@ namespace scree
           if (!fixed)
             velocity += coulomb_friction<dim>(-velocity, -constraint.friction_coefficient * normal_speed).impulse;
         }
+      velocity += soil_velocity;
     }
   };
 } // namespace scree

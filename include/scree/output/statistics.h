@@ -21,11 +21,16 @@ namespace scree
   struct RunTotals
   {
     StepBalance<dim> balance;
-    dealii::Tensor<1, dim> lost_momentum; ///< of soil and water points that left through an open wall, N s
-    double lost_mass           = 0;       ///< of soil, kg
-    double lost_water_mass     = 0;       ///< kg
-    double lost_energy         = 0;       ///< kinetic and potential, J
-    double plastic_dissipation = 0;       ///< J
+    dealii::Tensor<1, dim> lost_momentum;    ///< of soil and water points that left through an open wall, N s
+    double lost_mass       = 0;              ///< of soil, kg
+    double lost_water_mass = 0;              ///< kg
+    double lost_energy     = 0;              ///< kinetic and potential, J
+    dealii::Tensor<1, dim> entered_momentum; ///< of soil and water points of inflows, N s
+    double n_entered           = 0;          ///< points of soil
+    double entered_mass        = 0;          ///< of soil, kg
+    double entered_water_mass  = 0;          ///< kg
+    double entered_energy      = 0;          ///< kinetic, potential and elastic, J
+    double plastic_dissipation = 0;          ///< J
 
     // Counts; doubles hold them exactly and travel like the rest.
     double n_lost = 0, n_updates = 0, n_substeps = 0, n_fallbacks = 0, n_vertices = 0, n_unresolved = 0;
@@ -48,6 +53,7 @@ namespace scree
     {
       archive &balance;
       archive &plastic_dissipation &lost_mass &lost_water_mass &lost_energy &lost_momentum &n_lost;
+      archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
       archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
     }
   };
@@ -56,7 +62,7 @@ namespace scree
   template <int dim>
   struct FurtherColumns
   {
-    bool loads = false, volume_correction = false, viscosity = false;
+    bool loads = false, volume_correction = false, viscosity = false, inflows = false;
     const SampledSurface<dim> *bed            = nullptr;
     const std::list<Obstacle<dim>> *obstacles = nullptr;
   };
@@ -111,6 +117,7 @@ namespace scree
     void add_bed_columns(const std::list<SoilBody<dim>> &bodies,
                          const std::list<WaterPhase<dim>> &water,
                          const StepBalance<dim> &balance);
+    void add_inflow_columns(const std::list<WaterPhase<dim>> &water, const RunTotals<dim> &totals);
     void add_obstacle_columns(const StepBalance<dim> &balance, const double time);
     void add_water_columns(const std::list<SoilBody<dim>> &bodies,
                            const std::list<WaterPhase<dim>> &water,

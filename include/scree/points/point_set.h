@@ -117,6 +117,14 @@ namespace scree
     /// The other half. Collective.
     void hand_over(const Disorder disorder);
 
+    /// Puts a point into a cell of this rank; it is among cells() after finish_adding().
+    /// @param properties as many as stride()
+    void add(const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
+             const dealii::Point<dim> &location,
+             const dealii::types::particle_index id,
+             const std::vector<double> &properties);
+    void finish_adding();
+
     /// Takes all points off the mesh, before its cells are refined or coarsened.
     void lift();
 
@@ -148,6 +156,9 @@ namespace scree
     /// The lasting numbers of the points of cells()[cell], in their order: unique in the set over all ranks; a point
     /// keeps its own from cell to cell, rank to rank and through checkpoints.
     std::vector<dealii::types::particle_index> ids(const unsigned int cell) const;
+
+    /// The lasting number of the point that is added next, the same on all ranks.
+    dealii::types::particle_index next_id = 0;
 
     /// Number of this rank's points.
     unsigned int n_points() const

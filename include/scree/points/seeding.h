@@ -26,6 +26,7 @@ namespace scree
     double grain_density         = 2500;  ///< kg/m^3
     double initial_porosity      = -1;    ///< below 0: as the law says
     std::string initial_velocity = "";    ///< m/s, one expression an axis; empty: at rest
+    bool is_fed                  = false; ///< whether an inflow brings points, so that there may be none at the start
 
     /// Declares the entries in the body's subsection.
     void add_parameters(dealii::ParameterHandler &prm);

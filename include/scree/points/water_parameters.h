@@ -50,6 +50,7 @@ namespace scree
     double volume_correction_rate = 0;             ///< of free water, 1/s
     std::string initial_pressure  = "hydrostatic"; ///< hydrostatic | none
     std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
+    bool is_fed                   = false;         ///< as SeedingParameters::is_fed
     SuspensionParameters suspension;
 
     /// Declares the entries in the subsection that is open.

@@ -3,6 +3,7 @@
 #define scree_scheme_coupled_scheme_h
 
 #include <scree/scheme/bed_projection.h>
+#include <scree/scheme/inflow.h>
 #include <scree/scheme/mixture_step.h>
 #include <scree/scheme/scheme.h>
 #include <scree/scheme/soil_motion.h>
@@ -28,6 +29,7 @@ namespace scree
   public:
     /// @param soil_points see Mixture
     /// @param open_cells what the bed leaves of the cells, may be null, as `bed`
+    /// @param inflows of water are looked at
     CoupledScheme(const BackgroundGrid<dim> &grid,
                   const Constraints<dim> &constraints,
                   const WaterBoundaryConditions<dim> &water_walls,
@@ -42,6 +44,7 @@ namespace scree
                   std::list<SurfaceLoad<dim>> &loads,
                   const OpenCells<dim> *open_cells,
                   std::unique_ptr<BedProjection<dim>> bed,
+                  const std::list<Inflow<dim>> &inflows,
                   dealii::TimerOutput &timer);
 
     void reinit() override;
@@ -71,6 +74,7 @@ namespace scree
     const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
+    const std::list<Inflow<dim>> &inflows;
     dealii::TimerOutput &timer;
 
     SoilMotion<dim> soil;

@@ -46,6 +46,9 @@ namespace scree
               StepBalance<dim> &balance) const;
 
   private:
+    /// Of what holds soil and water at the node, m/s.
+    SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;
+
     /// Any mass for rigid soil, so that it takes part in drag: as it is held, the mass does not matter.
     void stand_in_for_rigid(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 

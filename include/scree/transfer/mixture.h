@@ -99,6 +99,14 @@ namespace scree
     return values;
   }
 
+  /// Water on its way into a cell, weighted with the linear functions of the corners, m^3.
+  template <int dim>
+  struct EnteringWater
+  {
+    unsigned int cell; ///< active cell index
+    typename MixtureCell<dim>::AtCorners at_corner;
+  };
+
   /// Soil and water in the cells that hold points: sums of each cell, and the moments V phi_i x^m of grains and water,
   /// with which the pressure's force on a node, sum V phi_i grad p, needs no second walk over the points.
   template <int dim>
@@ -125,6 +133,17 @@ namespace scree
 
     /// Effective saturation and fill, when all points are in.
     void finish();
+
+    /// Counts a volume of water, m^3, about a place of a cell, from 0 to 1 along each axis, for which there is no point
+    /// yet: where an inflow is between two layers. It fills the cell's corners, if points have brought water there, and
+    /// has no other effect.
+    void add_entering(const unsigned int cell, const dealii::Point<dim> &place, const double volume);
+
+    /// What add_entering() has been told.
+    const std::vector<EnteringWater<dim>> &entering() const
+    {
+      return entering_water;
+    }
 
     std::vector<MixtureCell<dim>> &cells()
     {
@@ -193,6 +212,7 @@ namespace scree
     std::vector<MixtureCell<dim>> records;
     std::vector<unsigned int> record_of_cell; // by active cell index
     std::vector<NodeRow> grains, water;
+    std::vector<EnteringWater<dim>> entering_water;
     std::vector<PorosityOfParts<dim>> porosities; // of the first records, which have soil
   };
 
