@@ -244,7 +244,8 @@ namespace scree
         const double n_filled = entering_volume<dim>(inflow, parameters) / std::pow(grid.cell_size, dim);
         const double n_points = n_filled * std::pow(parameters.points_per_cell(inflow), dim);
         n_entered_cells += n_filled;
-        (inflow.is_water() ? n_entered_water : estimate.n_soil_points) += n_points;
+        n_entered_water += inflow.is_water() || inflow.is_saturated ? n_points : 0.;
+        estimate.n_soil_points += inflow.is_water() ? 0. : n_points;
       }
     estimate.n_cells =
         grid.is_adaptive() ? std::min(cells_around<dim>(is_inside, grid) + n_entered_cells, n_cells) : n_cells;

@@ -113,7 +113,7 @@ namespace scree
         handler.parse_input(text, file_name);
         for (const InflowParameters &inflow : inflows)
           {
-            water.is_fed = water.is_fed || inflow.is_water();
+            water.is_fed = water.is_fed || inflow.is_water() || inflow.is_saturated;
             for (BodyParameters &body : bodies)
               body.seeding.is_fed = body.seeding.is_fed || inflow.body == body.name;
           }
@@ -319,6 +319,19 @@ namespace scree
                   water.point_sets,
                   "with subsection " + inflow.subsection +
                       " water needs points of its own. Write double, or remove the inflow.");
+    if (inflow.is_saturated)
+      {
+        const auto require = [&](const bool possible, const std::string &remedy) {
+          require_entry(possible, inflow.subsection, "Saturated", "true", remedy);
+        };
+        require(has_water && body != bodies.end(),
+                "it is said of soil in a scene with water. Remove the entry, or add subsection Water.");
+        require(body->initial_porosity() > 0,
+                "the body has no pores. Write an \"Initial porosity\" above 0 in subsection " + body->name + '.');
+        require(water.points_per_cell == body->seeding.points_per_cell,
+                "water enters on a point for each one of the soil. Write the same \"Points per cell\" in subsections " +
+                    body->name + " and Water.");
+      }
     inflow.check(grid, dimension, points_per_cell(inflow));
   }
 

@@ -128,7 +128,16 @@ namespace scree
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);
     for (const InflowParameters &inflow : parameters.inflows)
-      inflows.emplace_back(inflow, grid, parameters.grid.cell_size / parameters.points_per_cell(inflow), ground.get());
+      {
+        const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const auto &one) {
+          return one.name == inflow.body;
+        });
+        inflows.emplace_back(inflow,
+                             grid,
+                             parameters.grid.cell_size / parameters.points_per_cell(inflow),
+                             body == parameters.bodies.end() ? 1. : body->initial_porosity(),
+                             ground.get());
+      }
     hold_at_inflows();
     if (parameters.surface_load.is_set())
       loads.emplace_back(grid, parameters.surface_load, points_per_cell(parameters).second);
@@ -263,33 +272,38 @@ namespace scree
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.end_step(time_step);
     for (const Inflow<dim> &inflow : inflows)
-      if (inflow.feeds_water)
+      if (inflow.water_share > 0.)
         totals.entered_energy += time_step * inflow.power_of_pressure(pressure);
     for (Inflow<dim> &inflow : inflows)
       if (const unsigned int n_layers = inflow.end_step(); n_layers > 0)
         {
           unsigned int n_points = 0;
-          for (unsigned int layer = 0; layer < n_layers; ++layer)
-            n_points += add_layer(inflow, n_layers - 1 - layer, pressure, totals);
-          AssertThrow(Utilities::MPI::sum(n_points, communicator) == n_layers * inflow.places().size(),
+          for (unsigned int back = n_layers; back-- > 0;)
+            {
+              if (inflow.brings_soil)
+                n_points += add_soil(inflow, back, totals);
+              if (inflow.water_share > 0.)
+                n_points += add_water(inflow, back, pressure, totals);
+            }
+          const unsigned int n_sets = inflow.brings_soil + (inflow.water_share > 0.);
+          AssertThrow(Utilities::MPI::sum(n_points, communicator) == n_sets * n_layers * inflow.places().size(),
                       ExcInternalError("Points entered beyond the cells of the section."));
         }
   }
 
 
   template <int dim>
+  template <typename Fill>
   unsigned int Scene<dim>::add_layer(const Inflow<dim> &inflow,
                                      const unsigned int back,
-                                     const PressureOfCell<dim> &pressure,
-                                     RunTotals<dim> &totals)
+                                     PointSet<dim> &points,
+                                     const unsigned int mass_slot,
+                                     const Fill &fill,
+                                     RunTotals<dim> &totals) const
   {
-    const auto body =
-        std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
-    PointSet<dim> &points = inflow.feeds_water ? water.front().points() : body->points;
-    const auto surfaces =
-        inflow.feeds_water || parameters.has_water ? std::vector<RigidSurface<dim>>() : rigid_surfaces();
     std::vector<double> properties(points.stride());
-    unsigned int n_points = 0;
+    const Tensor<1, dim> &velocity = inflow.velocity();
+    unsigned int n_points          = 0;
     for (unsigned int i = 0; i < inflow.places().size(); ++i)
       {
         const auto &place  = inflow.places()[i];
@@ -297,22 +311,15 @@ namespace scree
         const auto *cell   = inflow.cell_at(x);
         if (cell == nullptr)
           continue;
-        const unsigned int index = (*cell)->active_cell_index();
-        const Point<dim> place_in_cell((x - (*cell)->vertex(0)) / grid.cell_size());
         std::fill(properties.begin(), properties.end(), 0.);
-        if (inflow.feeds_water)
-          fill_entrant(inflow, water.front(), place.volume, pressure(index), place_in_cell, properties, totals);
-        else
-          {
-            fill_entrant(inflow, *body, place.volume, properties, totals);
-            set_touching_distances(*body, surfaces, index, place_in_cell, properties.data());
-            if (body->layout.has_start)
-              std::copy_n(x.begin_raw(), dim, properties.begin() + body->layout.start);
-          }
-        const double mass = properties[inflow.feeds_water ? water.front().layout.mass : body->layout.mass];
-        totals.entered_momentum += mass * inflow.velocity();
-        totals.entered_energy +=
-            mass * (0.5 * inflow.velocity().norm_square() - forcing.gravity() * (x - Point<dim>()));
+        fill(Entrant{ place.volume,
+                      x,
+                      (*cell)->active_cell_index(),
+                      Point<dim>((x - (*cell)->vertex(0)) / grid.cell_size()) },
+             properties);
+        const double mass = properties[mass_slot];
+        totals.entered_momentum += mass * velocity;
+        totals.entered_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (x - Point<dim>()));
         points.add(*cell, x, points.next_id + i, properties);
         ++n_points;
       }
@@ -323,20 +330,65 @@ namespace scree
 
 
   template <int dim>
-  void Scene<dim>::fill_entrant(const Inflow<dim> &inflow,
-                                const SoilBody<dim> &body,
-                                const double volume,
-                                std::vector<double> &properties,
-                                RunTotals<dim> &totals) const
+  unsigned int Scene<dim>::add_soil(const Inflow<dim> &inflow, const unsigned int back, RunTotals<dim> &totals)
+  {
+    SoilBody<dim> &body =
+        *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
+    const auto surfaces = parameters.has_water ? std::vector<RigidSurface<dim>>() : rigid_surfaces();
+    const auto &layout  = body.layout;
+    return add_layer(
+        inflow,
+        back,
+        body.points,
+        layout.mass,
+        [&](const Entrant &entrant, std::vector<double> &properties) {
+          fill_entrant(entrant, body, properties);
+          std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + layout.velocity);
+          set_touching_distances(body, surfaces, entrant.cell, entrant.place, properties.data());
+          ++totals.n_entered;
+          totals.entered_mass += properties[layout.mass];
+          totals.entered_energy +=
+              entrant.volume * body.material->elastic_energy(properties.data() + layout.left_cauchy_green);
+        },
+        totals);
+  }
+
+
+  template <int dim>
+  unsigned int Scene<dim>::add_water(const Inflow<dim> &inflow,
+                                     const unsigned int back,
+                                     const PressureOfCell<dim> &pressure,
+                                     RunTotals<dim> &totals)
+  {
+    WaterPhase<dim> &phase = water.front();
+    return add_layer(
+        inflow,
+        back,
+        phase.points(),
+        phase.layout.mass,
+        [&](Entrant entrant, std::vector<double> &properties) {
+          entrant.volume *= inflow.water_share;
+          fill_entrant(entrant, phase, pressure(entrant.cell), properties);
+          std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + phase.layout.velocity);
+          totals.entered_water_mass += properties[phase.layout.mass];
+        },
+        totals);
+  }
+
+
+  template <int dim>
+  void
+  Scene<dim>::fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const
   {
     const auto &layout = body.layout;
     const auto entry = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const BodyParameters &one) {
       return one.name == body.name;
     });
     const InitialStateParameters &state = entry->initial_state;
-    std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + layout.velocity);
-    properties[layout.mass]                    = body.density * volume;
-    properties[layout.volume]                  = volume;
+    properties[layout.mass]             = body.density * entrant.volume;
+    properties[layout.volume]           = entrant.volume;
+    if (layout.has_start)
+      std::copy_n(entrant.location.begin_raw(), dim, properties.begin() + layout.start);
     double stress[n_symmetric_components<dim>] = {};
     if (state.stress_kind() == InitialStress::isotropic)
       std::fill_n(stress, 3, -state.pressure);
@@ -344,33 +396,25 @@ namespace scree
                               properties.data() + layout.left_cauchy_green,
                               properties.data() + layout.stress,
                               properties.data() + layout.internal_variables);
-    ++totals.n_entered;
-    totals.entered_mass += properties[layout.mass];
-    totals.entered_energy += volume * body.material->elastic_energy(properties.data() + layout.left_cauchy_green);
   }
 
 
   template <int dim>
-  void Scene<dim>::fill_entrant(const Inflow<dim> &inflow,
+  void Scene<dim>::fill_entrant(const Entrant &entrant,
                                 const WaterPhase<dim> &phase,
-                                const double volume,
                                 const std::array<double, (1 << dim)> &pressure,
-                                const Point<dim> &place,
-                                std::vector<double> &properties,
-                                RunTotals<dim> &totals) const
+                                std::vector<double> &properties) const
   {
-    const auto &layout = phase.layout;
-    std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + layout.velocity);
-    properties[layout.mass]   = phase.density * volume;
-    properties[layout.volume] = volume;
+    const auto &layout        = phase.layout;
+    properties[layout.mass]   = phase.density * entrant.volume;
+    properties[layout.volume] = entrant.volume;
     for (unsigned int v = 0; v < pressure.size(); ++v)
       {
-        properties[layout.pressure] += pressure[v] * GeometryInfo<dim>::d_linear_shape_function(place, v);
-        const Tensor<1, dim> slope = GeometryInfo<dim>::d_linear_shape_function_gradient(place, v);
+        properties[layout.pressure] += pressure[v] * GeometryInfo<dim>::d_linear_shape_function(entrant.place, v);
+        const Tensor<1, dim> slope = GeometryInfo<dim>::d_linear_shape_function_gradient(entrant.place, v);
         for (unsigned int a = 0; a < dim; ++a)
           properties[layout.pressure_gradient + a] += pressure[v] * slope[a] / grid.cell_size();
       }
-    totals.entered_water_mass += properties[layout.mass];
   }
 
 
@@ -386,7 +430,7 @@ namespace scree
         for (unsigned int node = 0; node < inflow_of_node.size(); ++node)
           if (inflow.is_open && inflow.moves(node))
             inflow_of_node[node] = moved.size();
-        moved.push_back({ inflow.velocity(), !inflow.feeds_water });
+        moved.push_back({ inflow.velocity(), inflow.brings_soil });
       }
     constraints.set_inflows(inflow_of_node, moved);
   }

@@ -116,30 +116,41 @@ namespace scree
     /// Tells the nodes which inflow moves them.
     void hold_at_inflows();
 
+    /// A point that enters.
+    struct Entrant
+    {
+      double volume;               ///< of the layer about it, m^3 (2D: per m)
+      dealii::Point<dim> location; ///< m
+      unsigned int cell;           ///< active cell index
+      dealii::Point<dim> place;    ///< in the cell, from 0 to 1 along each axis
+    };
+
     /// Puts in a layer of an inflow; returns how many points of this rank that are. `back` layers have entered after
     /// it.
+    /// @param mass_slot of the points
+    /// @param fill writes the properties of an Entrant, which are 0 before
+    template <typename Fill>
     unsigned int add_layer(const Inflow<dim> &inflow,
+                           const unsigned int back,
+                           PointSet<dim> &points,
+                           const unsigned int mass_slot,
+                           const Fill &fill,
+                           RunTotals<dim> &totals) const;
+    unsigned int add_soil(const Inflow<dim> &inflow, const unsigned int back, RunTotals<dim> &totals);
+    unsigned int add_water(const Inflow<dim> &inflow,
                            const unsigned int back,
                            const PressureOfCell<dim> &pressure,
                            RunTotals<dim> &totals);
 
-    /// Writes the properties of a point that enters, which are 0 before, and books its mass and energy.
-    void fill_entrant(const Inflow<dim> &inflow,
-                      const SoilBody<dim> &body,
-                      const double volume,
-                      std::vector<double> &properties,
-                      RunTotals<dim> &totals) const;
+    /// Writes the properties of a point of soil that enters.
+    void fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const;
 
-    /// The same of a point of water.
+    /// The same of water.
     /// @param pressure at the corners of its cell, Pa
-    /// @param place in the cell, from 0 to 1 along each axis
-    void fill_entrant(const Inflow<dim> &inflow,
+    void fill_entrant(const Entrant &entrant,
                       const WaterPhase<dim> &phase,
-                      const double volume,
                       const std::array<double, (1 << dim)> &pressure,
-                      const dealii::Point<dim> &place,
-                      std::vector<double> &properties,
-                      RunTotals<dim> &totals) const;
+                      std::vector<double> &properties) const;
     void require_points_outside_obstacles() const;
 
     /// The bed and the obstacles: what points in contact have slots for, in this order.

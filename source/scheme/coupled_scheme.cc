@@ -87,7 +87,7 @@ namespace scree
     for (const auto &part : water)
       transfer.to_grid(part, mixture, water_field, pores);
     for (const Inflow<dim> &inflow : inflows)
-      if (inflow.feeds_water)
+      if (inflow.water_share > 0.)
         inflow.add_to(mixture);
     mixture.finish();
   }

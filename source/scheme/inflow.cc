@@ -32,10 +32,14 @@ namespace scree
   Inflow<dim>::Inflow(const InflowParameters &parameters,
                       const BackgroundGrid<dim> &grid,
                       const double spacing,
+                      const double porosity,
                       const LevelSet<dim> *ground)
       : name(parameters.name())
       , body(parameters.body)
-      , feeds_water(parameters.is_water())
+      , brings_soil(!parameters.is_water())
+      , water_share(!brings_soil              ? 1.
+                    : parameters.is_saturated ? porosity
+                                              : 0.)
       , grid(grid)
       , hydrograph(parameters)
       , spacing(spacing)

@@ -22,6 +22,7 @@ namespace scree
     prm.enter_subsection(subsection);
     prm.add_parameter(
         "Body", body, "What enters: the name of a body of soil, or Water (of subsection Water).", Patterns::Anything());
+    prm.add_parameter("Saturated", is_saturated, "Whether soil enters with its pores full of water.", Patterns::Bool());
     prm.add_parameter("Face",
                       face,
                       "Face of the box from which it comes; it moves along the face's inward normal.",

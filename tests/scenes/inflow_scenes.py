@@ -66,6 +66,21 @@ def inflow_channel(scree):
         check("channel, %s: largest gain of energy over that entered" % name, gain / table["Energy entered (J)"][-1], 0, 1e-3)
 
 
+def inflow_saturated(scree):
+    """A saturated layer on a smooth floor, twice as fast as its waves: it keeps its thickness where the front has passed, and its water."""
+    table = run(scree, "inflow/saturated_layer", "saturated", {})
+    for place in "ab":
+        probe = render.read_table("saturated/probe_" + place)
+        for what in ("Thickness (m)", "Water level (m)"):
+            check("saturated layer: %s at %s over that at the inflow" % (what.lower(), place), render.column(probe, what)[-1] / 0.4, 0.98, 1.02)
+    check("saturated layer: water over soil that entered", table["Water entered (kg)"][-1] / table["Mass entered (kg)"][-1] * 1590 / 400, 0.98, 1.02)
+    check("saturated layer: water outside soil over that entered", max(table["Water outside soil (kg)"]) / table["Water entered (kg)"][-1], 0, 0.01)
+    check("saturated layer: volume error", max(table["Volume error (-)"]), 0, 0.05)
+    check_books("saturated layer", table, table["Momentum entered x (N s)"][-1])
+    missing = np.array(table["Numerical dissipation (J)"])
+    check("saturated layer: largest gain of energy over that entered", max(np.maximum.accumulate(missing) - missing) / table["Energy entered (J)"][-1], 0, 1e-3)
+
+
 def inflow_debris(scree):
     """A hydrograph of discharge on a slope: the mass that has entered is its integral to a layer, and energy does not grow."""
     hydrograph = os.path.join(ROOT, "prm", "inflow", "hydrograph.csv")

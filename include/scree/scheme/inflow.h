@@ -33,10 +33,12 @@ namespace scree
 
     /// Collective; throws EntryError if the section is nowhere open.
     /// @param spacing of the points, m
+    /// @param porosity of the body; read if it is saturated
     /// @param ground only what is in its open is filled; null: all
     Inflow(const InflowParameters &parameters,
            const BackgroundGrid<dim> &grid,
            const double spacing,
+           const double porosity,
            const LevelSet<dim> *ground);
 
     /// Finds the cells of the section on the grid's current mesh.
@@ -100,13 +102,14 @@ namespace scree
     /// rank's part.
     double power_of_pressure(const PressureOfCell<dim> &pressure) const;
 
-    /// Tells the mixture of what has entered of the next layer.
+    /// Tells the mixture of what has entered of the next layer, water and wet grains.
     void add_to(Mixture<dim> &mixture) const;
 
     const std::string name;
-    const std::string body; ///< that it feeds
-    const bool feeds_water; ///< in place of a body
-    bool is_open = true;    ///< whether it lasted as the step began
+    const std::string body;   ///< that it feeds, or Water
+    const bool brings_soil;   ///< or only water
+    const double water_share; ///< volume of water over that of what enters: 1, a porosity, or 0
+    bool is_open = true;      ///< whether it lasted as the step began
 
     /// What a run that goes on needs.
     template <class Archive>

@@ -21,7 +21,8 @@ namespace scree
 
     std::string subsection;              ///< prefix and name
     std::string body;                    ///< name of a body, or Water
-    std::string face = "Left";           ///< of the box: what enters moves away from it
+    bool is_saturated = false;           ///< whether soil brings water in its pores
+    std::string face  = "Left";          ///< of the box: what enters moves away from it
     std::string section;                 ///< coordinate along the face's normal, m; empty: the face itself
     std::string region = "1";            ///< the open part of the section, as an expression
     std::string speed;                   ///< m/s, of t
