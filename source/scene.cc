@@ -253,16 +253,17 @@ namespace scree
     forcing.set_step(time, time_step);
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.begin_step(time, time_step);
-    unsigned int number = 0;
-    bool has_changed    = false;
+    bool has_changed = false;
     for (Inflow<dim> &inflow : inflows)
       {
         has_changed = has_changed || inflow.is_open != inflow.lasts(time);
         on_all_ranks(communicator, [&] { inflow.begin_step(time, time_step); });
-        constraints.set_inflow_velocity(number++, inflow.velocity());
       }
     if (has_changed)
       hold_at_inflows();
+    unsigned int number = 0;
+    for (const Inflow<dim> &inflow : inflows)
+      constraints.set_inflow_velocity(number++, inflow.velocity());
   }
 
 
@@ -430,7 +431,7 @@ namespace scree
         for (unsigned int node = 0; node < inflow_of_node.size(); ++node)
           if (inflow.is_open && inflow.moves(node))
             inflow_of_node[node] = moved.size();
-        moved.push_back({ inflow.velocity(), inflow.brings_soil });
+        moved.push_back({ Tensor<1, dim>(), inflow.brings_soil });
       }
     constraints.set_inflows(inflow_of_node, moved);
   }
@@ -564,6 +565,17 @@ namespace scree
             throw_on_all_ranks(fault, communicator);
           }
       }
+    for (const Inflow<dim> &inflow : inflows)
+      for (const Obstacle<dim> &obstacle : obstacles)
+        for (const auto &place : inflow.places())
+          require_entry(!obstacle.contains(place.location),
+                        InflowParameters::prefix + inflow.name,
+                        "Region",
+                        inflow.region,
+                        "points would enter in " + quoted(ObstacleParameters::prefix + obstacle.name) +
+                            ", for instance at " +
+                            number_text(std::vector<double>(place.location.begin_raw(), place.location.end_raw())) +
+                            " m. Let it end where the obstacle begins.");
   }
 
 

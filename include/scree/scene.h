@@ -113,7 +113,7 @@ namespace scree
                                 const dealii::Point<dim> &place,
                                 double *properties) const;
 
-    /// Tells the nodes which inflow moves them.
+    /// Tells the nodes which inflow moves them. Until the next step begins they are at rest.
     void hold_at_inflows();
 
     /// A point that enters.

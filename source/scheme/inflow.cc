@@ -36,6 +36,7 @@ namespace scree
                       const LevelSet<dim> *ground)
       : name(parameters.name())
       , body(parameters.body)
+      , region(parameters.region)
       , brings_soil(!parameters.is_water())
       , water_share(!brings_soil              ? 1.
                     : parameters.is_saturated ? porosity

@@ -87,10 +87,12 @@ namespace scree
       result[number / 2] = number % 2 == 0 ? 1. : -1.;
     else
       {
-        double square    = 0;
+        double largest = 0, square = 0;
         const auto texts = Utilities::split_string_list(direction);
         for (unsigned int a = 0; a < dim; ++a)
-          square += std::pow(result[a] = number_of(texts[a]), 2);
+          largest = std::max(largest, std::abs(result[a] = number_of(texts[a])));
+        for (double &component : result)
+          square += std::pow(component /= largest, 2);
         for (double &component : result)
           component /= std::sqrt(square);
       }

@@ -51,6 +51,17 @@ namespace
     "0.7\nend\n"
     "subsection Bed\nset Type = friction\nset Friction angle = 20\nset Level set expression = y - 0.1*x\nend\n"
     "subsection Obstacle Wall\nset Type = fixed\nset Level set expression = 0.7 - x\nset Velocity = t; 0\nend",
+    "set End time = 1e-5\nsubsection Mesh\nset Cell size = 0.25\nend\n"
+    "subsection Soil\nset Material = Mohr-Coulomb\nset Initial porosity = 0.4\nend\n"
+    "subsection Inflow Torrent\nset Body = Soil\nset Saturated = true\nset Region = y < 0.3\nset Speed = 1 + t\nset "
+    "Direction = "
+    "1, -0.2\nend\n"
+    "subsection Inflow Spring\nset Body = Water\nset Face = Bottom\nset Region = x > 0.5\nset Speed = 2\nset End time "
+    "= 5e-6\nend\n"
+    "subsection Water\nset Region = 0\nend",
+    "set End time = 1e-5\nsubsection Mesh\nset Cell size = 0.25\nend\nsubsection Soil\nset Grain density = 2000\nend\n"
+    "subsection Inflow Jet\nset Body = Soil\nset Face = Right\nset Section = 0.5\nset Region = y < 0.3\nset Speed = "
+    "sin(t)^2\nend",
     "set Dimension = 3\nset End time = 1e-5\nset Gravity = 0, 0, -9.81\nset Body force = 0; sin(t); 0\n"
     "subsection Mesh\nset Lower corner = 0, 0, 0\nset Upper corner = 1, 1, 1\nset Cell size = 0.5\nend\n"
     "subsection Soil\nset Region = z < 0.5\nset Points per cell = 2\nend\n"

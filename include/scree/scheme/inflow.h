@@ -107,6 +107,7 @@ namespace scree
 
     const std::string name;
     const std::string body;   ///< that it feeds, or Water
+    const std::string region; ///< the entry
     const bool brings_soil;   ///< or only water
     const double water_share; ///< volume of water over that of what enters: 1, a porosity, or 0
     bool is_open = true;      ///< whether it lasted as the step began
