@@ -813,8 +813,8 @@ def suspension(scree):
 
 
 def dam_break_wet(scree):
-    """A bore runs into water at rest: Stoker's discharge through the gate within 3 %. Wanted as much of the bore's depth and speed, and
-    energy gained <= .5 %: missed, a bed two cells deep does not take the energy that a bore loses (doc/verification.md)."""
+    """A bore runs into water at rest: Stoker's discharge through the gate within 3 %. Wanted as much of the bore's depth and speed: missed,
+    a bed two cells deep does not take the energy that a bore loses (doc/verification.md)."""
     upstream, downstream, gate, cell, name = 1., 0.2, 10., 0.1, "dam_break_wet"
     table = run(scree, name, name, pictures({"Mesh/Cell size": str(cell), "Time step/Maximum time step": "4e-3",
                                              "Water/Volume correction rate": "5"}))
@@ -834,7 +834,7 @@ def dam_break_wet(scree):
     check("dam break on a wet bed: mean depth behind the bore over Stoker's (ours; wanted 3 %)", np.mean(depths) / bore.depth, 0.92, 1.03)
     check("dam break on a wet bed: speed of the bore over Stoker's (ours; wanted 3 %)", np.polyfit(times, fronts, 1)[0] / bore.speed, 0.97, 1.3)
     check("dam break on a wet bed: volume error by corners (ours; wanted 1 %)", largest_volume_error(name, (200, 12), cell, False), 0, 0.02)
-    check_pure_water("dam break on a wet bed (energy: ours)", table, 0.05)
+    check_pure_water("dam break on a wet bed", table)
 
 
 def check_soil_and_water(name, folder, table, cells, gain=0.005):
@@ -845,15 +845,14 @@ def check_soil_and_water(name, folder, table, cells, gain=0.005):
 
 
 def water_on_soil(scree):
-    """A column of water runs over a bed of sand, saturated or dry. Energy is gained in a single impact of the jet on the bed, at some
-    steps and not at others: both are run (wanted: .5 %)."""
-    for state, region, step, gain in (("saturated", None, "1e-3", 0.05), ("saturated", None, "2e-3", 0.005),
-                                      ("dry", "x < 0.8 && y > 0.4 && y < 1.2", "2e-3", 0.005)):
+    """A column of water runs over a bed of sand, saturated or dry. Without Fading the jet gains energy when it falls on the saturated bed, at
+    some steps and not at others: both are run. The dry bed needs none, and crowds with it: 2.6 % too much water in some corners."""
+    dry = {"Water/Region": "x < 0.8 && y > 0.4 && y < 1.2", "Water/Pressure/Fading": "0"}
+    for state, changes, step in (("saturated", {}, "1e-3"), ("saturated", {}, "2e-3"), ("dry", dry, "2e-3")):
         folder = "%s_%s" % (state, step)
-        entries = {"Mesh/Cell size": "0.1", "Time step/Maximum time step": step, "Water/Volume correction rate": "5", "End time": "2"}
-        table = run(scree, "water_on_soil", folder, pictures({**entries, **({"Water/Region": region} if region else {})}))
-        name = "water on a %s bed, step %s s%s" % (state, step, " (energy: ours)" if gain > 0.005 else "")
-        check_soil_and_water(name, folder, table, (40, 16), gain)
+        table = run(scree, "water_on_soil", folder, pictures({
+            "Mesh/Cell size": "0.1", "Time step/Maximum time step": step, "Water/Volume correction rate": "5", "End time": "2", **changes}))
+        check_soil_and_water("water on a %s bed, step %s s" % (state, step), folder, table, (40, 16))
 
 
 def closing_gap(scree):
