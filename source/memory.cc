@@ -21,12 +21,13 @@ namespace scree
   {
     // Measured in 2D and 3D: peaks of runs on one rank, a step and a picture long, over their numbers of cells and
     // points. Good to a fifth.
-    constexpr double bytes_of_cell[2]        = { 1200, 1900 };
-    constexpr double bytes_of_wet_cell[2]    = { 0, 29000 }; // beside that: matrix and multigrid of the pressure
-    constexpr double bytes_of_soil_point[2]  = { 750, 900 };
-    constexpr double bytes_of_water_point[2] = { 300, 600 };
-    constexpr double bytes_of_coarse_cell    = 300;
-    constexpr double bytes_of_program        = 1.7e8;
+    constexpr double bytes_of_cell[2]         = { 1200, 1900 };
+    constexpr double bytes_of_wet_cell[2]     = { 0, 29000 }; // beside that: matrix and multigrid of the pressure
+    constexpr double bytes_of_pair_at_cell[2] = { 270, 400 }; // of bodies that slide: numbers of its nodes
+    constexpr double bytes_of_soil_point[2]   = { 750, 900 };
+    constexpr double bytes_of_water_point[2]  = { 300, 600 };
+    constexpr double bytes_of_coarse_cell     = 300;
+    constexpr double bytes_of_program         = 1.7e8;
 
 
     template <int dim>
@@ -252,7 +253,9 @@ namespace scree
     if (parameters.water.point_sets_kind() == PointSets::double_point)
       estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim) + n_entered_water;
 
-    estimate.bytes_of_cells = bytes_of_cell[dim - 2] * estimate.n_cells + bytes_of_wet_cell[dim - 2] * n_wet_cells;
+    const double n_pairs    = parameters.contact_groups().pairs.size();
+    estimate.bytes_of_cells = (bytes_of_cell[dim - 2] + n_pairs * bytes_of_pair_at_cell[dim - 2]) * estimate.n_cells +
+                              bytes_of_wet_cell[dim - 2] * n_wet_cells;
     estimate.bytes_of_points =
         bytes_of_soil_point[dim - 2] * estimate.n_soil_points + bytes_of_water_point[dim - 2] * estimate.n_water_points;
     estimate.bytes_of_rank = bytes_of_program + bytes_of_coarse_cell * n_coarse_cells;

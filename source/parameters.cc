@@ -81,6 +81,7 @@ namespace scree
     name_bodies();
     obstacles.emplace_back(ObstacleParameters::prefix + "Wall");
     inflows.emplace_back(InflowParameters::prefix + "Torrent");
+    contacts.emplace_back(ContactParameters::prefix + "Base");
     declare(handler);
     declare_water(handler);
     inflows.clear(); // It is there to be printed, and nothing reads entries into it.
@@ -95,6 +96,7 @@ namespace scree
         name_bodies();
         name_obstacles();
         name_inflows();
+        name_contacts();
         has_water = file.has_subsection("Water");
         // Suggestions know of water's entries also where a dry run's list of all entries leaves them out: read again,
         // that list must not make the scene wet.
@@ -146,7 +148,8 @@ namespace scree
       {
         const bool is_new   = seen.insert(name).second;
         const bool is_taken = taken.count(name) > 0 || name.rfind(ObstacleParameters::prefix, 0) == 0 ||
-                              name.rfind(InflowParameters::prefix, 0) == 0;
+                              name.rfind(InflowParameters::prefix, 0) == 0 ||
+                              name.rfind(ContactParameters::prefix, 0) == 0;
         require_entry(!name.empty() && is_new && !is_taken && name != "none",
                       "",
                       "Bodies",
@@ -195,12 +198,21 @@ namespace scree
   }
 
 
+  void Parameters::name_contacts()
+  {
+    for (const std::string &subsection : file.subsections(ContactParameters::prefix))
+      contacts.emplace_back(subsection);
+  }
+
+
   std::string Parameters::unlisted_body(const std::string &subsection) const
   {
     if (subsection + ' ' == ObstacleParameters::prefix)
       return "An obstacle has a name. Write subsection Obstacle Wall, or another name.";
     if (subsection + ' ' == InflowParameters::prefix)
       return "An inflow has a name. Write subsection Inflow Torrent, or another name.";
+    if (subsection + ' ' == ContactParameters::prefix)
+      return "A contact has a name. Write subsection Contact Base, or another name.";
     if (!file.sets(subsection, "Region") || subsection.find('/') != std::string::npos)
       return "";
     return "It is no body either: entry \"Bodies\" lists " + file.value("", "Bodies", "Soil") + ". Add " +
@@ -236,6 +248,8 @@ namespace scree
       obstacle.add_parameters(prm);
     for (InflowParameters &inflow : inflows)
       inflow.add_parameters(prm);
+    for (ContactParameters &contact : contacts)
+      contact.add_parameters(prm);
     surface_load.add_parameters(prm);
     settling.add_parameters(prm);
     output.add_parameters(prm);
@@ -286,6 +300,7 @@ namespace scree
                       "cell faces. Write \"Basis = spline\", or another method.");
     for (const auto &body : bodies)
       body.check(gravity, has_water ? &water : nullptr);
+    check_contacts();
     if (has_water)
       check_water();
     if (bodies.empty())
@@ -341,6 +356,34 @@ namespace scree
     const auto body =
         std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == inflow.body; });
     return body == bodies.end() ? water.points_per_cell : body->seeding.points_per_cell;
+  }
+
+
+  void Parameters::check_contacts() const
+  {
+    contact_groups();
+    for (const ContactParameters &contact : contacts)
+      {
+        const auto require = [&contact](const bool possible, const std::string &what) {
+          require_entry(possible || !contact.is_set(),
+                        contact.subsection,
+                        "Bodies",
+                        contact.bodies,
+                        "bodies that slide are not possible with " + what + " yet. Remove one of the two subsections.");
+        };
+        require(!has_water, "subsection Water");
+        require(!surface_load.is_set(), "subsection Surface load");
+        require(inflows.empty(), "subsection Inflow");
+      }
+  }
+
+
+  ContactGroups Parameters::contact_groups() const
+  {
+    std::vector<ContactBody> of_contacts;
+    for (const BodyParameters &body : bodies)
+      of_contacts.push_back({ body.name, body.is_rigid() });
+    return scree::contact_groups(contacts, of_contacts);
   }
 
 

@@ -5,7 +5,6 @@
 #include <scree/points/water_seeding.h>
 #include <scree/scene.h>
 #include <scree/scheme/coupled_scheme.h>
-#include <scree/scheme/dry_scheme.h>
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/principal.h>
 
@@ -113,9 +112,13 @@ namespace scree
       , constraints(grid, walls, water_walls.get())
       , forcing(grid, parameters.gravity, parameters.body_force, parameters.base_motion)
       , parameters(parameters)
+      , groups(parameters.contact_groups())
       , communicator(communicator)
   {
     make_bodies();
+    if (groups.n > 1 &&
+        std::any_of(bodies.begin(), bodies.end(), [](const SoilBody<dim> &body) { return body.is_rigid; }))
+      walls_alone = std::make_unique<Constraints<dim>>(grid, walls, water_walls.get());
     ground = make_bed<dim>(
         parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner, parameters.grid.cell_size);
     if (ground)
@@ -166,6 +169,7 @@ namespace scree
                             grid.triangulation(),
                             grid.mapping());
         bodies.back().is_rigid = body.is_rigid();
+        bodies.back().group    = groups.of_body[bodies.size() - 1];
         bodies.back().spacing  = grid.cell_size() / body.seeding.points_per_cell;
         if (parameters.has_water)
           bodies.back().drag.emplace(body.seepage.in_place_of(parameters.water), body.initial_porosity());
@@ -181,18 +185,15 @@ namespace scree
   std::unique_ptr<Scheme<dim>> Scene<dim>::make_scheme(TimerOutput &timer)
   {
     if (!parameters.has_water)
-      return std::make_unique<DryScheme<dim>>(
-          grid,
-          constraints,
-          forcing,
-          parameters.transfer,
-          parameters.stabilisation,
-          bodies,
-          loads,
-          parameters.n_rigid_surfaces() > 0
-              ? std::make_unique<BedContact<dim>>(grid, constraints, rigid_surfaces(), forcing.gravity().norm(), bodies)
-              : nullptr,
-          timer);
+      return std::make_unique<DryScheme<dim>>(grid,
+                                              forcing,
+                                              parameters.transfer,
+                                              parameters.stabilisation,
+                                              bodies,
+                                              loads,
+                                              surroundings_of_groups(),
+                                              groups.pairs,
+                                              timer);
     return std::make_unique<CoupledScheme<dim>>(
         grid,
         constraints,
@@ -219,10 +220,55 @@ namespace scree
 
 
   template <int dim>
+  std::vector<GroupSurroundings<dim>> Scene<dim>::surroundings_of_groups()
+  {
+    std::vector<GroupSurroundings<dim>> result(groups.n);
+    for (unsigned int g = 0; g < groups.n; ++g)
+      {
+        const bool sticks_to_rigid = std::any_of(
+            bodies.begin(), bodies.end(), [g](const SoilBody<dim> &body) { return body.is_rigid && body.group == g; });
+        result[g].constraints = walls_alone && !sticks_to_rigid ? walls_alone.get() : &constraints;
+        if (parameters.n_rigid_surfaces() > 0)
+          result[g].bed = std::make_unique<BedContact<dim>>(
+              grid, *result[g].constraints, rigid_surfaces(), forcing.gravity().norm(), bodies, g);
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::hold_rigid_nodes()
+  {
+    constraints.hold_soil(rigid_nodes());
+    if (walls_alone)
+      walls_alone->reinit();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::close_gate(const std::string &region)
+  {
+    const auto make_region = [&] { return std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), region); };
+    constraints.close_gate(make_region());
+    if (walls_alone)
+      walls_alone->close_gate(make_region());
+  }
+
+
+  template <int dim>
+  void Scene<dim>::open_gate()
+  {
+    constraints.open_gate();
+    if (walls_alone)
+      walls_alone->open_gate();
+  }
+
+
+  template <int dim>
   void Scene<dim>::reinit()
   {
     grid.distribute_nodes();
-    constraints.hold_soil(rigid_nodes());
+    hold_rigid_nodes();
     if (bed)
       bed->reinit();
     if (open_cells)
@@ -514,7 +560,7 @@ namespace scree
   void Scene<dim>::fill()
   {
     fill_with_points();
-    constraints.hold_soil(rigid_nodes());
+    hold_rigid_nodes();
     hold_at_inflows();
     set_initial_state();
   }

@@ -43,6 +43,7 @@ namespace scree
                      parameters.water.volume_correction_rate > 0.,
                      parameters.water.viscosity > 0.,
                      !parameters.inflows.empty(),
+                     parameters.contact_groups().n > 1,
                      scene.bed.get(),
                      &scene.obstacles })
       , rows(folder.file("statistics"))
@@ -401,7 +402,7 @@ namespace scree
   {
     const SettlingParameters &settling = parameters.settling;
     if (!settling.gate.empty())
-      scene.constraints.close_gate(std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), settling.gate));
+      scene.close_gate(settling.gate);
     scene.forcing.set_damping(settling.damping_rate);
     stop.listen();
     is_released = false;
@@ -426,7 +427,7 @@ namespace scree
       return;
 
     scene.forcing.set_damping(0.);
-    scene.constraints.open_gate();
+    scene.open_gate();
     scene.stop();
     measure_speeds();
   }

@@ -17,6 +17,7 @@
 #include <scree/points/seepage_parameters.h>
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
+#include <scree/scheme/contact_parameters.h>
 #include <scree/scheme/explicit_step.h>
 #include <scree/scheme/inflow_parameters.h>
 #include <scree/scheme/pressure_parameters.h>
@@ -83,6 +84,7 @@ namespace scree
     BedParameters bed;
     std::vector<ObstacleParameters> obstacles; ///< also those that are not set
     std::vector<InflowParameters> inflows;
+    std::vector<ContactParameters> contacts; ///< also those that are not set
     SurfaceLoadParameters surface_load;
     SettlingParameters settling;
     OutputParameters output;
@@ -101,6 +103,9 @@ namespace scree
 
     /// Points of what an inflow brings, along each axis of a cell.
     unsigned int points_per_cell(const InflowParameters &inflow) const;
+
+    /// The bodies that stick to each other, and which of them slide. Throws EntryError if contacts do not fit.
+    ContactGroups contact_groups() const;
 
     /// Every entry with its value.
     CaseEntries entries() const;
@@ -122,9 +127,11 @@ namespace scree
     /// The subsections with this prefix. Throws EntryError if two differ by case only.
     /// @param kind `obstacle`, for the message
     std::vector<std::string> named_subsections(const std::string &prefix, const std::string &kind) const;
+    void name_contacts();
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
     void check() const;
+    void check_contacts() const;
     void read_maps();
     void check_water() const;
     void check_inflow(const InflowParameters &inflow) const;

@@ -7,7 +7,7 @@
 #include <scree/memory.h>
 #include <scree/output/statistics.h>
 #include <scree/parameters.h>
-#include <scree/scheme/bed_contact.h>
+#include <scree/scheme/dry_scheme.h>
 #include <scree/scheme/forcing.h>
 #include <scree/scheme/inflow.h>
 #include <scree/scheme/scheme.h>
@@ -64,6 +64,10 @@ namespace scree
     /// @param stable_step s, at these `speeds` of all ranks
     void require_steps(const double stable_step, const Speeds &speeds) const;
 
+    /// Soil and water do not move in this region of a gate until it is opened. Collective.
+    void close_gate(const std::string &region);
+    void open_gate();
+
     /// Stops all points: no velocity, no affine field of velocity.
     void stop();
 
@@ -86,6 +90,7 @@ namespace scree
     BoundaryConditions<dim> walls;
     std::unique_ptr<WaterBoundaryConditions<dim>> water_walls; ///< null in a dry scene
     Constraints<dim> constraints;
+    std::unique_ptr<Constraints<dim>> walls_alone; ///< without rigid bodies, for what slides on them; null without it
     Forcing<dim> forcing;
     std::list<SoilBody<dim>> bodies;
     std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
@@ -99,6 +104,12 @@ namespace scree
 
   private:
     void make_bodies();
+
+    /// Holds the nodes of rigid bodies, for soil that sticks to them. Collective.
+    void hold_rigid_nodes();
+
+    /// What the groups of bodies that stick to each other meet.
+    std::vector<GroupSurroundings<dim>> surroundings_of_groups();
     void fill_with_points();
     void set_velocity_gradients();
     void set_touching_distances();
@@ -172,6 +183,7 @@ namespace scree
               RunTotals<dim> &totals) const;
 
     const Parameters &parameters;
+    const ContactGroups groups;
     const MPI_Comm communicator;
   };
 } // namespace scree

@@ -64,6 +64,13 @@ namespace scree
 
 
   template <int dim, int n>
+  void NodeValues<dim, n>::take_largest()
+  {
+    values.compress(VectorOperation::max);
+  }
+
+
+  template <int dim, int n>
   void NodeValues<dim, n>::clear_ghosts()
   {
     values.zero_out_ghost_values();
@@ -86,4 +93,8 @@ namespace scree
   template class NodeValues<2, 5>; // NodalField in 2D; pores
   template class NodeValues<3, 5>;
   template class NodeValues<3, 7>;
+  template class NodeValues<2, 8>; // normals to choose from, between bodies
+  template class NodeValues<3, 11>;
+  template class NodeValues<2, 18>; // moments of the points of two bodies
+  template class NodeValues<3, 28>;
 } // namespace scree

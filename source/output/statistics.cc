@@ -30,6 +30,7 @@ namespace scree
     StepBalance<dim> &balance = total.balance;
     std::vector<double *> values{ &balance.wall_dissipation,
                                   &balance.bed_dissipation,
+                                  &balance.contact_dissipation,
                                   &balance.drag_dissipation,
                                   &balance.viscous_dissipation,
                                   &balance.load_work,
@@ -145,8 +146,8 @@ namespace scree
     add("Wall dissipation (J)", balance.wall_dissipation);
     add("Numerical dissipation (J)",
         start_energy - energy - totals.plastic_dissipation - balance.wall_dissipation - balance.bed_dissipation -
-            balance.drag_dissipation - balance.viscous_dissipation - totals.lost_energy + balance.load_work +
-            balance.correction_work + balance.obstacle_energy() + totals.entered_energy);
+            balance.contact_dissipation - balance.drag_dissipation - balance.viscous_dissipation - totals.lost_energy +
+            balance.load_work + balance.correction_work + balance.obstacle_energy() + totals.entered_energy);
     if (!bodies.empty())
       add_soil_columns(bodies, now, totals, last_step);
     add("Points lost", totals.n_lost);
@@ -159,6 +160,8 @@ namespace scree
       add_obstacle_columns(balance, time);
     if (further.inflows)
       add_inflow_columns(water, totals);
+    if (further.contacts)
+      add("Contact dissipation (J)", balance.contact_dissipation);
     if (further.loads)
       add("Load work (J)", balance.load_work);
     if (further.volume_correction)

@@ -36,7 +36,8 @@ namespace scree
                               const Constraints<dim> &constraints,
                               const std::vector<RigidSurface<dim>> &surfaces,
                               const double gravity,
-                              std::list<SoilBody<dim>> &bodies)
+                              std::list<SoilBody<dim>> &bodies,
+                              const unsigned int group)
       : grid(grid)
       , constraints(constraints)
       , surfaces(surfaces)
@@ -45,6 +46,7 @@ namespace scree
       , slack(0.01 * grid.cell_size())
       , most_speed(0.03 * std::sqrt(gravity * grid.cell_size()))
       , bodies(bodies)
+      , group(group)
       , nodes(grid, constraints)
   {
   }
@@ -233,7 +235,7 @@ namespace scree
       return false;
     };
     for (auto &body : bodies)
-      if (!body.is_rigid)
+      if (body.group == group && !body.is_rigid)
         for (const auto &cell : body.points.cells())
           if (is_near(cell.cell))
             add_cell<n>(body, cell, field, time_step);

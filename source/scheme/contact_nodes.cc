@@ -9,6 +9,23 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
+  void stop_at_walls(const NodeConstraints<dim> &walls,
+                     const double inverse_mass,
+                     Tensor<1, dim> &velocity,
+                     StepBalance<dim> &balance)
+  {
+    for (const NodeConstraint<dim> &wall : walls.soil)
+      if (const double speed = velocity * wall.normal; wall.type == NodeConstraint<dim>::Type::unilateral && speed < 0.)
+        {
+          const Tensor<1, dim> change = -speed * wall.normal;
+          velocity += change;
+          balance.wall_impulse += change / inverse_mass;
+          balance.soil_walls.add(walls.soil_faces, change / inverse_mass);
+        }
+  }
+
+
+  template <int dim>
   ContactNodes<dim>::ContactNodes(const BackgroundGrid<dim> &grid, const Constraints<dim> &constraints)
       : grid(grid)
       , constraints(constraints)
@@ -111,30 +128,13 @@ namespace scree
 
 
   template <int dim>
-  void ContactNodes<dim>::stop_at_walls(Node &node, StepBalance<dim> &balance) const
-  {
-    const NodeConstraints<dim> *walls = constraints.at(node.node);
-    if (walls == nullptr || node.inverse_mass == 0.)
-      return;
-    for (const NodeConstraint<dim> &wall : walls->soil)
-      if (const double speed = node.velocity * wall.normal;
-          wall.type == NodeConstraint<dim>::Type::unilateral && speed < 0.)
-        {
-          const Tensor<1, dim> change = -speed * wall.normal;
-          node.velocity += change;
-          balance.wall_impulse += change / node.inverse_mass;
-          balance.soil_walls.add(walls->soil_faces, change / node.inverse_mass);
-        }
-  }
-
-
-  template <int dim>
   void ContactNodes<dim>::write(NodalField<dim> &field, StepBalance<dim> &balance)
   {
     for (Node &node : nodes)
       if (node.node < grid.n_owned_nodes())
         {
-          stop_at_walls(node, balance);
+          if (const NodeConstraints<dim> *walls = constraints.at(node.node); walls != nullptr && node.inverse_mass > 0.)
+            stop_at_walls(*walls, node.inverse_mass, node.velocity, balance);
           double *values = field[node.node];
           for (unsigned int c = 0; c < dim && node.inverse_mass > 0.; ++c)
             {
@@ -145,6 +145,8 @@ namespace scree
     field.update_ghosts();
   }
 
+  template void stop_at_walls(const NodeConstraints<2> &, const double, Tensor<1, 2> &, StepBalance<2> &);
+  template void stop_at_walls(const NodeConstraints<3> &, const double, Tensor<1, 3> &, StepBalance<3> &);
   template class ContactNodes<2>;
   template class ContactNodes<3>;
 } // namespace scree

@@ -281,7 +281,7 @@ namespace scree
 
 
   template <int dim>
-  const NodalField<dim> &CoupledScheme<dim>::soil_field() const
+  const NodalField<dim> &CoupledScheme<dim>::soil_field()
   {
     return soil.field;
   }

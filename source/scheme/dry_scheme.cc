@@ -1,42 +1,64 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/dry_scheme.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace scree
 {
   using namespace dealii;
 
   template <int dim>
   DryScheme<dim>::DryScheme(const BackgroundGrid<dim> &grid,
-                            const Constraints<dim> &constraints,
                             const Forcing<dim> &forcing,
                             const TransferParameters &transfer,
                             const StabilisationParameters &stabilisation,
                             std::list<SoilBody<dim>> &bodies,
                             std::list<SurfaceLoad<dim>> &loads,
-                            std::unique_ptr<BedContact<dim>> bed,
+                            std::vector<GroupSurroundings<dim>> surroundings,
+                            const std::vector<ContactPair> &pairs,
                             TimerOutput &timer)
       : grid(grid)
-      , soil(grid, transfer, stabilisation, bodies, loads)
-      , step(constraints, forcing)
-      , bed(std::move(bed))
+      , bodies(bodies)
       , timer(timer)
   {
+    std::vector<BodyGroup<dim>> at_nodes;
+    for (auto &around : surroundings)
+      {
+        const unsigned int number = groups.size();
+        groups.push_back({ SoilMotion<dim>(grid, transfer, stabilisation, bodies, loads, number),
+                           ExplicitStep<dim>(*around.constraints, forcing),
+                           std::move(around.bed) });
+        at_nodes.push_back({ number, &groups.back().soil.field, around.constraints });
+      }
+    for (const ContactPair &pair : pairs)
+      contacts.emplace_back(grid, at_nodes[pair.first], at_nodes[pair.second], pair, bodies);
+    if (groups.size() > 1)
+      mean_field = std::make_unique<NodalField<dim>>(grid);
   }
 
 
   template <int dim>
   void DryScheme<dim>::reinit()
   {
-    soil.reinit();
-    if (bed)
-      bed->reinit();
+    for (Group &group : groups)
+      {
+        group.soil.reinit();
+        if (group.bed)
+          group.bed->reinit();
+      }
+    for (auto &contact : contacts)
+      contact.reinit();
+    if (mean_field)
+      mean_field->reinit();
   }
 
 
   template <int dim>
   void DryScheme<dim>::read_points()
   {
-    soil.field.clear();
+    for (Group &group : groups)
+      group.soil.field.clear();
   }
 
 
@@ -44,28 +66,61 @@ namespace scree
   void DryScheme<dim>::to_grid(const double time)
   {
     const TimedPart part(timer, StepPart::points_to_grid);
-    soil.to_grid(time);
+    for (Group &group : groups)
+      group.soil.to_grid(time);
   }
 
 
   template <int dim>
   void DryScheme<dim>::solve(const double time_step, StepReport<dim> &report)
   {
-    {
-      const TimedPart part(timer, StepPart::points_to_grid);
-      soil.add_loads(0.); // Velocity and place leap over each other: the acceleration is that of the start.
-      soil.field.add_contributions();
-    }
-    {
-      const TimedPart part(timer, StepPart::nodes);
-      report.balance += step.solve(soil.field, time_step);
-      report.balance.load_impulse += soil.load_impulse(time_step);
-      soil.field.update_ghosts();
-    }
-    if (!bed)
+    for (Group &group : groups)
+      {
+        const TimedPart part(timer, StepPart::points_to_grid);
+        group.soil.add_loads(0.); // Velocity and place leap over each other: the acceleration is that of the start.
+        group.soil.field.add_contributions();
+      }
+    for (Group &group : groups)
+      {
+        const TimedPart part(timer, StepPart::nodes);
+        report.balance += group.step.solve(group.soil.field, time_step);
+        report.balance.load_impulse += group.soil.load_impulse(time_step);
+        group.soil.field.update_ghosts();
+      }
+    for (auto &contact : contacts)
+      {
+        const TimedPart part(timer, StepPart::contacts);
+        contact.find();
+      }
+    solve_contacts(time_step, report);
+    bool any_bed = false;
+    for (Group &group : groups)
+      if (group.bed)
+        {
+          const TimedPart part(timer, StepPart::bed);
+          group.bed->solve(group.soil.field, time_step, report.balance);
+          any_bed = true;
+        }
+    if (any_bed)
+      solve_contacts(time_step, report); // The bed has stopped some of what lies on it.
+    for (const auto &contact : contacts)
+      contact.count_dissipation(report.balance);
+  }
+
+
+  template <int dim>
+  void DryScheme<dim>::solve_contacts(const double time_step, StepReport<dim> &report)
+  {
+    if (contacts.empty())
       return;
-    const TimedPart part(timer, StepPart::bed);
-    bed->solve(soil.field, time_step, report.balance);
+    const TimedPart part(timer, StepPart::contacts);
+    // Where three groups meet, one contact disturbs the other.
+    const unsigned int n_sweeps = contacts.size() == 1 ? 1 : 4;
+    for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
+      for (auto &contact : contacts)
+        contact.solve(time_step, report.balance);
+    for (Group &group : groups)
+      group.soil.field.update_ghosts();
   }
 
 
@@ -73,13 +128,15 @@ namespace scree
   void DryScheme<dim>::to_points(const double time_step, StepReport<dim> &report)
   {
     const TimedPart part(timer, StepPart::stress);
-    soil.to_points(time_step, report);
+    for (Group &group : groups)
+      group.soil.to_points(time_step, report);
   }
 
 
   template <int dim>
   double DryScheme<dim>::stable_step(const Clock &clock, const Speeds &speeds) const
   {
+    const auto &bed      = groups.front().bed; // the surfaces are the same for all
     const double fastest = bed ? bed->fastest(clock.time()) : 0.;
     // Not std::max: it might lose a NaN.
     return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points < fastest ? fastest : speeds.points);
@@ -90,15 +147,36 @@ namespace scree
   std::vector<PointSet<dim> *> DryScheme<dim>::point_sets()
   {
     std::vector<PointSet<dim> *> sets;
-    soil.append_point_sets(sets);
+    groups.front().soil.append_point_sets(sets);
     return sets;
   }
 
 
   template <int dim>
-  const NodalField<dim> &DryScheme<dim>::soil_field() const
+  const NodalField<dim> &DryScheme<dim>::soil_field()
   {
-    return soil.field;
+    if (!mean_field)
+      return groups.front().soil.field;
+    using Field = NodalField<dim>;
+    mean_field->clear();
+    for (const auto &body : bodies)
+      for (const auto &cell : body.points.cells())
+        mean_field->activate_cell(cell.cell);
+    for (const unsigned int node : mean_field->active_nodes())
+      {
+        double *mean = (*mean_field)[node];
+        for (const Group &group : groups)
+          if (const double *values = group.soil.field[node]; values[Field::mass] > 0.)
+            {
+              mean[Field::mass] += values[Field::mass];
+              for (unsigned int c = 0; c < dim; ++c)
+                mean[Field::velocity + c] += values[Field::mass] * values[Field::velocity + c];
+            }
+        for (unsigned int c = 0; c < dim && mean[Field::mass] > 0.; ++c)
+          mean[Field::velocity + c] /= mean[Field::mass];
+      }
+    mean_field->update_ghosts();
+    return *mean_field;
   }
 
 

@@ -10,10 +10,12 @@ namespace scree
                               const TransferParameters &transfer,
                               const StabilisationParameters &stabilisation,
                               std::list<SoilBody<dim>> &bodies,
-                              std::list<SurfaceLoad<dim>> &loads)
+                              std::list<SurfaceLoad<dim>> &loads,
+                              const unsigned int group)
       : field(grid)
       , transfer(grid, transfer, stabilisation)
       , bodies(bodies)
+      , group(group)
   {
     for (auto &load : loads)
       this->loads.emplace_back(grid, load);
@@ -35,7 +37,7 @@ namespace scree
     load_time = time;
     field.clear();
     for (const auto &body : bodies)
-      if (!body.is_rigid)
+      if (moves(body))
         transfer.to_grid(body, field);
     for (auto &one : loads)
       one.find_areas(bodies);
@@ -56,7 +58,7 @@ namespace scree
   void SoilMotion<dim>::to_points(const double time_step, StepReport<dim> &report)
   {
     for (auto &body : bodies)
-      if (!body.is_rigid)
+      if (moves(body))
         {
           const MotionReport motion = transfer.to_points(body, field, time_step);
           report.speeds.include_wave(

@@ -50,6 +50,7 @@ namespace scree
       obstacles[o] += other.obstacles[o];
     wall_dissipation += other.wall_dissipation;
     bed_dissipation += other.bed_dissipation;
+    contact_dissipation += other.contact_dissipation;
     drag_dissipation += other.drag_dissipation;
     viscous_dissipation += other.viscous_dissipation;
     load_work += other.load_work;

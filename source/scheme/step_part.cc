@@ -15,6 +15,8 @@ namespace scree
         return "nodes";
       case StepPart::bed:
         return "contact with the bed";
+      case StepPart::contacts:
+        return "contact between bodies";
       case StepPart::pressure_system:
         return "pressure: system";
       case StepPart::pressure_solve:

@@ -34,6 +34,9 @@ namespace scree
     /// Sums over ranks: owned nodes hold the whole afterwards.
     void add_contributions();
 
+    /// Takes the largest of the ranks' values, none of which is negative: owned nodes hold it afterwards.
+    void take_largest();
+
     /// Hands the owners' values to the ranks that see the node as a ghost.
     void update_ghosts();
 

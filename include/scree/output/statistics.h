@@ -62,7 +62,7 @@ namespace scree
   template <int dim>
   struct FurtherColumns
   {
-    bool loads = false, volume_correction = false, viscosity = false, inflows = false;
+    bool loads = false, volume_correction = false, viscosity = false, inflows = false, contacts = false;
     const SampledSurface<dim> *bed            = nullptr;
     const std::list<Obstacle<dim>> *obstacles = nullptr;
   };

@@ -24,7 +24,8 @@ namespace scree
     std::unique_ptr<Material<dim>> material;
     PropertyLayout<dim> layout;
     PointSet<dim> points;
-    bool is_rigid = false;       ///< its points keep their place and bear any stress
+    bool is_rigid      = false;  ///< its points keep their place and bear any stress
+    unsigned int group = 0;      ///< bodies of a group stick to each other and share a velocity field
     std::optional<DragLaw> drag; ///< on water; none in a dry scene
 
     SoilBody(const std::string &name,

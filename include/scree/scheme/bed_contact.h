@@ -45,11 +45,14 @@ namespace scree
   public:
     /// @param surfaces in the order of the points' slots
     /// @param gravity m/s^2
+    /// @param bodies of all groups
+    /// @param group of the bodies whose points these are
     BedContact(const BackgroundGrid<dim> &grid,
                const Constraints<dim> &constraints,
                const std::vector<RigidSurface<dim>> &surfaces,
                const double gravity,
-               std::list<SoilBody<dim>> &bodies);
+               std::list<SoilBody<dim>> &bodies,
+               const unsigned int group = 0);
 
     /// Fits the nodes to the grid's current partition. Collective.
     void reinit();
@@ -144,6 +147,7 @@ namespace scree
     const double slack;             // m, gap that counts as touching
     const double most_speed;        // m/s, at which overlap is undone
     std::list<SoilBody<dim>> &bodies;
+    const unsigned int group;
     ContactNodes<dim> nodes;
     std::vector<Cell> cells;
     std::vector<unsigned int> nodes_of_cells; // numbers in `nodes`

@@ -10,6 +10,14 @@
 
 namespace scree
 {
+  /// Stops what moves into walls that it could lift off from.
+  /// @param inverse_mass 1/kg, above 0
+  template <int dim>
+  void stop_at_walls(const NodeConstraints<dim> &walls,
+                     const double inverse_mass,
+                     dealii::Tensor<1, dim> &velocity,
+                     StepBalance<dim> &balance);
+
   /// The nodes at which points in contact act, numbered one behind the other, while impulses change their velocities.
   ///
   /// What ranks know of a node's velocity is made one by exchange(): until then, no two ranks may change a node's, or
@@ -71,8 +79,6 @@ namespace scree
   private:
     /// Finds what walls hold of a node.
     void find_walls(Node &node);
-
-    void stop_at_walls(Node &node, StepBalance<dim> &balance) const;
 
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;

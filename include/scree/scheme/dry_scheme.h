@@ -3,26 +3,38 @@
 #define scree_scheme_dry_scheme_h
 
 #include <scree/scheme/bed_contact.h>
+#include <scree/scheme/body_contact.h>
+#include <scree/scheme/contact_parameters.h>
 #include <scree/scheme/explicit_step.h>
 #include <scree/scheme/scheme.h>
 #include <scree/scheme/soil_motion.h>
 
 namespace scree
 {
-  /// Soil without water: one phase, explicit.
+  /// What bodies that stick to each other meet besides the others. What it refers to must live on.
+  template <int dim>
+  struct GroupSurroundings
+  {
+    const Constraints<dim> *constraints;
+    std::unique_ptr<BedContact<dim>> bed; ///< contact with rigid surfaces; null without any
+  };
+
+  /// Soil without water: one phase, explicit. Each group of bodies that stick to each other has a velocity field of its
+  /// own; nearly always there is one.
   template <int dim>
   class DryScheme : public Scheme<dim>
   {
   public:
-    /// @param bed contact with rigid surfaces; null without any
+    /// @param groups by number
+    /// @param pairs of groups in contact
     DryScheme(const BackgroundGrid<dim> &grid,
-              const Constraints<dim> &constraints,
               const Forcing<dim> &forcing,
               const TransferParameters &transfer,
               const StabilisationParameters &stabilisation,
               std::list<SoilBody<dim>> &bodies,
               std::list<SurfaceLoad<dim>> &loads,
-              std::unique_ptr<BedContact<dim>> bed,
+              std::vector<GroupSurroundings<dim>> groups,
+              const std::vector<ContactPair> &pairs,
               dealii::TimerOutput &timer);
 
     void reinit() override;
@@ -32,14 +44,26 @@ namespace scree
     void to_points(const double time_step, StepReport<dim> &report) override;
     double stable_step(const Clock &clock, const Speeds &speeds) const override;
     std::vector<PointSet<dim> *> point_sets() override;
-    const NodalField<dim> &soil_field() const override;
+    const NodalField<dim> &soil_field() override;
     std::unique_ptr<WaterView<dim>> water_view() const override;
 
   private:
+    /// Bodies that stick to each other.
+    struct Group
+    {
+      SoilMotion<dim> soil;
+      ExplicitStep<dim> step;
+      std::unique_ptr<BedContact<dim>> bed;
+    };
+
+    /// Impulses where groups meet.
+    void solve_contacts(const double time_step, StepReport<dim> &report);
+
     const BackgroundGrid<dim> &grid;
-    SoilMotion<dim> soil;
-    ExplicitStep<dim> step;
-    std::unique_ptr<BedContact<dim>> bed;
+    std::list<SoilBody<dim>> &bodies;
+    std::list<Group> groups;
+    std::list<BodyContact<dim>> contacts;
+    std::unique_ptr<NodalField<dim>> mean_field; // of all groups; null if there is one
     dealii::TimerOutput &timer;
   };
 } // namespace scree

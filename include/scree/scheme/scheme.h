@@ -40,8 +40,8 @@ namespace scree
     /// All sets of points, in a fixed order.
     virtual std::vector<PointSet<dim> *> point_sets() = 0;
 
-    /// The soil at the nodes, solved.
-    virtual const NodalField<dim> &soil_field() const = 0;
+    /// The soil at the nodes, solved. Collective.
+    virtual const NodalField<dim> &soil_field() = 0;
 
     /// What pictures show of the water; null in a dry scene.
     virtual std::unique_ptr<WaterView<dim>> water_view() const = 0;

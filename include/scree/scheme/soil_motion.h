@@ -11,16 +11,19 @@
 
 namespace scree
 {
-  /// The bodies of soil with the loads on them, between their points and the nodes: what all schemes share.
+  /// A group of bodies of soil with the loads on them, between their points and the nodes: what all schemes share.
   template <int dim>
   class SoilMotion
   {
   public:
+    /// @param bodies of all groups
+    /// @param group number of this one
     SoilMotion(const BackgroundGrid<dim> &grid,
                const TransferParameters &transfer,
                const StabilisationParameters &stabilisation,
                std::list<SoilBody<dim>> &bodies,
-               std::list<SurfaceLoad<dim>> &loads);
+               std::list<SurfaceLoad<dim>> &loads,
+               const unsigned int group = 0);
 
     /// Fits the nodes to the grid's current partition. Collective.
     void reinit();
@@ -56,9 +59,16 @@ namespace scree
     NodalField<dim> field;
 
   private:
+    /// Whether the points of a body of the group move.
+    bool moves(const SoilBody<dim> &body) const
+    {
+      return body.group == group && !body.is_rigid;
+    }
+
     Transfer<dim> transfer;
     std::list<SoilBody<dim>> &bodies;
     std::list<LoadTransfer<dim>> loads;
+    const unsigned int group;
     double load_time = 0;        // s; the step's start until add_loads()
     dealii::Tensor<1, dim> load; // sum of the loads of this rank, N
   };

@@ -48,6 +48,7 @@ namespace scree
     std::vector<ObstacleBalance<dim>> obstacles; ///< of each; empty until the first step
     double wall_dissipation    = 0;              ///< energy that walls took, J
     double bed_dissipation     = 0;              ///< energy that the bed took, J
+    double contact_dissipation = 0;              ///< energy lost where bodies meet, J
     double drag_dissipation    = 0;              ///< between soil and water, J
     double viscous_dissipation = 0;              ///< of water and suspended soil, J
     double load_work           = 0;              ///< of the surface load, J
@@ -71,7 +72,8 @@ namespace scree
     {
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse &bed_impulse;
       archive &soil_walls &water_walls &obstacles;
-      archive &wall_dissipation &bed_dissipation &drag_dissipation &viscous_dissipation &load_work &correction_work;
+      archive &wall_dissipation &bed_dissipation &contact_dissipation;
+      archive &drag_dissipation &viscous_dissipation &load_work &correction_work;
       archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
     }
   };

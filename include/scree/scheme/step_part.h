@@ -14,7 +14,8 @@ namespace scree
   {
     points_to_grid,
     nodes,
-    bed, ///< contact with it
+    bed,      ///< contact with it
+    contacts, ///< of bodies
     pressure_system,
     pressure_solve,
     stress, ///< grid to soil points, and their law
@@ -26,9 +27,10 @@ namespace scree
   };
 
   /// All of them, in the order in which they are told.
-  constexpr std::array<StepPart, 11> step_parts{ { StepPart::points_to_grid,
+  constexpr std::array<StepPart, 12> step_parts{ { StepPart::points_to_grid,
                                                    StepPart::nodes,
                                                    StepPart::bed,
+                                                   StepPart::contacts,
                                                    StepPart::pressure_system,
                                                    StepPart::pressure_solve,
                                                    StepPart::stress,

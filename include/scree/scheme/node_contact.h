@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_node_contact_h
+#define scree_scheme_node_contact_h
+
+#include <scree/grid/node_constraint.h>
+
+namespace scree
+{
+  /// What one of two fields of velocity has at a node.
+  template <int dim>
+  struct MovingMass
+  {
+    double inverse_mass; ///< 1/kg; 0: nothing moves it
+    dealii::Tensor<1, dim> velocity;
+  };
+
+  /// The impulse, N s, that the second mass gets and the first one gives in contact: none along the normal unless they
+  /// approach each other too fast, then what leaves them the approach that is allowed; along the surface Coulomb's law.
+  ///
+  /// @param normal unit, from the first to the second
+  /// @param approach largest velocity, m/s, at which they may close the gap between them
+  template <int dim>
+  dealii::Tensor<1, dim> contact_impulse(const MovingMass<dim> &first,
+                                         const MovingMass<dim> &second,
+                                         const dealii::Tensor<1, dim> &normal,
+                                         const double approach,
+                                         const double friction_coefficient)
+  {
+    const dealii::Tensor<1, dim> relative = second.velocity - first.velocity;
+    const double mobility                 = first.inverse_mass + second.inverse_mass;
+    const double across                   = relative * normal;
+    if (mobility == 0. || across >= -approach)
+      return dealii::Tensor<1, dim>();
+    const double pressing              = (-approach - across) / mobility;
+    const dealii::Tensor<1, dim> along = relative - across * normal;
+    return pressing * normal +
+           coulomb_friction<dim>(-along / mobility, available_friction(friction_coefficient, pressing)).impulse;
+  }
+} // namespace scree
+
+#endif

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/cell_basis.h>
+#include <scree/scheme/body_contact.h>
+#include <scree/scheme/contact_nodes.h>
+#include <scree/scheme/node_contact.h>
+#include <scree/tensor/vector.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Gap that counts as touching, cell widths.
+    constexpr double slack = 0.01;
+
+    /// Added to how far points reach from a node, cell widths, so that 0 stands for no points.
+    constexpr double reach_of_none = 16.;
+
+    /// The plane of the regression, the last of the normals to choose from, leans towards the axes: it is taken if the
+    /// gap along it is the widest by this margin, cell widths, as at the edges of two bodies.
+    constexpr unsigned int regression = 2;
+    constexpr double margin           = 0.1;
+
+    /// Gaps as close, cell widths, are the same, whatever rounding says: symmetry leaves both normals.
+    constexpr double tie = 1e-6;
+
+    /// Cosine of the angle from which on two normals are those of different faces.
+    constexpr double same_face = 0.9;
+
+    /// Node `i` of a cell along an axis.
+    template <int n>
+    unsigned int along(const unsigned int axis, const unsigned int i)
+    {
+      return i / Utilities::pow(n, axis) % n;
+    }
+  } // namespace
+
+
+  template <int dim>
+  BodyContact<dim>::BodyContact(const BackgroundGrid<dim> &grid,
+                                const BodyGroup<dim> &first,
+                                const BodyGroup<dim> &second,
+                                const ContactPair &pair,
+                                const std::list<SoilBody<dim>> &bodies)
+      : grid(grid)
+      , groups{ { first, second } }
+      , friction_coefficients(pair.friction_coefficients)
+      , rough_side(pair.rough == pair.first ? 0 : 1)
+      , bodies(bodies)
+      , sums(grid.numbering())
+      , normals(grid.numbering())
+      , averages(grid.numbering())
+  {
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::reinit()
+  {
+    sums.reinit();
+    normals.reinit();
+    averages.reinit();
+  }
+
+
+  template <int dim>
+  bool BodyContact<dim>::acts_on(const unsigned int side, const unsigned int node) const
+  {
+    const NodeConstraints<dim> *walls = groups[side].constraints->at(node);
+    return (*groups[side].field)[node][NodalField<dim>::mass] > 0. || (walls != nullptr && walls->is_rigid);
+  }
+
+
+  template <int dim>
+  double BodyContact<dim>::inverse_mass(const unsigned int side, const unsigned int node) const
+  {
+    const NodeConstraints<dim> *walls = groups[side].constraints->at(node);
+    return walls != nullptr && walls->is_rigid ? 0. : 1. / (*groups[side].field)[node][NodalField<dim>::mass];
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::find_cells()
+  {
+    is_shared.resize(grid.numbering().n_local());
+    for (unsigned int node = 0; node < is_shared.size(); ++node)
+      is_shared[node] = acts_on(0, node) && acts_on(1, node);
+    cells.clear();
+    auto friction = friction_coefficients.begin();
+    for (const auto &body : bodies)
+      {
+        for (unsigned int side = 0; side < 2; ++side)
+          if (body.group == groups[side].number)
+            for (const auto &cell : body.points.cells())
+              {
+                const unsigned int *nodes = grid.nodes(cell.cell);
+                if (std::any_of(nodes, nodes + grid.n_nodes_per_cell(), [this](const unsigned int node) {
+                      return is_shared[node];
+                    }))
+                  cells.push_back({ side, &cell, *friction });
+              }
+        ++friction;
+      }
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::find_normals_of(const unsigned int node)
+  {
+    const double *moments = sums[node];
+    double *of_node       = normals[node];
+    if (moments[0] <= 0. || moments[n_moments] <= 0.)
+      return;
+    SymmetricTensor<2, dim> covariance;
+    Tensor<1, dim> between;
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        const double *own         = moments + side * n_moments;
+        const Tensor<1, dim> mean = vector_of<dim>(own + first_moments) / own[0];
+        between += (side == 0 ? -1. : 1.) * mean;
+        for (unsigned int a = 0, k = second_moments; a < dim; ++a)
+          for (unsigned int b = 0; b <= a; ++b, ++k)
+            covariance[a][b] += own[k] / own[0] - mean[a] * mean[b];
+        // The volume falls towards the other group.
+        const Tensor<1, dim> slope = (side == 0 ? 1. : -1.) * vector_of<dim>(own + gradient);
+        if (const double size = slope.norm(); size > 0.)
+          for (unsigned int a = 0; a < dim; ++a)
+            of_node[side * dim + a] = slope[a] / size;
+      }
+    for (unsigned int a = 0; a < dim; ++a)
+      covariance[a][a] += 1e-3; // points in a row leave a direction free
+    const Tensor<1, dim> across = invert(covariance) * between;
+    if (const double size = across.norm(); size > 0.)
+      for (unsigned int a = 0; a < dim; ++a)
+        of_node[regression * dim + a] = across[a] / size;
+    of_node[weight]     = 1. / (1. / moments[0] + 1. / moments[n_moments]);
+    of_node[weight + 1] = moments[rough_side * n_moments + friction] / moments[rough_side * n_moments];
+  }
+
+
+  template <int dim>
+  template <int n>
+  void BodyContact<dim>::find_normals()
+  {
+    using Basis                    = CellBasis<dim, n>;
+    constexpr unsigned int n_nodes = Basis::n_nodes;
+    sums.clear();
+    normals.clear();
+    for (const Cell &cell : cells)
+      {
+        const unsigned int number = cell.points->cell;
+        sums.activate_cell(number);
+        normals.activate_cell(number);
+        const OpenKnots open = grid.open_knots(number);
+        std::array<std::array<double, n>, dim> positions;
+        for (unsigned int a = 0; a < dim; ++a)
+          positions[a] = Basis::node_positions(open, a);
+        double moments[n_nodes][n_moments] = {};
+        for_each_point(*cell.points, [&](const auto &point) {
+          const Basis basis(point.reference_location, open);
+          const double volume = point.properties[PropertyLayout<dim>::volume];
+          for (unsigned int i = 0; i < n_nodes; ++i)
+            {
+              double part = volume, x[dim], slope[dim];
+              for (unsigned int a = 0; a < dim; ++a)
+                {
+                  part *= basis.value[a][along<n>(a, i)];
+                  x[a]     = point.reference_location[a] - positions[a][along<n>(a, i)];
+                  slope[a] = volume;
+                  for (unsigned int b = 0; b < dim; ++b)
+                    slope[a] *= (a == b ? basis.derivative : basis.value)[b][along<n>(b, i)];
+                }
+              double *of_node = moments[i];
+              of_node[0] += part;
+              of_node[friction] += part * cell.friction;
+              for (unsigned int a = 0, k = second_moments; a < dim; ++a)
+                {
+                  of_node[first_moments + a] += part * x[a];
+                  of_node[gradient + a] += slope[a];
+                  for (unsigned int b = 0; b <= a; ++b, ++k)
+                    of_node[k] += part * x[a] * x[b];
+                }
+            }
+        });
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          for (unsigned int k = 0; k < n_moments; ++k)
+            sums[grid.nodes(number)[i]][cell.side * n_moments + k] += moments[i][k];
+      }
+    sums.add_contributions();
+    for (const unsigned int node : normals.active_nodes())
+      find_normals_of(node);
+    normals.update_ghosts();
+  }
+
+
+  template <int dim>
+  template <int n>
+  void BodyContact<dim>::find_reach(const unsigned int n_of)
+  {
+    using Basis = CellBasis<dim, n>;
+    sums.clear();
+    for (const Cell &cell : cells)
+      {
+        const unsigned int number = cell.points->cell;
+        sums.activate_cell(number);
+        const double sign = cell.side == 0 ? 1. : -1.;
+        std::array<std::array<double, n>, dim> positions;
+        for (unsigned int a = 0; a < dim; ++a)
+          positions[a] = Basis::node_positions(grid.open_knots(number), a);
+        for_each_point(*cell.points, [&](const auto &point) {
+          const double volume = point.properties[PropertyLayout<dim>::volume];
+          const double radius = 0.5 * (dim == 2 ? std::sqrt(volume) : std::cbrt(volume)) / grid.cell_size();
+          for (unsigned int i = 0; i < Basis::n_nodes; ++i)
+            {
+              const unsigned int node = grid.nodes(number)[i];
+              if (!is_shared[node])
+                continue;
+              for (unsigned int k = 0; k < n_of; ++k)
+                {
+                  double height = 0.;
+                  for (unsigned int a = 0; a < dim; ++a)
+                    height += normals[node][k * dim + a] * (point.reference_location[a] - positions[a][along<n>(a, i)]);
+                  double &reach = sums[node][cell.side * n_normals + k];
+                  reach         = std::max(reach, reach_of_none + sign * height + radius);
+                }
+            }
+        });
+      }
+    sums.take_largest();
+  }
+
+
+  template <int dim>
+  double BodyContact<dim>::gap_along(const unsigned int node, const unsigned int normal) const
+  {
+    const double *reach = sums[node];
+    return grid.cell_size() * (2. * reach_of_none - reach[normal] - reach[n_normals + normal]);
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::choose_normals()
+  {
+    for (const unsigned int node : normals.active_nodes())
+      if (double *of_node = normals[node]; of_node[weight] > 0.)
+        {
+          double widest = gap_along(node, regression) - margin * grid.cell_size();
+          for (unsigned int k = 0; k < regression; ++k)
+            widest = std::max(widest, gap_along(node, k));
+          Tensor<1, dim> normal;
+          for (unsigned int k = 0; k < regression; ++k)
+            if (gap_along(node, k) > widest - tie * grid.cell_size())
+              normal += vector_of<dim>(of_node + k * dim);
+          if (normal.norm_square() == 0.)
+            normal = vector_of<dim>(of_node + regression * dim);
+          const double size = normal.norm();
+          for (unsigned int a = 0; a < dim; ++a)
+            of_node[a] = size > 0. ? normal[a] / size : 0.; // list_meetings() passes over those without a normal
+        }
+    normals.update_ghosts();
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::smooth_normals()
+  {
+    averages.clear();
+    for (const Cell &cell : cells)
+      {
+        averages.activate_cell(cell.points->cell);
+        const unsigned int *nodes = grid.nodes(cell.points->cell);
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          for (unsigned int j = 0; j < grid.n_nodes_per_cell(); ++j)
+            {
+              const double *own = normals[nodes[i]], *other = normals[nodes[j]];
+              double cosine = 0.;
+              for (unsigned int a = 0; a < dim; ++a)
+                cosine += own[a] * other[a];
+              for (unsigned int a = 0; a < dim && cosine > same_face; ++a)
+                averages[nodes[i]][a] += other[weight] * other[a];
+            }
+      }
+    averages.add_contributions();
+    for (const unsigned int node : averages.active_nodes())
+      {
+        const Tensor<1, dim> sum = vector_of<dim>(averages[node]);
+        for (unsigned int a = 0; a < dim && sum.norm_square() > 0.; ++a)
+          normals[node][a] = sum[a] / sum.norm();
+      }
+    normals.update_ghosts();
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::list_meetings()
+  {
+    meetings.clear();
+    for (const unsigned int node : normals.active_nodes())
+      {
+        if (normals[node][weight] == 0.)
+          continue; // Only one of the groups is there.
+        Tensor<1, dim> normal = vector_of<dim>(normals[node]);
+        for (unsigned int side = 0; side < 2; ++side)
+          if (const NodeConstraints<dim> *walls = groups[side].constraints->at(node);
+              walls != nullptr && !walls->is_rigid)
+            normal = walls->soil_held.free_part(normal);
+        constexpr double smallest = 1e-6; // below it, walls hold the node
+        if (const double size = normal.norm(); size > smallest)
+          meetings.push_back({ node,
+                               normal / size,
+                               gap_along(node, 0),
+                               normals[node][weight + 1],
+                               {},
+                               { { inverse_mass(0, node), inverse_mass(1, node) } } });
+      }
+  }
+
+
+  template <int dim>
+  template <int n>
+  void BodyContact<dim>::find()
+  {
+    find_cells();
+    find_normals<n>();
+    find_reach<n>(n_normals);
+    choose_normals();
+    smooth_normals();
+    find_reach<n>(1);
+    list_meetings();
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::find()
+  {
+    if (grid.n_nodes_1d() == 2)
+      find<2>();
+    else
+      find<3>();
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::solve(const double time_step, StepBalance<dim> &balance)
+  {
+    const double touching = slack * grid.cell_size();
+    for (Meeting &meeting : meetings)
+      {
+        double *values[2];
+        MovingMass<dim> masses[2];
+        for (unsigned int side = 0; side < 2; ++side)
+          {
+            values[side] = (*groups[side].field)[meeting.node];
+            masses[side] = { meeting.inverse_mass[side], vector_of<dim>(values[side] + NodalField<dim>::velocity) };
+          }
+        const double approach = std::max(0., meeting.gap - touching) / time_step;
+        const Tensor<1, dim> impulse =
+            contact_impulse(masses[0], masses[1], meeting.normal, approach, meeting.friction);
+        if (impulse.norm_square() == 0.)
+          continue;
+        meeting.impulse += impulse;
+        for (unsigned int side = 0; side < 2; ++side)
+          {
+            const Tensor<1, dim> own = side == 0 ? -impulse : impulse;
+            if (masses[side].inverse_mass == 0.)
+              {
+                balance.wall_impulse -= own; // What rigid soil is given, it gives to the rest of the world.
+                continue;
+              }
+            Tensor<1, dim> velocity = masses[side].velocity + masses[side].inverse_mass * own;
+            if (const NodeConstraints<dim> *walls = groups[side].constraints->at(meeting.node))
+              stop_at_walls(*walls, masses[side].inverse_mass, velocity, balance);
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                values[side][NodalField<dim>::velocity_change + c] +=
+                    velocity[c] - values[side][NodalField<dim>::velocity + c];
+                values[side][NodalField<dim>::velocity + c] = velocity[c];
+              }
+          }
+      }
+  }
+
+
+  template <int dim>
+  void BodyContact<dim>::count_dissipation(StepBalance<dim> &balance) const
+  {
+    for (const Meeting &meeting : meetings)
+      for (unsigned int side = 0; side < 2; ++side)
+        {
+          const double *values               = (*groups[side].field)[meeting.node];
+          const Tensor<1, dim> mean_velocity = vector_of<dim>(values + NodalField<dim>::velocity) -
+                                               0.5 * vector_of<dim>(values + NodalField<dim>::velocity_change);
+          balance.contact_dissipation -= (side == 0 ? -1. : 1.) * (meeting.impulse * mean_velocity);
+        }
+  }
+
+  template class BodyContact<2>;
+  template class BodyContact<3>;
+} // namespace scree
