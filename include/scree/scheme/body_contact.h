@@ -30,9 +30,10 @@ namespace scree
   /// The normal at a node, one for both groups, is the best of three: along the gradient of the first group's volume,
   /// along that of the second's, and across the plane that parts the points around the node by linear regression
   /// (Fisher's discriminant; Nairn, Hammerquist & Smith 2020 part them by regression, too). The best is the one along
-  /// which the points' cubes are the furthest apart, or overlap the least: as bodies that do not overlap are parted by
-  /// some plane, this tells the face of one body from the edge of the other. Cubes that do not reach each other along
-  /// it are no contact yet: they may close the gap.
+  /// which the points, as balls of their size, are the furthest apart, or overlap the least: as bodies that do not
+  /// overlap are parted by some plane, this tells the face of one body from the edge of the other. Then normals of
+  /// nodes with a cell in common are averaged, as each is rough by the places of points, unless there is a corner
+  /// between them. Balls that do not reach each other along the normal are no contact yet: they may close the gap.
   template <int dim>
   class BodyContact
   {
