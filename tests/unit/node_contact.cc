@@ -31,7 +31,7 @@ void random_pairs()
       Tensor<1, dim> normal = random_vector();
       normal /= normal.norm();
       const double approach = trial % 3 == 0 ? random.uniform(0., 1.) : 0.;
-      const double friction = trial % 7 == 0 ? 0. : random.uniform(0., 2.);
+      const double friction = trial % 7 == 0 ? 0. : random.uniform(0., 4.);
 
       const Tensor<1, dim> impulse = contact_impulse(first, second, normal, approach, friction);
       const Tensor<1, dim> before  = second.velocity - first.velocity,
