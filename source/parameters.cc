@@ -113,6 +113,9 @@ namespace scree
           declare_water(handler);
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
+        bed.map_origin = Point<2>(local_origin[0], local_origin[1]);
+        for (ObstacleParameters &obstacle : obstacles)
+          obstacle.surface.map_origin = bed.map_origin;
         for (const InflowParameters &inflow : inflows)
           {
             water.is_fed = water.is_fed || inflow.is_water() || inflow.is_saturated;
@@ -234,6 +237,11 @@ namespace scree
                       body_names,
                       "Names of the bodies of soil, separated by commas; each has a subsection of its name; or none.",
                       Patterns::List(Patterns::Anything(), 1));
+    prm.add_parameter("Local origin",
+                      local_origin,
+                      "Where the map has x = 0, y = 0, m, 3D. Rasters and outlines that are read, and maps that are "
+                      "written, are in the map's coordinates; all else is relative to this place.",
+                      Patterns::List(Patterns::Double(), 2, 2));
     body_force.add_parameters(prm);
     base_motion.add_parameters(prm);
     grid.add_parameters(prm);
@@ -275,6 +283,11 @@ namespace scree
                   number_text(gravity),
                   "entry \"Dimension\" is " + std::to_string(dimension) + ". Write " + std::to_string(dimension) +
                       " components in m/s^2, separated by commas.");
+    require_entry(dimension == 3 || (local_origin[0] == 0. && local_origin[1] == 0.),
+                  "",
+                  "Local origin",
+                  number_text(local_origin),
+                  "a scene in the plane has no map. Remove it.");
     require_entry(!output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
     grid.check(dimension);
     transfer.check();

@@ -48,7 +48,10 @@ namespace scree
                      &scene.obstacles })
       , rows(folder.file("statistics"))
       , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
-      , maps(parameters.output.maps, scene.grid, folder)
+      , maps(parameters.output.maps,
+             { parameters.bed.map_origin, scene.ground ? scene.ground->map_system() : "" },
+             scene.grid,
+             folder)
       , totals(scene.obstacles.size())
   {
     if (start == Start::resume)
@@ -127,6 +130,10 @@ namespace scree
              scene.water,
              scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator)));
     folder.log("Transfer: " + parameters.transfer.text());
+    if (const Point<2> &origin = parameters.bed.map_origin; origin != Point<2>())
+      folder.log("Local origin: x = 0, y = 0 is " + number_text({ origin[0], origin[1] }) +
+                 " m on the map. Rasters, outlines and maps are in the map's coordinates, all else, the pictures, too, "
+                 "from this place.");
     if (scene.ground)
       if (const std::string remark = scene.ground->remark(); !remark.empty())
         folder.log(remark);

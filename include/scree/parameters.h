@@ -72,6 +72,7 @@ namespace scree
     double end_time        = 1;
     std::string output_directory{ "results/scree" };
     std::vector<double> gravity{ 0., -9.81 };
+    std::vector<double> local_origin{ 0., 0. }; ///< on the map, m
 
     GridParameters grid;
     TimeStepParameters time_step;

@@ -3,6 +3,7 @@
 #include <scree/geometry/expression_surface.h>
 #include <scree/geometry/height_surface.h>
 #include <scree/geometry/profile.h>
+#include <scree/geometry/triangle_surface.h>
 #include <scree/input/input_error.h>
 
 #include <cmath>
@@ -52,6 +53,10 @@ namespace scree
                       raster,
                       "In place of the expression, 3D: file of the ground's heights, in m, an ESRI ASCII grid.",
                       Patterns::Anything());
+    prm.add_parameter("Closed surface",
+                      closed_surface,
+                      "In place of the expression, 3D: file of a solid's surface of triangles, in m, an STL file.",
+                      Patterns::Anything());
   }
 
 
@@ -85,6 +90,8 @@ namespace scree
       return { "Profile", profile };
     if (!raster.empty())
       return { "Raster", raster };
+    if (!closed_surface.empty())
+      return { "Closed surface", closed_surface };
     return { "Level set expression", expression };
   }
 
@@ -96,7 +103,7 @@ namespace scree
     };
     const auto given        = geometry();
     const bool is_rough     = type_kind() == BedType::friction;
-    const int n_given       = !expression.empty() + !profile.empty() + !raster.empty();
+    const int n_given       = !expression.empty() + !profile.empty() + !raster.empty() + !closed_surface.empty();
     const auto type_entry   = std::make_pair(std::string("Type"), type);
     const auto angles_entry = std::make_pair(std::string("Friction angles"), friction_angles);
     require(is_rough || friction_angles.empty(),
@@ -119,14 +126,18 @@ namespace scree
       return;
     require(n_given > 0,
             type_entry,
-            "where is it? Write one of \"Level set expression\", \"Profile\" (2D) and \"Raster\" (3D).");
-    require(n_given < 2, given, "it is given twice. Keep one of expression, profile and raster.");
+            "where is it? Write one of \"Level set expression\", \"Profile\" (2D), \"Raster\" and \"Closed surface\" "
+            "(3D).");
+    require(n_given < 2, given, "it is given twice. Keep one of expression, profile, raster and closed surface.");
     require(dim == 2 || profile.empty(),
             given,
             "a profile is ground of plane scenes. Write a \"Raster\" or a \"Level set expression\".");
     require(dim == 3 || raster.empty(),
             given,
             "a raster is ground of scenes in space. Write a \"Profile\" or a \"Level set expression\".");
+    require(dim == 3 || closed_surface.empty(),
+            given,
+            "solids of triangles are for scenes in space. Write a \"Profile\" or a \"Level set expression\".");
     if (dim == 2 && !expression.empty())
       ExpressionSurface<2>(entry_name(subsection, given.first), expression, 1.);
     if (dim == 3 && !expression.empty())
@@ -170,12 +181,35 @@ namespace scree
     }
 
 
+    std::unique_ptr<LevelSet<3>>
+    make_solid(const BedParameters &parameters, const std::vector<double> &lower, const std::vector<double> &upper)
+    {
+      auto surface =
+          read_triangle_surface(parameters.closed_surface, entry_name(parameters.subsection, "Closed surface"));
+      const auto &[first, last] = surface->bounds();
+      bool is_in_box            = true;
+      for (unsigned int a = 0; a < 3; ++a)
+        is_in_box = is_in_box && first[a] < upper[a] && last[a] > lower[a];
+      require_entry(is_in_box,
+                    parameters.subsection,
+                    "Closed surface",
+                    parameters.closed_surface,
+                    "it reaches from " + number_text({ first[0], first[1], first[2] }) + " to " +
+                        number_text({ last[0], last[1], last[2] }) +
+                        " m and lies outside the box of subsection Mesh. Look at its unit of length and its origin.");
+      return surface;
+    }
+
+
     std::unique_ptr<LevelSet<3>> make_ground(const BedParameters &parameters,
                                              const std::vector<double> &lower,
                                              const std::vector<double> &upper,
                                              const Point<3> &)
     {
-      Raster raster = read_raster(parameters.raster, entry_name(parameters.subsection, "Raster"));
+      if (!parameters.closed_surface.empty())
+        return make_solid(parameters, lower, upper);
+      Raster raster =
+          read_raster(parameters.raster, entry_name(parameters.subsection, "Raster"), parameters.map_origin);
       require_cover(raster.x <= lower[0] && raster.last_x() >= upper[0], parameters, "x", raster.x, raster.last_x());
       require_cover(raster.y <= lower[1] && raster.last_y() >= upper[1], parameters, "y", raster.y, raster.last_y());
       return std::make_unique<HeightSurface>(std::move(raster));
@@ -187,7 +221,7 @@ namespace scree
   read_friction(const BedParameters &parameters, const std::vector<double> &lower, const std::vector<double> &upper)
   {
     const std::string where = entry_name(parameters.subsection, "Friction angles");
-    Raster raster           = read_raster(parameters.friction_angles, where);
+    Raster raster           = read_raster(parameters.friction_angles, where, parameters.map_origin);
     const auto require      = [&](const bool possible, const std::string &remedy) {
       if (!possible)
         throw EntryError(where + " = " + parameters.friction_angles + ": " + remedy);

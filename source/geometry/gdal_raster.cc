@@ -69,6 +69,14 @@ namespace scree
     raster.n_rows    = data->GetRasterYSize();
     if (raster.n_columns < 2 || raster.n_rows < 2)
       throw EntryError(name + "it must have 2 columns and 2 rows at least.");
+    if (const OGRSpatialReference *system = data->GetSpatialRef())
+      {
+        char *text            = nullptr;
+        const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
+        if (system->exportToWkt(&text, options) == OGRERR_NONE)
+          raster.system = text;
+        CPLFree(text);
+      }
     raster.spacing = map[1];
     raster.x       = map[0] + 0.5 * map[1];
     raster.y       = map[3] + (raster.n_rows - 0.5) * map[5];

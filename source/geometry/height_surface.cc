@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/height_surface.h>
+#include <scree/geometry/triangle.h>
 
 #include <algorithm>
 #include <array>
@@ -9,36 +10,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    using Triangle = std::array<Point<3>, 3>;
-
-    /// The place of a segment that is nearest to `x`.
-    Point<3> nearest_of_segment(const Point<3> &x, const Point<3> &a, const Point<3> &b)
-    {
-      const Tensor<1, 3> along = b - a;
-      return a + std::clamp((x - a) * along / along.norm_square(), 0., 1.) * along;
-    }
-
-
-    /// The place of a triangle that is nearest to `x`.
-    Point<3> nearest_of_triangle(const Point<3> &x, const Triangle &corners)
-    {
-      const Tensor<1, 3> u = corners[1] - corners[0], v = corners[2] - corners[0], w = x - corners[0];
-      const double uu = u * u, uv = u * v, vv = v * v, wu = w * u, wv = w * v, determinant = uu * vv - uv * uv;
-      const double s = (vv * wu - uv * wv) / determinant, t = (uu * wv - uv * wu) / determinant;
-      if (s >= 0. && t >= 0. && s + t <= 1.)
-        return corners[0] + s * u + t * v;
-      Point<3> nearest = nearest_of_segment(x, corners[0], corners[1]);
-      for (const unsigned int i : { 1, 2 })
-        if (const Point<3> other = nearest_of_segment(x, corners[i], corners[(i + 1) % 3]);
-            other.distance_square(x) < nearest.distance_square(x))
-          nearest = other;
-      return nearest;
-    }
-  } // namespace
-
 
   HeightSurface::HeightSurface(Raster raster)
       : raster(std::move(raster))
@@ -87,14 +58,14 @@ namespace scree
     double shortest = std::isnan(above) ? reach : std::min(reach, std::abs(above));
     SurfaceView<3> best{ side * shortest, Tensor<1, 3>({ 0., 0., 1. }) };
     const auto look_at = [&](const Triangle &corners) {
-      const Tensor<1, 3> way = x - nearest_of_triangle(x, corners);
+      const Tensor<1, 3> way = x - nearest_place(x, corners).place;
       const double distance  = way.norm();
       if (distance > shortest)
         return;
       shortest                  = distance;
-      const Tensor<1, 3> across = cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]);
+      const Tensor<1, 3> normal = across(corners);
       // On the ground itself only the triangle tells where the open is.
-      best = { side * distance, distance > 1e-10 * raster.spacing ? side / distance * way : across / across.norm() };
+      best = { side * distance, distance > 1e-10 * raster.spacing ? side / distance * way : normal / normal.norm() };
     };
     const auto range = [&](const double place, const double first, const unsigned int n) {
       const auto number = [&](const double at) {

@@ -74,12 +74,12 @@ namespace scree
   }
 
 
-  Polygon read_polygon(const std::string &file, const std::string &where)
+  Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
   {
     const std::string name = where + " = " + file + ": ";
     std::vector<Point<2>> corners;
     for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
-      corners.emplace_back(row[0], row[1]);
+      corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
     if (corners.front() == corners.back())
       corners.pop_back();
     if (corners.size() < 3)

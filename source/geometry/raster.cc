@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -124,47 +126,68 @@ namespace scree
   }
 
 
-  Raster read_raster(const std::string &file, const std::string &where)
+  namespace
+  {
+    /// The text of the .prj file that lies beside a grid; empty without one.
+    std::string system_beside(const std::string &file)
+    {
+      std::ifstream in(std::filesystem::path(file).replace_extension(".prj"));
+      return { std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
+    }
+
+
+    Raster read_ascii_raster(std::istream &in, const std::string &name)
+    {
+      const Header head(in, name);
+      const double columns = head.number("ncols"), rows = head.number("nrows");
+      constexpr double most = 1e9;
+      if (!(columns >= 2 && rows >= 2 && columns * rows <= most && columns == std::floor(columns) &&
+            rows == std::floor(rows)))
+        throw EntryError(name + "ncols = " + number_text(columns) + " and nrows = " + number_text(rows) +
+                         " must be whole numbers, 2 at least.");
+      Raster raster;
+      raster.n_columns = static_cast<unsigned int>(columns);
+      raster.n_rows    = static_cast<unsigned int>(rows);
+      raster.spacing   = head.number("cellsize");
+      if (!(raster.spacing > 0))
+        throw EntryError(name + "cellsize = " + number_text(raster.spacing) + " must be positive, in m.");
+      raster.x             = head.origin("x", raster.spacing);
+      raster.y             = head.origin("y", raster.spacing);
+      const double missing = head.has("nodata_value") ? head.number("nodata_value") : -9999.;
+
+      raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
+      std::string word;
+      for (unsigned int row = raster.n_rows; row-- > 0;) // from the north
+        for (unsigned int column = 0; column < raster.n_columns; ++column)
+          {
+            in >> word;
+            const double value = in ? number_of(word) : std::numeric_limits<double>::quiet_NaN();
+            if (!std::isfinite(value))
+              throw EntryError(name +
+                               (in ? scree::quoted(word) + " stands where a height should be"
+                                   : "it ends before the last of its " + number_text(columns * rows) + " heights") +
+                               ". Write a complete ESRI ASCII grid.");
+            raster.values[std::size_t(row) * raster.n_columns + column] =
+                value == missing ? std::numeric_limits<double>::quiet_NaN() : value;
+          }
+      if (in >> word)
+        throw EntryError(name + "it goes on with " + scree::quoted(word) + " after the last of its " +
+                         number_text(columns * rows) + " heights. Write a complete ESRI ASCII grid.");
+      return raster;
+    }
+  } // namespace
+
+
+  Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin)
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_file(file, name);
-    if (!is_text(in))
-      return read_gdal_raster(file, name);
-    const Header head(in, name);
-    const double columns = head.number("ncols"), rows = head.number("nrows");
-    constexpr double most = 1e9;
-    if (!(columns >= 2 && rows >= 2 && columns * rows <= most && columns == std::floor(columns) &&
-          rows == std::floor(rows)))
-      throw EntryError(name + "ncols = " + number_text(columns) + " and nrows = " + number_text(rows) +
-                       " must be whole numbers, 2 at least.");
-    Raster raster;
-    raster.n_columns = static_cast<unsigned int>(columns);
-    raster.n_rows    = static_cast<unsigned int>(rows);
-    raster.spacing   = head.number("cellsize");
-    if (!(raster.spacing > 0))
-      throw EntryError(name + "cellsize = " + number_text(raster.spacing) + " must be positive, in m.");
-    raster.x             = head.origin("x", raster.spacing);
-    raster.y             = head.origin("y", raster.spacing);
-    const double missing = head.has("nodata_value") ? head.number("nodata_value") : -9999.;
-
-    raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
-    std::string word;
-    for (unsigned int row = raster.n_rows; row-- > 0;) // from the north
-      for (unsigned int column = 0; column < raster.n_columns; ++column)
-        {
-          in >> word;
-          const double value = in ? number_of(word) : std::numeric_limits<double>::quiet_NaN();
-          if (!std::isfinite(value))
-            throw EntryError(name +
-                             (in ? scree::quoted(word) + " stands where a height should be"
-                                 : "it ends before the last of its " + number_text(columns * rows) + " heights") +
-                             ". Write a complete ESRI ASCII grid.");
-          raster.values[std::size_t(row) * raster.n_columns + column] =
-              value == missing ? std::numeric_limits<double>::quiet_NaN() : value;
-        }
-    if (in >> word)
-      throw EntryError(name + "it goes on with " + scree::quoted(word) + " after the last of its " +
-                       number_text(columns * rows) + " heights. Write a complete ESRI ASCII grid.");
+    const bool is_ascii    = is_text(in);
+    Raster raster          = is_ascii ? read_ascii_raster(in, name) : read_gdal_raster(file, name);
+    if (is_ascii)
+      raster.system = system_beside(file);
+    raster.x -= origin[0];
+    raster.y -= origin[1];
     return raster;
   }
 } // namespace scree

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/source_map.h>
+#include <scree/geometry/triangle_surface.h>
 #include <scree/input/input_error.h>
 
 #include <algorithm>
@@ -30,6 +31,10 @@ namespace scree
                       outline,
                       "3D: file of the corners x, y of a polygon in which the body is on the map, in m, one a line.",
                       Patterns::Anything());
+    prm.add_parameter("Closed surface",
+                      closed_surface,
+                      "3D: file of a surface of triangles inside which the body is, in m, an STL file.",
+                      Patterns::Anything());
   }
 
 
@@ -39,6 +44,8 @@ namespace scree
       return { "Thickness", thickness };
     if (!upper_surface.empty())
       return { "Upper surface", upper_surface };
+    if (!closed_surface.empty())
+      return { "Closed surface", closed_surface };
     if (!lower_surface.empty())
       return { "Lower surface", lower_surface };
     return { "Outline", outline };
@@ -51,12 +58,17 @@ namespace scree
                                   const bool has_bed) const
   {
     const auto [entry, value] = first();
-    require_entry(dim == 3 || !is_set(), body, entry, value, "maps are for scenes in space. Write a \"Region\".");
+    require_entry(dim == 3 || !is_set(),
+                  body,
+                  entry,
+                  value,
+                  "maps and solids of triangles are for scenes in space. Write a \"Region\".");
     require_entry(!has_water || !is_set(),
                   body,
                   entry,
                   value,
-                  "bodies by maps are not possible with water yet. Remove subsection Water, or write a \"Region\".");
+                  "bodies by maps or a closed surface are not possible with water yet. Remove subsection Water, or "
+                  "write a \"Region\".");
     require_entry(thickness.empty() || upper_surface.empty(),
                   body,
                   "Upper surface",
@@ -77,11 +89,37 @@ namespace scree
 
   namespace
   {
-    std::optional<Raster> read(const std::string &body, const std::string &entry, const std::string &file)
+    std::optional<Raster>
+    read(const std::string &body, const std::string &entry, const std::string &file, const Point<2> &origin)
     {
       if (file.empty())
         return {};
-      return read_raster(file, entry_name(body, entry));
+      return read_raster(file, entry_name(body, entry), origin);
+    }
+
+
+    /// Throws EntryError unless the solid lies in the box.
+    std::unique_ptr<LevelSet<3>> read_solid(const std::string &body,
+                                            const std::string &file,
+                                            const std::vector<double> &lower,
+                                            const std::vector<double> &upper)
+    {
+      const std::string entry   = "Closed surface";
+      auto solid                = read_triangle_surface(file, entry_name(body, entry));
+      const auto &[first, last] = solid->bounds();
+      const double tolerance    = 1e-6 * first.distance(last); // STL files hold seven digits
+      bool is_in_box            = true;
+      for (unsigned int a = 0; a < 3; ++a)
+        is_in_box = is_in_box && first[a] >= lower[a] - tolerance && last[a] <= upper[a] + tolerance;
+      require_entry(is_in_box,
+                    body,
+                    entry,
+                    file,
+                    "it reaches from " + number_text({ first[0], first[1], first[2] }) + " to " +
+                        number_text({ last[0], last[1], last[2] }) +
+                        " m, beyond the box of subsection Mesh. Look at its unit of length and its origin, or write a "
+                        "larger box.");
+      return solid;
     }
   } // namespace
 
@@ -93,12 +131,14 @@ namespace scree
                        const std::vector<double> &upper)
       : entry(parameters.first())
       , ground(make_bed<3>(bed, lower, upper, 1.))
-      , thickness(read(body, "Thickness", parameters.thickness))
-      , upper_surface(read(body, "Upper surface", parameters.upper_surface))
-      , lower_surface(read(body, "Lower surface", parameters.lower_surface))
+      , thickness(read(body, "Thickness", parameters.thickness, bed.map_origin))
+      , upper_surface(read(body, "Upper surface", parameters.upper_surface, bed.map_origin))
+      , lower_surface(read(body, "Lower surface", parameters.lower_surface, bed.map_origin))
   {
     if (!parameters.outline.empty())
-      outline = read_polygon(parameters.outline, entry_name(body, "Outline"));
+      outline = read_polygon(parameters.outline, entry_name(body, "Outline"), bed.map_origin);
+    if (!parameters.closed_surface.empty())
+      solid = read_solid(body, parameters.closed_surface, lower, upper);
     if (thickness || upper_surface)
       check(body, { lower[0], lower[1], lower[2] }, { upper[0], upper[1], upper[2] });
   }
@@ -141,6 +181,8 @@ namespace scree
 
   bool SourceMap::contains(const Point<3> &x) const
   {
+    if (solid && solid->is_open(x))
+      return false;
     if (outline && !outline->contains({ x[0], x[1] }))
       return false;
     if (upper_surface && !(x[2] < upper_surface->value_at(x[0], x[1])))

@@ -23,8 +23,12 @@ namespace scree
 
 
   template <int dim>
-  Maps<dim>::Maps(const MapParameters &parameters, const BackgroundGrid<dim> &grid, const RunFolder &folder)
+  Maps<dim>::Maps(const MapParameters &parameters,
+                  const MapFrame &frame,
+                  const BackgroundGrid<dim> &grid,
+                  const RunFolder &folder)
       : parameters(parameters)
+      , frame(frame)
       , grid(grid)
       , folder(folder)
   {
@@ -168,14 +172,16 @@ namespace scree
   void Maps<dim>::write_map(const std::string &name, const Map &map) const
   {
     std::ostringstream text;
-    text << std::setprecision(15) << "ncols " << n[0] << "\nnrows " << n[1] << "\nxllcorner " << grid.lower_corner()[0]
-         << "\nyllcorner " << grid.lower_corner()[1] << "\ncellsize " << grid.cell_size() << "\nNODATA_value "
-         << no_data << '\n'
+    text << std::setprecision(15) << "ncols " << n[0] << "\nnrows " << n[1] << "\nxllcorner "
+         << frame.origin[0] + grid.lower_corner()[0] << "\nyllcorner " << frame.origin[1] + grid.lower_corner()[1]
+         << "\ncellsize " << grid.cell_size() << "\nNODATA_value " << no_data << '\n'
          << std::setprecision(9);
     for (std::size_t row = map.size() / n[0]; row-- > 0;) // from the north
       for (std::size_t c = 0; c < n[0]; ++c)
         text << map[row * n[0] + c] << (c + 1 < n[0] ? ' ' : '\n');
     folder.write("maps/" + name + ".asc", text.str());
+    if (!frame.system.empty())
+      folder.write("maps/" + name + ".prj", frame.system);
   }
 
   template class Maps<2>;

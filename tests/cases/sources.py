@@ -134,4 +134,36 @@ def friction():
     check(steps[0] < impulse["halves"] < steps[1], "angles by place")
 
 
-{"thickness": thickness, "surfaces": surfaces, "friction": friction}[sys.argv[3]]()
+def shifted():
+    """The same slide far from the map's origin, with a local origin: the same statistics, and maps where the map has them."""
+    def write_all(corner):
+        global CORNER
+        CORNER = corner
+        mountain()
+        write_raster("angles.asc", np.tile(20 + 0.05 * SPACING * np.arange(COLUMNS), (ROWS, 1)))
+        outline = np.array([(50., 40.), (150., 50.), (130., 130.), (60., 110.)]) + corner
+        pathlib.Path("outline.csv").write_text("".join("%.17g, %.17g\n" % tuple(place) for place in outline), encoding="utf-8")
+    text = TEXT.replace("End time         = 1e-3", "End time         = 0.2") % "  set Thickness = ../thickness.asc\n  set Outline = ../outline.csv"
+    text = text.replace("1010, 2010, 80", "10, 10, 80").replace("1190, 2150, 230", "190, 150, 230")
+    text = text.replace("set Type   = fixed", "set Type   = friction\n  set Friction angles = ../angles.asc")
+    far = (2.6e6, 1.2e6)
+    system = 'PROJCS["CH1903+_LV95"]'
+    write_all((0., 0.))
+    near = run("near", text)
+    write_all(far)
+    pathlib.Path("bed.prj").write_text(system, encoding="utf-8")
+    moved = run("far", "set Local origin = %.17g, %.17g\n" % far + text)
+    rows = [render.read_statistics(results) for results in (near, moved)]
+    for name, values in rows[0].items():
+        difference = np.max(np.abs(values - rows[1][name])) / max(np.max(np.abs(values)), 1e-9)
+        check(difference <= 1e-9, f"{name}: {difference}")
+    check(rows[0]["Mass (kg)"][0] > 0 and np.max(np.abs(rows[0]["Momentum x (N s)"])) > 0, "nothing moves")
+    maps = [relief.read_raster(results / "maps" / "largest_thickness.asc") for results in (near, moved)]
+    check(maps[0].x == 10 and maps[1].x == 10 + far[0] and maps[1].y == 10 + far[1], f"maps: {maps[1].x}, {maps[1].y}")
+    check(np.array_equal(maps[0].values, maps[1].values), "values of the map")
+    check((moved / "maps" / "largest_thickness.prj").read_text(encoding="utf-8") == system, "system of coordinates")
+    check(not (near / "maps" / "largest_thickness.prj").exists(), "system of coordinates from nowhere")
+    check("Local origin" in (moved / "log.txt").read_text(encoding="utf-8"), "log")
+
+
+{"thickness": thickness, "surfaces": surfaces, "friction": friction, "shifted": shifted}[sys.argv[3]]()

@@ -30,10 +30,13 @@ namespace scree
 
     std::string type      = "none";
     double friction_angle = 0; ///< degrees
-    std::string expression, profile, raster;
+    std::string expression, profile, raster, closed_surface;
     std::string friction_angles; ///< file; of the bed only
 
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Where the map has the origin of the case's coordinates, m; set once the case is read.
+    dealii::Point<2> map_origin;
 
     /// Declares the entries in the subsection that the handler is in.
     void add_entries(dealii::ParameterHandler &prm);

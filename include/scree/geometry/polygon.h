@@ -33,7 +33,8 @@ namespace scree
 
   /// Reads the corners "x, y", m, one a line; the last may repeat the first. Throws EntryError, which begins with
   /// `where` (see entry_name()), if they are fewer than three, or if edges cross.
-  Polygon read_polygon(const std::string &file, const std::string &where);
+  /// @param origin where the map has the origin of the polygon's x and y, m
+  Polygon read_polygon(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 } // namespace scree
 
 #endif

@@ -2,6 +2,8 @@
 #ifndef scree_geometry_raster_h
 #define scree_geometry_raster_h
 
+#include <deal.II/base/point.h>
+
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace scree
     double x = 0, y = 0; ///< of the first value, m
     double spacing = 0;  ///< of the values along both axes, m
     std::vector<double> values;
+    std::string system; ///< of the map's coordinates, as a .prj file tells it; empty if that is not known
 
     double operator()(const unsigned int column, const unsigned int row) const
     {
@@ -40,7 +43,8 @@ namespace scree
 
   /// Reads an ESRI ASCII grid, whose values are those at the middles of its cells; what is no text is left to GDAL.
   /// Throws EntryError, which begins with `where` (see entry_name()), if it is none.
-  Raster read_raster(const std::string &file, const std::string &where);
+  /// @param origin where the map has the origin of the raster's x and y, m
+  Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 } // namespace scree
 
 #endif

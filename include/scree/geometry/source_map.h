@@ -20,7 +20,7 @@ namespace scree
   /// Where a body is, by maps: entries of its subsection.
   struct SourceMapParameters
   {
-    std::string thickness, upper_surface, lower_surface, outline; ///< files
+    std::string thickness, upper_surface, lower_surface, outline, closed_surface; ///< files
 
     /// Declares the entries in the subsection that the handler is in.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -30,13 +30,14 @@ namespace scree
 
     bool is_set() const
     {
-      return !thickness.empty() || !upper_surface.empty() || !lower_surface.empty() || !outline.empty();
+      return !thickness.empty() || !upper_surface.empty() || !lower_surface.empty() || !outline.empty() ||
+             !closed_surface.empty();
     }
 
     /// Whether they bound the body below and above, so that it needs no expression.
     bool is_region() const
     {
-      return !thickness.empty() || !upper_surface.empty();
+      return !thickness.empty() || !upper_surface.empty() || !closed_surface.empty();
     }
 
     /// Entry and value of the first that is given, for messages.
@@ -44,13 +45,14 @@ namespace scree
   };
 
   /// The part of space that a body's maps tell: above its bed or a lower surface, by less than a thickness or up to an
-  /// upper surface, within an outline. Between their values rasters are bilinear; where a thickness is missing it is 0,
-  /// where a height is missing the body is not.
+  /// upper surface, within an outline, inside a closed surface. Between their values rasters are bilinear; where a
+  /// thickness is missing it is 0, where a height is missing the body is not.
   class SourceMap
   {
   public:
     /// Reads the files; throws EntryError if they are no source in the box and above the bed.
     /// @param body name of the subsection
+    /// @param bed knows the map's origin, too
     /// @param lower, upper corners of the box, m
     SourceMap(const SourceMapParameters &parameters,
               const std::string &body,
@@ -70,6 +72,7 @@ namespace scree
     std::unique_ptr<LevelSet<3>> ground; // the bed; null without it
     std::optional<Raster> thickness, upper_surface, lower_surface;
     std::optional<Polygon> outline;
+    std::unique_ptr<LevelSet<3>> solid; // null without
   };
 } // namespace scree
 

@@ -15,6 +15,13 @@
 
 namespace scree
 {
+  /// Where a map has the case's coordinates.
+  struct MapFrame
+  {
+    dealii::Point<2> origin; ///< m; in 2D nothing reads it
+    std::string system;      ///< of coordinates, as a .prj file tells it; empty: none is known
+  };
+
   /// Maps of the soil that can move, on the columns of the mesh's fine cells along the last axis: ESRI ASCII grids in
   /// the folder `maps` of a run, in 2D one table along x. All ranks hold all columns. Does nothing unless the case asks
   /// for maps.
@@ -22,7 +29,10 @@ namespace scree
   class Maps
   {
   public:
-    Maps(const MapParameters &parameters, const BackgroundGrid<dim> &grid, const RunFolder &folder);
+    Maps(const MapParameters &parameters,
+         const MapFrame &frame,
+         const BackgroundGrid<dim> &grid,
+         const RunFolder &folder);
 
     /// Takes the state at `time`, s, into the maps. Collective.
     void sample(const std::list<SoilBody<dim>> &bodies, const double time);
@@ -50,6 +60,7 @@ namespace scree
     std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> columns_around(const dealii::Point<dim> &x) const;
 
     const MapParameters parameters;
+    const MapFrame frame;
     const BackgroundGrid<dim> &grid;
     const RunFolder &folder;
     std::array<std::size_t, dim> n; // cells along each axis
