@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/joined_surface.h>
 #include <scree/initial/geostatic.h>
 #include <scree/initial/water_start.h>
 #include <scree/points/seeding.h>
@@ -123,13 +124,13 @@ namespace scree
         parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner, parameters.grid.cell_size);
     if (ground)
       bed = std::make_unique<SampledSurface<dim>>(grid, *ground);
-    if (bed && parameters.has_water)
-      open_cells = std::make_unique<OpenCells<dim>>(grid, *bed);
     if (!parameters.bed.friction_angles.empty())
       bed_friction = read_friction(parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner);
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);
+    if (parameters.has_water)
+      join_ground();
     for (const InflowParameters &inflow : parameters.inflows)
       {
         const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const auto &one) {
@@ -139,11 +140,29 @@ namespace scree
                              grid,
                              parameters.grid.cell_size / parameters.points_per_cell(inflow),
                              body == parameters.bodies.end() ? 1. : body->initial_porosity(),
-                             ground.get());
+                             joined_ground ? joined_ground.get() : ground.get());
       }
     hold_at_inflows();
     if (parameters.surface_load.is_set())
       loads.emplace_back(grid, parameters.surface_load, points_per_cell(parameters).second);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::join_ground()
+  {
+    if (!obstacles.empty())
+      {
+        std::vector<const LevelSet<dim> *> parts;
+        if (ground)
+          parts.push_back(ground.get());
+        for (const Obstacle<dim> &obstacle : obstacles)
+          parts.push_back(&obstacle.shape());
+        joined_ground  = std::make_unique<JoinedSurface<dim>>(parts);
+        joined_samples = std::make_unique<SampledSurface<dim>>(grid, *joined_ground);
+      }
+    if (wet_ground() != nullptr)
+      open_cells = std::make_unique<OpenCells<dim>>(grid, *wet_ground());
   }
 
 
@@ -208,12 +227,9 @@ namespace scree
         water,
         loads,
         open_cells.get(),
-        bed ? std::make_unique<BedProjection<dim>>(
-                  grid,
-                  RigidSurface<dim>{ bed.get(), parameters.bed.friction_coefficient() },
-                  *open_cells,
-                  parameters.pressure.relative_tolerance)
-            : nullptr,
+        open_cells ? std::make_unique<BedProjection<dim>>(
+                         grid, *wet_ground(), rigid_surfaces(), *open_cells, parameters.pressure.relative_tolerance)
+                   : nullptr,
         inflows,
         timer);
   }
@@ -271,10 +287,12 @@ namespace scree
     hold_rigid_nodes();
     if (bed)
       bed->reinit();
-    if (open_cells)
-      open_cells->reinit();
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.reinit();
+    if (joined_samples)
+      joined_samples->reinit();
+    if (open_cells)
+      open_cells->reinit();
     for (Inflow<dim> &inflow : inflows)
       inflow.reinit();
     hold_at_inflows();
@@ -576,7 +594,12 @@ namespace scree
     for (auto &body : bodies)
       seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get());
     for (auto &part : water)
-      seed_water(part, parameters.water, soil, grid.triangulation(), grid.cell_size(), ground.get());
+      seed_water(part,
+                 parameters.water,
+                 soil,
+                 grid.triangulation(),
+                 grid.cell_size(),
+                 joined_ground ? joined_ground.get() : ground.get());
     for (const auto &load : loads)
       load.require_soil(bodies, communicator);
     // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.

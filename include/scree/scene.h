@@ -97,13 +97,16 @@ namespace scree
     std::list<SurfaceLoad<dim>> loads;
     std::list<Obstacle<dim>> obstacles;
     std::list<Inflow<dim>> inflows;
-    std::optional<Raster> bed_friction;         ///< coefficients of friction; nothing if they are the same everywhere
-    std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
-    std::unique_ptr<SampledSurface<dim>> bed;   ///< the same as the mesh sees it
-    std::unique_ptr<OpenCells<dim>> open_cells; ///< what it leaves of the cells; null without water or bed
+    std::optional<Raster> bed_friction;           ///< coefficients of friction; nothing if they are the same everywhere
+    std::unique_ptr<LevelSet<dim>> ground;        ///< null without a bed
+    std::unique_ptr<SampledSurface<dim>> bed;     ///< the same as the mesh sees it
+    std::unique_ptr<LevelSet<dim>> joined_ground; ///< bed and obstacles as one; null without water or obstacles
+    std::unique_ptr<SampledSurface<dim>> joined_samples; ///< the same as the mesh sees it
+    std::unique_ptr<OpenCells<dim>> open_cells; ///< what ground leaves of the cells; null without water or ground
 
   private:
     void make_bodies();
+    void join_ground();
 
     /// Holds the nodes of rigid bodies, for soil that sticks to them. Collective.
     void hold_rigid_nodes();
@@ -163,6 +166,12 @@ namespace scree
                       const std::array<double, (1 << dim)> &pressure,
                       std::vector<double> &properties) const;
     void require_points_outside_obstacles() const;
+
+    /// What water meets, as the mesh sees it; null if there is nothing.
+    const SampledSurface<dim> *wet_ground() const
+    {
+      return joined_samples ? joined_samples.get() : bed.get();
+    }
 
     /// The bed and the obstacles: what points in contact have slots for, in this order.
     std::vector<RigidSurface<dim>> rigid_surfaces() const;

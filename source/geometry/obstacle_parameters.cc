@@ -53,12 +53,10 @@ namespace scree
                   "Moment about",
                   pivot,
                   "write " + std::to_string(dim) + " numbers in m, separated by commas.");
-    require_entry(
-        !has_water || !surface.is_set(),
-        surface.subsection,
-        "Type",
-        surface.type,
-        "an obstacle in water is not possible yet. Remove subsection Water or the obstacle, or make it a body "
-        "of \"Material = rigid\".");
+    require_entry(!has_water || !is_moving(),
+                  surface.subsection,
+                  "Velocity",
+                  velocity,
+                  "an obstacle that moves in water is not possible yet. Remove the entry, or subsection Water.");
   }
 } // namespace scree

@@ -68,8 +68,9 @@ namespace scree
           values.push_back(&impulse[a]);
     for (ObstacleBalance<dim> &obstacle : balance.obstacles)
       {
-        for (unsigned int a = 0; a < dim; ++a)
-          values.push_back(&obstacle.impulse[a]);
+        for (Tensor<1, dim> *impulse : { &obstacle.impulse, &obstacle.pressure_impulse })
+          for (unsigned int a = 0; a < dim; ++a)
+            values.push_back(&(*impulse)[a]);
         for (unsigned int r = 0; r < ObstacleBalance<dim>::n_rotations; ++r)
           values.push_back(&obstacle.moment_impulse[r]);
         values.push_back(&obstacle.work);
@@ -230,16 +231,18 @@ namespace scree
     auto obstacle = further.obstacles->begin();
     for (unsigned int o = 0; o < balance.obstacles.size(); ++o, ++obstacle)
       {
-        // The obstacle feels the opposite of what the soil does.
+        // The obstacle feels the opposite of what soil and water do.
         const ObstacleBalance<dim> &now = balance.obstacles[o], &before = obstacles_at_last_row[o];
-        const std::string name = ObstacleParameters::prefix + obstacle->name + ' ';
+        const Tensor<1, dim> impulse        = -(now.impulse + now.pressure_impulse);
+        const Tensor<1, dim> impulse_before = -(before.impulse + before.pressure_impulse);
+        const std::string name              = ObstacleParameters::prefix + obstacle->name + ' ';
         for (unsigned int a = 0; a < dim; ++a)
-          add(name + "force " + "xyz"[a] + " (N)", mean_rate(-now.impulse[a], -before.impulse[a]));
+          add(name + "force " + "xyz"[a] + " (N)", mean_rate(impulse[a], impulse_before[a]));
         for (unsigned int r = 0; r < ObstacleBalance<dim>::n_rotations; ++r)
           add(name + "moment " + (dim == 2 ? 'z' : "xyz"[r]) + " (N m)",
               mean_rate(-now.moment_impulse[r], -before.moment_impulse[r]));
         for (unsigned int a = 0; a < dim; ++a)
-          add(name + "impulse " + "xyz"[a] + " (N s)", -now.impulse[a]);
+          add(name + "impulse " + "xyz"[a] + " (N s)", impulse[a]);
         add(name + "dissipation (J)", now.dissipation);
         if (!obstacle->is_moving)
           continue;

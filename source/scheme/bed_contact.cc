@@ -18,16 +18,6 @@ namespace scree
 
     /// Cells as far apart along an axis share no nodes.
     constexpr unsigned int colours_1d = 3;
-
-    /// Of a force on an arm.
-    template <int dim>
-    auto moment(const Tensor<1, dim> &arm, const Tensor<1, dim> &force)
-    {
-      if constexpr (dim == 2)
-        return Tensor<1, 1>({ arm[0] * force[1] - arm[1] * force[0] });
-      else
-        return cross_product_3d(arm, force);
-    }
   } // namespace
 
 
@@ -311,7 +301,7 @@ namespace scree
           ObstacleBalance<dim> &obstacle = balance.obstacles[contact.surface - (surfaces.size() - n_obstacles)];
           const double work              = sum * impulse * surface.velocity;
           obstacle.impulse += sum * impulse;
-          obstacle.moment_impulse += moment<dim>(feet[c] - surface.obstacle->pivot, sum * impulse);
+          obstacle.add_moment(feet[c] - surface.obstacle->pivot, sum * impulse);
           obstacle.work += work;
           obstacle.dissipation += work - impulse * mean_velocity;
         }

@@ -2,10 +2,12 @@
 #include <scree/scheme/bed_projection.h>
 #include <scree/tensor/vector.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -37,11 +39,15 @@ namespace scree
 
   template <int dim>
   BedProjection<dim>::BedProjection(const BackgroundGrid<dim> &grid,
-                                    const RigidSurface<dim> &bed,
+                                    const SampledSurface<dim> &ground,
+                                    const std::vector<RigidSurface<dim>> &surfaces,
                                     const OpenCells<dim> &open_cells,
                                     const double relative_tolerance)
       : grid(grid)
-      , bed(bed)
+      , ground(ground)
+      , surfaces(surfaces)
+      , n_obstacles(
+            std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , open_cells(open_cells)
       , relative_tolerance(relative_tolerance)
       , impulses(grid.numbering())
@@ -54,7 +60,35 @@ namespace scree
   void BedProjection<dim>::reinit()
   {
     impulses.reinit();
-    of_segments.assign(open_cells.cells().size(), Impulses()); // The next step begins its search from nothing.
+    const auto &cut_cells = open_cells.cells();
+    of_segments.assign(cut_cells.size(), Impulses()); // The next step begins its search from nothing.
+    surface_numbers.assign(cut_cells.size(), 0);
+    middles.assign(cut_cells.size(), Point<dim>());
+    const FineCells<dim> &fine = grid.fine_cells();
+    for (unsigned int s = 0; s < cut_cells.size(); ++s)
+      {
+        const CutCell<dim> &cut = cut_cells[s];
+        Point<dim> middle; // in the unit cell
+        for (unsigned int v = 0; v < cut.n_corners; ++v)
+          middle += cut.ground_hats[v] * GeometryInfo<dim>::unit_cell_vertex(v);
+        middles[s]     = fine.box().corner(fine.cells()[fine.of_index(cut.cell)].place) + grid.cell_size() * middle;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (unsigned int i = 0; i < surfaces.size(); ++i)
+          if (surfaces[i].samples->is_near(cut.cell))
+            if (const double distance = surfaces[i].samples->view(cut.cell, middle).distance; distance < nearest)
+              {
+                nearest            = distance;
+                surface_numbers[s] = i;
+              }
+      }
+  }
+
+
+  template <int dim>
+  ObstacleBalance<dim> *BedProjection<dim>::balance_of(const unsigned int segment, StepBalance<dim> &balance) const
+  {
+    const unsigned int first = surfaces.size() - n_obstacles;
+    return surface_numbers[segment] < first ? nullptr : &balance.obstacles[surface_numbers[segment] - first];
   }
 
 
@@ -121,7 +155,7 @@ namespace scree
     contact.segment       = segment;
     contact.phase         = phase;
     contact.is_unilateral = is_unilateral;
-    contact.rubs          = phase == Phase::soil && bed.friction_coefficient > 0.;
+    contact.rubs          = phase == Phase::soil && surface_of(segment).friction_coefficient > 0.;
     contact.first_row     = rows.size();
     contact.n_rows        = contact.rubs ? dim : 1;
     contacts.push_back(contact);
@@ -269,7 +303,8 @@ namespace scree
         Tensor<1, dim> needed; // along the ground
         for (unsigned int r = 1; r < contact.n_rows; ++r)
           needed[r] = of_contact[r].impulse + contact.base[r];
-        const double available = available_friction(bed.friction_coefficient, of_contact[0].impulse + contact.base[0]);
+        const double available = available_friction(surface_of(contact.segment).friction_coefficient,
+                                                    of_contact[0].impulse + contact.base[0]);
         if (!contact.slides && needed.norm() <= available)
           continue;
         contact.slides    = true;
@@ -326,14 +361,7 @@ namespace scree
       }
     sum_at_nodes(of_rows);
     for (const auto &[node, pair] : pairs)
-      {
-        SoilAndWater<dim> given{ -vector_of<dim>(impulses[node]), -vector_of<dim>(impulses[node] + dim) };
-        if (pair.soil_mass > 0.)
-          balance.bed_impulse += given.soil;
-        if (pair.water_mass > 0.)
-          balance.bed_impulse += given.water;
-        step.push(nodes, node, given, balance);
-      }
+      step.push(nodes, node, { -vector_of<dim>(impulses[node]), -vector_of<dim>(impulses[node] + dim) }, balance);
   }
 
 
@@ -350,11 +378,13 @@ namespace scree
     largest_flow = 0.;
     for (Impulses &segment : of_segments)
       segment.soil = segment.water = Tensor<1, dim>();
-    const bool is_fixed = std::isinf(bed.friction_coefficient);
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (const CutCell<dim> *cut = open_cells.find(cell.cell);
           cut && cut->area > 0. && cell.soil_mass > 0. && !cell.is_rigid)
-        add_contact(cut - open_cells.cells().data(), Phase::soil, !is_fixed, nodes);
+        {
+          const unsigned int segment = cut - open_cells.cells().data();
+          add_contact(segment, Phase::soil, !is_fixed(segment), nodes);
+        }
     for (Row &row : rows)
       row.impulse = time_step * (of_segments[contacts[row.contact].segment].force * row.direction);
     project(nodes, step, relative_tolerance, balance);
@@ -373,13 +403,12 @@ namespace scree
     impulses.clear();
     contacts.clear();
     rows.clear();
-    const bool is_fixed = std::isinf(bed.friction_coefficient);
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (const CutCell<dim> *cut = open_cells.find(cell.cell); cut && cut->area > 0.)
         {
           const unsigned int segment = cut - open_cells.cells().data();
           if (cell.soil_mass > 0. && !cell.is_rigid)
-            add_contact(segment, Phase::soil, !is_fixed, nodes);
+            add_contact(segment, Phase::soil, !is_fixed(segment), nodes);
           if (cell.water_volume > 0.)
             add_contact(segment, Phase::water, !surface.has_unknown(cell.cell), nodes);
         }
@@ -393,26 +422,71 @@ namespace scree
 
 
   template <int dim>
-  void BedProjection<dim>::count_dissipation(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const
+  void BedProjection<dim>::count(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const
   {
     // The work of an impulse is its product with the mean velocity.
-    const auto mean = [](const double *values, const unsigned int c) {
-      return values[Field<dim>::velocity + c] - 0.5 * values[Field<dim>::velocity_change + c];
+    const auto mean = [](const double *values) {
+      return vector_of<dim>(values + Field<dim>::velocity) - 0.5 * vector_of<dim>(values + Field<dim>::velocity_change);
     };
+    balance.obstacles.resize(n_obstacles);
     for (unsigned int s = 0; s < of_segments.size(); ++s)
       {
-        const Impulses &given = of_segments[s];
-        if (given.soil.norm_square() + given.water.norm_square() == 0.)
+        const Impulses &taken = of_segments[s];
+        if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
           continue;
         const CutCell<dim> &cut = open_cells.cells()[s];
+        Tensor<1, dim> impulse;
+        double dissipation = 0.;
         for (unsigned int i = 0; i < cut.shapes.size(); ++i)
           {
             const unsigned int node = grid.nodes(cut.cell)[i];
-            for (unsigned int c = 0; c < dim; ++c)
-              balance.bed_dissipation += cut.shapes[i] * (given.soil[c] * mean(nodes.soil[node], c) +
-                                                          given.water[c] * mean(nodes.water[node], c));
+            const auto add          = [&](const double *values, const Tensor<1, dim> &of_phase) {
+              if (values[Field<dim>::mass] <= 0.)
+                return;
+              impulse -= cut.shapes[i] * of_phase;
+              dissipation += cut.shapes[i] * of_phase * mean(values);
+            };
+            add(nodes.soil[node], taken.soil);
+            add(nodes.water[node], taken.water);
+          }
+        if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
+          {
+            obstacle->impulse += impulse;
+            obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
+            obstacle->dissipation += dissipation;
+          }
+        else
+          {
+            balance.bed_impulse += impulse;
+            balance.bed_dissipation += dissipation;
           }
       }
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::count_pressure(const Mixture<dim> &mixture,
+                                          const PorePressure<dim> &pressure,
+                                          const double time_step,
+                                          StepBalance<dim> &balance) const
+  {
+    if (n_obstacles == 0)
+      return;
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (const CutCell<dim> *cut = open_cells.find(cell.cell); cut && cut->area > 0. && cell.water_volume > 0.)
+        {
+          const unsigned int s           = cut - open_cells.cells().data();
+          ObstacleBalance<dim> *obstacle = balance_of(s, balance);
+          if (obstacle == nullptr)
+            continue;
+          const auto corners = pressure.pressure_of(cell.cell);
+          double mean        = 0.;
+          for (unsigned int v = 0; v < corners.size(); ++v)
+            mean += cut->ground_hats[v] * corners[v];
+          const Tensor<1, dim> impulse = -time_step * std::max(mean, 0.) * cut->area * cut->normal;
+          obstacle->pressure_impulse += impulse;
+          obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
+        }
   }
 
 
@@ -424,11 +498,11 @@ namespace scree
     const FineCells<dim> &fine = grid.fine_cells();
     for (const auto &cell : points.cells())
       {
-        if (bed.samples->least_distance(cell.cell) > width) // no point moves farther in a step
+        if (ground.least_distance(cell.cell) > width) // no point moves farther in a step
           continue;
         const Point<dim> lower = fine.box().corner(fine.cells()[fine.of_index(cell.cell)].place);
         for_each_point(cell, [&](const auto &point) {
-          const SurfaceView<dim> view = bed.samples->view(point.cell, Point<dim>((point.location - lower) / width));
+          const SurfaceView<dim> view = ground.view(point.cell, Point<dim>((point.location - lower) / width));
           if (view.distance < 0.)
             point.location += (inside - view.distance) * view.normal;
         });

@@ -201,10 +201,12 @@ namespace scree
         bed->correct(nodes, mixture, step, pressure.free_surface(), report.balance);
         soil.field.update_ghosts();
         water_field.update_ghosts();
-        bed->count_dissipation(nodes, report.balance);
+        bed->count(nodes, report.balance);
       }
     const TimedPart part(timer, StepPart::nodes);
     pressure.accept_change(mixture, soil.field, water_field, pores);
+    if (bed)
+      bed->count_pressure(mixture, pressure, time_step, report.balance);
     // The predictor has counted the load among the forces.
     report.balance.load_impulse += soil.load_impulse(time_step);
     report.balance.pressure_impulse -= soil.load_impulse(time_step);

@@ -7,10 +7,21 @@ namespace scree
   ObstacleBalance<dim> &ObstacleBalance<dim>::operator+=(const ObstacleBalance &other)
   {
     impulse += other.impulse;
+    pressure_impulse += other.pressure_impulse;
     moment_impulse += other.moment_impulse;
     work += other.work;
     dissipation += other.dissipation;
     return *this;
+  }
+
+
+  template <int dim>
+  void ObstacleBalance<dim>::add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse)
+  {
+    if constexpr (dim == 2)
+      moment_impulse[0] += arm[0] * of_impulse[1] - arm[1] * of_impulse[0];
+    else
+      moment_impulse += cross_product_3d(arm, of_impulse);
   }
 
 

@@ -6,7 +6,7 @@
 
 namespace scree
 {
-  /// Subsection Obstacle NAME: a rigid body that soil meets, at rest or moved without turning.
+  /// Subsection Obstacle NAME: a rigid body that soil and water meet, at rest or moved without turning.
   struct ObstacleParameters
   {
     /// What the names of the subsections begin with.

@@ -5,11 +5,13 @@
 #include <scree/scheme/bed_contact.h>
 #include <scree/scheme/mixture_step.h>
 
+#include <cmath>
 #include <vector>
 
 namespace scree
 {
-  /// Rigid ground in scenes with water: takes from soil and water at the nodes what would carry them through it.
+  /// Rigid ground, the bed and obstacles at rest, in scenes with water: takes from soil and water at the nodes what
+  /// would carry them through it.
   ///
   /// The ground in a cell is one segment, whose velocity is the mean of the field's over it. Impulses on soil and water
   /// there, shared out by the means of the shape functions, stop it: N A^-1 N^T l = N v, v -= A^-1 N^T l, with masses,
@@ -20,10 +22,13 @@ namespace scree
   class BedProjection
   {
   public:
-    /// @param open_cells of the same ground as `bed`
+    /// @param ground all surfaces as one
+    /// @param surfaces what it consists of
+    /// @param open_cells of the ground
     /// @param relative_tolerance of the velocities through the ground
     BedProjection(const BackgroundGrid<dim> &grid,
-                  const RigidSurface<dim> &bed,
+                  const SampledSurface<dim> &ground,
+                  const std::vector<RigidSurface<dim>> &surfaces,
                   const OpenCells<dim> &open_cells,
                   const double relative_tolerance);
 
@@ -44,8 +49,14 @@ namespace scree
                  const FreeSurfaceLocator<dim> &surface,
                  StepBalance<dim> &balance);
 
-    /// Adds the work of the step's impulses; ghosts of `nodes` hold values.
-    void count_dissipation(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const;
+    /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
+    void count(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const;
+
+    /// Adds what obstacles bear of the water's pressure in a step of `time_step` s, where it is positive.
+    void count_pressure(const Mixture<dim> &mixture,
+                        const PorePressure<dim> &pressure,
+                        const double time_step,
+                        StepBalance<dim> &balance) const;
 
     /// Takes points that have come below the ground back to it.
     void put_back(PointSet<dim> &points) const;
@@ -117,12 +128,31 @@ namespace scree
     double sum(const double value) const;
     double max(const double value) const;
 
+    /// The surface that a segment belongs to.
+    const RigidSurface<dim> &surface_of(const unsigned int segment) const
+    {
+      return surfaces[surface_numbers[segment]];
+    }
+
+    /// Whether soil keeps to a segment and neither slips nor lifts off.
+    bool is_fixed(const unsigned int segment) const
+    {
+      return std::isinf(surface_of(segment).friction_coefficient);
+    }
+
+    /// What a segment's surface did, if it is an obstacle; else null.
+    ObstacleBalance<dim> *balance_of(const unsigned int segment, StepBalance<dim> &balance) const;
+
     const BackgroundGrid<dim> &grid;
-    const RigidSurface<dim> bed;
+    const SampledSurface<dim> &ground;
+    const std::vector<RigidSurface<dim>> surfaces;
+    const unsigned int n_obstacles; // the last of the surfaces
     const OpenCells<dim> &open_cells;
     const double relative_tolerance;
-    NodeValues<dim, 2 * dim> impulses; // on soil and water, N s; then what they do, m/s
-    std::vector<Impulses> of_segments; // by cut cell
+    NodeValues<dim, 2 * dim> impulses;         // on soil and water, N s; then what they do, m/s
+    std::vector<Impulses> of_segments;         // by cut cell
+    std::vector<unsigned int> surface_numbers; // the same
+    std::vector<dealii::Point<dim>> middles;   // of the segments, m
     std::vector<Contact> contacts;
     std::vector<Row> rows;
     std::vector<std::pair<unsigned int, DragPair<dim>>> pairs; // at owned nodes of contacts

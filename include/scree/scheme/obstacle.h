@@ -11,7 +11,7 @@
 
 namespace scree
 {
-  /// A rigid body that soil meets, at rest or moved without turning: a wall, a pile, a gate, a piston.
+  /// A rigid body that soil and water meet, at rest or moved without turning: a wall, a pile, a gate, a piston.
   template <int dim>
   class Obstacle
   {
@@ -30,6 +30,12 @@ namespace scree
     bool contains(const dealii::Point<dim> &x) const
     {
       return !level_set->is_open(x);
+    }
+
+    /// Its surface at the start.
+    const LevelSet<dim> &shape() const
+    {
+      return *level_set;
     }
 
     /// Velocity at a time, m/s.

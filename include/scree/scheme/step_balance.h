@@ -12,24 +12,28 @@
 
 namespace scree
 {
-  /// What an obstacle gave to soil and took from it (2D: per m).
+  /// What an obstacle gave to soil and water and took from them (2D: per m).
   template <int dim>
   struct ObstacleBalance
   {
     /// Components of a moment: about z in 2D.
     static constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
 
-    dealii::Tensor<1, dim> impulse;                ///< on the soil, N s
-    dealii::Tensor<1, n_rotations> moment_impulse; ///< of the impulse on the soil about the obstacle's pivot, N m s
+    dealii::Tensor<1, dim> impulse;                ///< on soil and water but for the next, N s
+    dealii::Tensor<1, dim> pressure_impulse;       ///< against the water's pressure, N s; StepBalance has it in its own
+    dealii::Tensor<1, n_rotations> moment_impulse; ///< of both about the obstacle's pivot, N m s
     double work        = 0;                        ///< of the impulse at the obstacle's velocity: on the soil, J
     double dissipation = 0;                        ///< energy that is lost in contact, J
 
     ObstacleBalance &operator+=(const ObstacleBalance &other);
 
+    /// Adds the moment of an impulse, N s, on an arm from the pivot, m.
+    void add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse);
+
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &impulse &moment_impulse &work &dissipation;
+      archive &impulse &pressure_impulse &moment_impulse &work &dissipation;
     }
   };
 
@@ -61,7 +65,7 @@ namespace scree
 
     StepBalance &operator+=(const StepBalance &other);
 
-    /// Impulse of all obstacles on the soil, N s.
+    /// Impulse of all obstacles without that against the water's pressure, N s.
     dealii::Tensor<1, dim> obstacle_impulse() const;
 
     /// Work less dissipation of all obstacles, J.
