@@ -148,6 +148,7 @@ def shifted():
     text = text.replace("set Type   = fixed", "set Type   = friction\n  set Friction angles = ../angles.asc")
     far = (2.6e6, 1.2e6)
     system = 'PROJCS["CH1903+_LV95"]'
+    pathlib.Path("bed.prj").unlink(missing_ok=True)  # of the run before
     write_all((0., 0.))
     near = run("near", text)
     write_all(far)
