@@ -180,7 +180,9 @@ namespace scree
       for (std::size_t c = 0; c < n[0]; ++c)
         text << map[row * n[0] + c] << (c + 1 < n[0] ? ' ' : '\n');
     folder.write("maps/" + name + ".asc", text.str());
-    if (!frame.system.empty())
+    if (frame.system.empty()) // Nothing of an earlier run may tell another one.
+      std::filesystem::remove(folder.file("maps/" + name + ".prj"));
+    else
       folder.write("maps/" + name + ".prj", frame.system);
   }
 
