@@ -920,6 +920,18 @@ def drawdown(scree):
         check_soil_and_water("full reservoir" if name == "closed" else name, name, table, (48, 12))
 
 
+def dam(scree):
+    """The downstream shell of a dam stands if its friction is above its slope of 26.6 degrees, and slides below; the reservoir stays."""
+    for angle, lowest, highest in ((24, 0.3, 1), (29, -1e-3, 0.01)):  # amounts: ours
+        table = run(scree, "dam", "dam", {"End time": "3", "Downstream shell/Mohr-Coulomb/Friction angle": "%d" % angle,
+                                          "Downstream shell/Initial state/K0": "%.3f" % (1 - math.sin(math.radians(angle)))})
+        name = "dam, downstream shell of %d degrees" % angle
+        front = table["Front 90 % (m)"]
+        check(name + ": way of the front 90 %, m", front[-1] - front[0], lowest, highest)
+        check(name + ": water lost, kg", table["Water lost (kg)"][-1], 0, 0)
+        check_balances(name, table)
+
+
 def column_3d(scree):
     """A saturated column in 3D on a coarse mesh: balances, and x and y are alike."""
     table = run(scree, "column_saturated_3d", "column_3d",
