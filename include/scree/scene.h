@@ -113,6 +113,9 @@ namespace scree
 
     /// What the groups of bodies that stick to each other meet.
     std::vector<GroupSurroundings<dim>> surroundings_of_groups();
+
+    /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
+    std::pair<unsigned int, unsigned int> points_per_cell() const;
     void fill_with_points();
     void set_velocity_gradients();
     void set_touching_distances();
@@ -129,6 +132,9 @@ namespace scree
 
     /// Tells the nodes which inflow moves them. Until the next step begins they are at rest.
     void hold_at_inflows();
+
+    /// Puts in the layers that enter with a step, s, and books them. Collective.
+    void let_in(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
 
     /// A point that enters.
     struct Entrant
