@@ -77,6 +77,8 @@ def make_run(study, variant, folder, arguments):
     if os.geteuid() == 0:
         environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
+    if variant.ranks > (os.cpu_count() or 1):
+        launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
     command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
     with open(screen, "w", encoding="utf-8") as output:
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT)
