@@ -321,22 +321,29 @@ namespace scree
   }
 
 
-  void Parameters::check_inflow(const InflowParameters &inflow) const
+  const BodyParameters *Parameters::find_body(const std::string &name) const
   {
     const auto body =
-        std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == inflow.body; });
+        std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == name; });
+    return body == bodies.end() ? nullptr : &*body;
+  }
+
+
+  void Parameters::check_inflow(const InflowParameters &inflow) const
+  {
+    const BodyParameters *body = find_body(inflow.body);
     std::string names;
     for (const BodyParameters &one : bodies)
       names += (names.empty() ? "" : ", ") + one.name;
     if (has_water)
       names += (names.empty() ? "" : ", ") + std::string("Water");
-    require_entry(body != bodies.end() || (inflow.is_water() && has_water),
+    require_entry(body != nullptr || (inflow.is_water() && has_water),
                   inflow.subsection,
                   "Body",
                   inflow.body,
                   inflow.is_water() ? "there is no subsection Water. Add one, or write the name of a body."
                                     : "write what enters: " + names + ".");
-    require_entry(body == bodies.end() || !body->is_rigid(),
+    require_entry(body == nullptr || !body->is_rigid(),
                   inflow.subsection,
                   "Body",
                   inflow.body,
@@ -352,7 +359,7 @@ namespace scree
         const auto require = [&](const bool possible, const std::string &remedy) {
           require_entry(possible, inflow.subsection, "Saturated", "true", remedy);
         };
-        require(has_water && body != bodies.end(),
+        require(has_water && body != nullptr,
                 "it is said of soil in a scene with water. Remove the entry, or add subsection Water.");
         require(body->initial_porosity() > 0,
                 "the body has no pores. Write an \"Initial porosity\" above 0 in subsection " + body->name + '.');
@@ -366,9 +373,8 @@ namespace scree
 
   unsigned int Parameters::points_per_cell(const InflowParameters &inflow) const
   {
-    const auto body =
-        std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == inflow.body; });
-    return body == bodies.end() ? water.points_per_cell : body->seeding.points_per_cell;
+    const BodyParameters *body = find_body(inflow.body);
+    return body == nullptr ? water.points_per_cell : body->seeding.points_per_cell;
   }
 
 
@@ -402,6 +408,7 @@ namespace scree
 
   void Parameters::read_maps()
   {
+    std::shared_ptr<const LevelSet<3>> ground; // read once for all bodies
     for (BodyParameters &body : bodies)
       {
         SeedingParameters &seeding = body.seeding;
@@ -410,8 +417,10 @@ namespace scree
           continue;
         try
           {
-            seeding.map =
-                std::make_shared<const SourceMap>(seeding.source, body.name, bed, grid.lower_corner, grid.upper_corner);
+            if (!ground)
+              ground = make_bed<3>(bed, grid.lower_corner, grid.upper_corner, 1.);
+            seeding.map = std::make_shared<const SourceMap>(
+                seeding.source, body.name, ground, bed.map_origin, grid.lower_corner, grid.upper_corner);
           }
         catch (const ValueError &error) // the bed's expression
           {

@@ -116,13 +116,11 @@ namespace scree
       join_ground();
     for (const InflowParameters &inflow : parameters.inflows)
       {
-        const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const auto &one) {
-          return one.name == inflow.body;
-        });
+        const BodyParameters *body = parameters.find_body(inflow.body);
         inflows.emplace_back(inflow,
                              grid,
                              parameters.grid.cell_size / parameters.points_per_cell(inflow),
-                             body == parameters.bodies.end() ? 1. : body->initial_porosity(),
+                             body == nullptr ? 1. : body->initial_porosity(),
                              joined_ground ? joined_ground.get() : ground.get());
       }
     hold_at_inflows();
@@ -301,11 +299,14 @@ namespace scree
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.begin_step(time, time_step);
     bool has_changed = false;
-    for (Inflow<dim> &inflow : inflows)
-      {
-        has_changed = has_changed || inflow.is_open != inflow.lasts(time);
-        on_all_ranks(communicator, [&] { inflow.begin_step(time, time_step); });
-      }
+    if (!inflows.empty())
+      on_all_ranks(communicator, [&] {
+        for (Inflow<dim> &inflow : inflows)
+          {
+            has_changed = has_changed || inflow.is_open != inflow.lasts(time);
+            inflow.begin_step(time, time_step);
+          }
+      });
     if (has_changed)
       hold_at_inflows();
     unsigned int number = 0;
@@ -384,8 +385,7 @@ namespace scree
     const auto &[face, is_open] = face_and_whether_open;
     AssertThrow(is_open,
                 ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
-                           number_text(std::vector<double>(point.location.begin_raw(), point.location.end_raw())) +
-                           ") m, t = " + Utilities::to_string(time) +
+                           number_text(point.location) + ") m, t = " + Utilities::to_string(time) +
                            " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
                            "Boundaries."));
     const double *velocity_of_point = point.properties.data() + velocity_slot;

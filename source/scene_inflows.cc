@@ -124,11 +124,8 @@ namespace scree
   void
   Scene<dim>::fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const
   {
-    const auto &layout = body.layout;
-    const auto entry = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const BodyParameters &one) {
-      return one.name == body.name;
-    });
-    const InitialStateParameters &state = entry->initial_state;
+    const auto &layout                  = body.layout;
+    const InitialStateParameters &state = parameters.find_body(body.name)->initial_state;
     properties[layout.mass]             = body.density * entrant.volume;
     properties[layout.volume]           = entrant.volume;
     if (layout.has_start)

@@ -80,13 +80,12 @@ namespace scree
             std::string fault;
             for_each_point(body.points, [&](const auto &point) {
               if (fault.empty() && obstacle.contains(point.location))
-                fault = entry_message(
-                    body.name,
-                    entry,
-                    region,
-                    "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) + ", for instance at " +
-                        number_text(std::vector<double>(point.location.begin_raw(), point.location.end_raw())) +
-                        " m. Let it end where the obstacle begins.");
+                fault = entry_message(body.name,
+                                      entry,
+                                      region,
+                                      "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) +
+                                          ", for instance at " + number_text(point.location) +
+                                          " m. Let it end where the obstacle begins.");
             });
             throw_on_all_ranks(fault, communicator);
           }
@@ -99,8 +98,7 @@ namespace scree
                         "Region",
                         inflow.region,
                         "points would enter in " + quoted(ObstacleParameters::prefix + obstacle.name) +
-                            ", for instance at " +
-                            number_text(std::vector<double>(place.location.begin_raw(), place.location.end_raw())) +
+                            ", for instance at " + number_text(place.location) +
                             " m. Let it end where the obstacle begins.");
   }
 

@@ -131,7 +131,7 @@ namespace scree
              scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator)));
     folder.log("Transfer: " + parameters.transfer.text());
     if (const Point<2> &origin = parameters.bed.map_origin; origin != Point<2>())
-      folder.log("Local origin: x = 0, y = 0 is " + number_text({ origin[0], origin[1] }) +
+      folder.log("Local origin: x = 0, y = 0 is " + number_text(origin) +
                  " m on the map. Rasters, outlines and maps are in the map's coordinates, all else, the pictures, too, "
                  "from this place.");
     if (scene.ground)

@@ -102,6 +102,9 @@ namespace scree
     /// The bed, and the obstacles that are set.
     unsigned int n_rigid_surfaces() const;
 
+    /// The body of this name; null if there is none.
+    const BodyParameters *find_body(const std::string &name) const;
+
     /// Points of what an inflow brings, along each axis of a cell.
     unsigned int points_per_cell(const InflowParameters &inflow) const;
 

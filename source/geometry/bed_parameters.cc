@@ -194,8 +194,7 @@ namespace scree
                     parameters.subsection,
                     "Closed surface",
                     parameters.closed_surface,
-                    "it reaches from " + number_text({ first[0], first[1], first[2] }) + " to " +
-                        number_text({ last[0], last[1], last[2] }) +
+                    "it reaches from " + number_text(first) + " to " + number_text(last) +
                         " m and lies outside the box of subsection Mesh. Look at its unit of length and its origin.");
       return surface;
     }

@@ -88,7 +88,7 @@ namespace scree
     const Polygon polygon(corners);
     const unsigned int edge = polygon.first_crossing();
     if (edge < corners.size())
-      throw EntryError(name + "its edge from " + number_text({ corners[edge][0], corners[edge][1] }) +
+      throw EntryError(name + "its edge from " + number_text(corners[edge]) +
                        " m is crossed or touched by another. Write the corners in their order around the place.");
     return polygon;
   }

@@ -115,8 +115,7 @@ namespace scree
                     body,
                     entry,
                     file,
-                    "it reaches from " + number_text({ first[0], first[1], first[2] }) + " to " +
-                        number_text({ last[0], last[1], last[2] }) +
+                    "it reaches from " + number_text(first) + " to " + number_text(last) +
                         " m, beyond the box of subsection Mesh. Look at its unit of length and its origin, or write a "
                         "larger box.");
       return solid;
@@ -126,17 +125,18 @@ namespace scree
 
   SourceMap::SourceMap(const SourceMapParameters &parameters,
                        const std::string &body,
-                       const BedParameters &bed,
+                       const std::shared_ptr<const LevelSet<3>> &ground,
+                       const Point<2> &origin,
                        const std::vector<double> &lower,
                        const std::vector<double> &upper)
       : entry(parameters.first())
-      , ground(make_bed<3>(bed, lower, upper, 1.))
-      , thickness(read(body, "Thickness", parameters.thickness, bed.map_origin))
-      , upper_surface(read(body, "Upper surface", parameters.upper_surface, bed.map_origin))
-      , lower_surface(read(body, "Lower surface", parameters.lower_surface, bed.map_origin))
+      , ground(ground)
+      , thickness(read(body, "Thickness", parameters.thickness, origin))
+      , upper_surface(read(body, "Upper surface", parameters.upper_surface, origin))
+      , lower_surface(read(body, "Lower surface", parameters.lower_surface, origin))
   {
     if (!parameters.outline.empty())
-      outline = read_polygon(parameters.outline, entry_name(body, "Outline"), bed.map_origin);
+      outline = read_polygon(parameters.outline, entry_name(body, "Outline"), origin);
     if (!parameters.closed_surface.empty())
       solid = read_solid(body, parameters.closed_surface, lower, upper);
     if (thickness || upper_surface)

@@ -20,7 +20,7 @@ namespace scree
 
     std::string place_text(const Point<3> &x)
     {
-      return number_text({ x[0], x[1], x[2] }) + " m";
+      return number_text(x) + " m";
     }
 
 

@@ -109,8 +109,7 @@ namespace scree
       constexpr double largest = 1;
       for (unsigned int i = 0; i < 3; ++i)
         if (const double strain = 0.5 * std::log(left_cauchy_green[i]); !(std::abs(strain) <= largest))
-          throw ValueError(entry + ": the stress at " + number_text(std::vector<double>(x.begin_raw(), x.end_raw())) +
-                           " m would strain the soil elastically by " +
+          throw ValueError(entry + ": the stress at " + number_text(x) + " m would strain the soil elastically by " +
                            (std::isfinite(strain) ? number_text(strain) : "a number beyond all bounds") +
                            ", and at most 1 is allowed. Write a larger modulus in subsection " + body +
                            ", or less stress.");

@@ -110,8 +110,8 @@ namespace scree
     const double result = FunctionParser<dim>::value(x, component);
     if (!std::isfinite(result))
       throw ValueError(name + ": it is " + (std::isnan(result) ? "not a number" : "infinite") + " at " +
-                       (dim == 1 ? "t = " : "") + number_text(std::vector<double>(x.begin_raw(), x.end_raw())) +
-                       (dim == 1 ? " s" : " m") + (with_time ? ", t = " + number_text(this->get_time()) + " s" : "") +
+                       (dim == 1 ? "t = " : "") + number_text(x) + (dim == 1 ? " s" : " m") +
+                       (with_time ? ", t = " + number_text(this->get_time()) + " s" : "") +
                        ". Write an expression that is a number wherever it is asked for, for instance with if(" +
                        (dim == 1 ? 't' : 'x') + " > 0, ..., ...).");
     return result;

@@ -114,13 +114,12 @@ namespace scree
           const unsigned int first  = body_at(x, 0);
           const unsigned int second = body_at(x, first + 1);
           if (second < regions.size())
-            fault =
-                entry_message(soil[second].name,
-                              soil[second].entry().first,
-                              soil[second].entry().second,
-                              "it overlaps that of " + quoted(soil[first].name) + ", " + soil[first].entry().second +
-                                  ": both are true at " + number_text(std::vector<double>(x.begin_raw(), x.end_raw())) +
-                                  " m, and would be filled twice. Leave the place to one of them.");
+            fault = entry_message(soil[second].name,
+                                  soil[second].entry().first,
+                                  soil[second].entry().second,
+                                  "it overlaps that of " + quoted(soil[first].name) + ", " +
+                                      soil[first].entry().second + ": both are true at " + number_text(x) +
+                                      " m, and would be filled twice. Leave the place to one of them.");
         }
     throw_on_all_ranks(fault, triangulation.get_communicator());
   }

@@ -47,43 +47,21 @@ namespace scree
     columns.resize(1 + dim);
     for (const auto &numbers :
          read_number_table(parameters.record, entry_name("Base motion", "Acceleration record"), columns))
-      {
-        Row row{ numbers[0],
-                 parameters.scale * Tensor<1, dim>(make_array_view(numbers.begin() + 1, numbers.end())),
-                 {} };
-        if (!rows.empty())
-          row.velocity = rows.back().velocity +
-                         0.5 * (row.time - rows.back().time) * (row.acceleration + rows.back().acceleration);
-        rows.push_back(row);
-      }
-  }
-
-
-  template <int dim>
-  Tensor<1, dim> BaseMotion<dim>::velocity(const double time) const
-  {
-    const auto next =
-        std::upper_bound(rows.begin(), rows.end(), time, [](const double t, const Row &row) { return t < row.time; });
-    if (next == rows.begin())
-      return {};
-    const Row &row     = *(next - 1);
-    const double since = time - row.time;
-    if (next == rows.end())
-      return row.velocity;
-    const Tensor<1, dim> slope = (next->acceleration - row.acceleration) / (next->time - row.time);
-    return row.velocity + since * row.acceleration + 0.5 * since * since * slope;
+      acceleration.add(numbers[0],
+                       parameters.scale * Tensor<1, dim>(make_array_view(numbers.begin() + 1, numbers.end())));
   }
 
 
   template <int dim>
   std::string BaseMotion<dim>::text() const
   {
-    double largest = 0;
-    for (const Row &row : rows)
-      largest = std::max(largest, row.acceleration.norm());
+    const auto &rows = acceleration.rows();
+    double largest   = 0;
+    for (const auto &row : rows)
+      largest = std::max(largest, row.value.norm());
     return "Base motion: " + std::to_string(rows.size()) + " rows from " + number_text(rows.front().time) + " to " +
            number_text(rows.back().time) + " s, at most " + number_text(largest) +
-           " m/s^2; the base's velocity after it is " + number_text(rows.back().velocity.norm()) + " m/s";
+           " m/s^2; the base's velocity after it is " + number_text(rows.back().integral.norm()) + " m/s";
   }
 
   template class BaseMotion<2>;

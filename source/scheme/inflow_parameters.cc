@@ -204,48 +204,27 @@ namespace scree
                       parameters.hydrograph,
                       "at " + number_text(numbers[0]) + " s it is " + number_text(numbers[1]) +
                           ", and nothing flows out of a section. Write 0 or more.");
-        Row row{ numbers[0], numbers[1], 0. };
-        if (!rows.empty())
-          row.integral = rows.back().integral + 0.5 * (row.time - rows.back().time) * (row.value + rows.back().value);
-        rows.push_back(row);
+        record.add(numbers[0], numbers[1]);
       }
   }
 
 
   double Hydrograph::value(const double time) const
   {
-    if (expression)
-      {
-        const double value = expression->value(Point<1>(time));
-        if (value < 0.)
-          throw ValueError(where + ": it is " + number_text(value) + " m/s at t = " + number_text(time) +
-                           " s, and nothing flows out of a section. Write max(0, ...) around it.");
-        return value;
-      }
-    const auto next =
-        std::upper_bound(rows.begin(), rows.end(), time, [](const double t, const Row &row) { return t < row.time; });
-    if (next == rows.begin() || next == rows.end())
-      return 0.;
-    const Row &row = *(next - 1);
-    return row.value + (time - row.time) / (next->time - row.time) * (next->value - row.value);
-  }
-
-
-  double Hydrograph::integral_to(const double time) const
-  {
-    const auto next =
-        std::upper_bound(rows.begin(), rows.end(), time, [](const double t, const Row &row) { return t < row.time; });
-    if (next == rows.begin())
-      return 0.;
-    const Row &row = *(next - 1);
-    return next == rows.end() ? row.integral : row.integral + 0.5 * (time - row.time) * (row.value + value(time));
+    if (!expression)
+      return record.value(time);
+    const double value = expression->value(Point<1>(time));
+    if (value < 0.)
+      throw ValueError(where + ": it is " + number_text(value) + " m/s at t = " + number_text(time) +
+                       " s, and nothing flows out of a section. Write max(0, ...) around it.");
+    return value;
   }
 
 
   double Hydrograph::integral(const double begin, const double end) const
   {
     if (!expression)
-      return integral_to(end) - integral_to(begin);
+      return record.integral(end) - record.integral(begin);
     const double middle = 0.5 * (begin + end), away = 0.5 * (end - begin) / std::sqrt(3.);
     return 0.5 * (end - begin) * (value(middle - away) + value(middle + away));
   }

@@ -18,7 +18,7 @@ namespace scree
     template <int dim>
     std::string point_text(const Point<dim> &x)
     {
-      return number_text(std::vector<double>(x.begin_raw(), x.end_raw()));
+      return number_text(x);
     }
 
     /// The markers' places on one axis of a cell and the width each stands for, m.
@@ -83,14 +83,15 @@ namespace scree
   }
 
 
-  bool SurfaceLoadParameters::touches_cell(const double *corner, const GridParameters &grid, const unsigned int dim) const
+  bool
+  SurfaceLoadParameters::touches_cell(const double *corner, const GridParameters &grid, const unsigned int dim) const
   {
     const unsigned int normal = normal_axis(dim);
     bool touches              = is_set();
     for (unsigned int a = 0; a < dim && touches; ++a)
-      touches = a == normal ? std::abs(corner[a] - layer_below(a, grid.lower_corner[a], grid.cell_size)) <
-                                  0.5 * grid.cell_size
-                            : corner[a] < upper_corner[a] && corner[a] + grid.cell_size > lower_corner[a];
+      touches = a == normal
+                    ? std::abs(corner[a] - layer_below(a, grid.lower_corner[a], grid.cell_size)) < 0.5 * grid.cell_size
+                    : corner[a] < upper_corner[a] && corner[a] + grid.cell_size > lower_corner[a];
     return touches;
   }
 

@@ -52,11 +52,13 @@ namespace scree
   public:
     /// Reads the files; throws EntryError if they are no source in the box and above the bed.
     /// @param body name of the subsection
-    /// @param bed knows the map's origin, too
+    /// @param ground the bed; null without it
+    /// @param origin of the map
     /// @param lower, upper corners of the box, m
     SourceMap(const SourceMapParameters &parameters,
               const std::string &body,
-              const BedParameters &bed,
+              const std::shared_ptr<const LevelSet<3>> &ground,
+              const dealii::Point<2> &origin,
               const std::vector<double> &lower,
               const std::vector<double> &upper);
 
@@ -69,7 +71,7 @@ namespace scree
     /// Throws EntryError unless every place with a value that counts lies in the box and on ground.
     void check(const std::string &body, const dealii::Point<3> &lower, const dealii::Point<3> &upper) const;
 
-    std::unique_ptr<LevelSet<3>> ground; // the bed; null without it
+    const std::shared_ptr<const LevelSet<3>> ground;
     std::optional<Raster> thickness, upper_surface, lower_surface;
     std::optional<Polygon> outline;
     std::unique_ptr<LevelSet<3>> solid; // null without

@@ -68,6 +68,13 @@ namespace scree
   /// Several numbers, separated by commas.
   std::string number_text(const std::vector<double> &values);
 
+  /// The coordinates of a place.
+  template <int dim>
+  std::string number_text(const dealii::Point<dim> &x)
+  {
+    return number_text(std::vector<double>(x.begin_raw(), x.end_raw()));
+  }
+
   /// The text between double quotes.
   std::string quoted(const std::string &text);
 

@@ -2,11 +2,12 @@
 #ifndef scree_scheme_base_motion_h
 #define scree_scheme_base_motion_h
 
+#include <scree/input/time_record.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/tensor.h>
 
 #include <string>
-#include <vector>
 
 namespace scree
 {
@@ -30,7 +31,10 @@ namespace scree
     explicit BaseMotion(const BaseMotionParameters &parameters);
 
     /// Velocity of the box, m/s: the integral of the record, linear between its rows, 0 before and after them.
-    dealii::Tensor<1, dim> velocity(const double time) const;
+    dealii::Tensor<1, dim> velocity(const double time) const
+    {
+      return acceleration.integral(time);
+    }
 
     /// Mean over a step, m/s^2: with it the velocity is met in each step, however long.
     dealii::Tensor<1, dim> mean_acceleration(const double time, const double time_step) const
@@ -42,12 +46,7 @@ namespace scree
     std::string text() const;
 
   private:
-    struct Row
-    {
-      double time;
-      dealii::Tensor<1, dim> acceleration, velocity;
-    };
-    std::vector<Row> rows;
+    TimeRecord<dealii::Tensor<1, dim>> acceleration; // m/s^2
   };
 } // namespace scree
 

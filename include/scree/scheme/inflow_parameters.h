@@ -4,6 +4,7 @@
 
 #include <scree/grid/background_grid.h>
 #include <scree/input/expression.h>
+#include <scree/input/time_record.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -95,16 +96,9 @@ namespace scree
     double integral(const double begin, const double end) const;
 
   private:
-    struct Row
-    {
-      double time, value, integral; ///< s; m/s or m^3/s; of the value up to here
-    };
-
-    double integral_to(const double time) const;
-
     const std::string where;                   // entry_name() of the expression
     std::unique_ptr<Expression<1>> expression; // null if there is a file
-    std::vector<Row> rows;
+    TimeRecord<double> record;                 // m/s or m^3/s; of the file
   };
 } // namespace scree
 
