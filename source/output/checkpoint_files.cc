@@ -19,7 +19,7 @@ namespace scree
     namespace fs = std::filesystem;
 
     const std::string name_of_manifest = "manifest", name_of_step = "step-";
-    const std::string first_line     = "Scree checkpoint, format 9";
+    const std::string first_line     = "Scree checkpoint, format 10";
     const std::string checksum_label = "checksum: ";
 
     /// CRC-64 as of ECMA-182, reflected: that of xz.

@@ -74,6 +74,8 @@ namespace scree
     constexpr unsigned int n_sums = dim + 2; // volume, mass and momentum of a column
     const std::size_t n_columns   = mass.size();
     std::vector<double> sums(n_sums * n_columns, 0.);
+    const bool with_start = bodies.front().layout.has_start; // all bodies have it, or none
+    Map at_rest(with_start ? n_columns : 0, 0.);
     for (const auto &body : bodies)
       if (!body.is_rigid)
         for_each_point(body.points, [&](const auto &point) {
@@ -87,10 +89,22 @@ namespace scree
               for (unsigned int a = 0; a < dim; ++a)
                 of_column[2 + a] += m * values[body.layout.velocity + a];
             }
+          if (!with_start)
+            return;
+          const Point<dim> start(vector_of<dim>(values + body.layout.start));
+          if (start.distance(point.location) <= grid.cell_size())
+            for (const auto &[column, weight] : columns_around(start))
+              at_rest[column] += weight * values[body.layout.mass] / body.density;
         });
     Utilities::MPI::sum(sums, grid.triangulation().get_communicator(), sums);
+    Utilities::MPI::sum(at_rest, grid.triangulation().get_communicator(), at_rest);
 
     const double area = Utilities::fixed_power<dim - 1>(grid.cell_size());
+    if (scour_depth.empty())
+      first_at_rest = at_rest;
+    scour_depth.resize(at_rest.size());
+    for (std::size_t c = 0; c < at_rest.size(); ++c)
+      scour_depth[c] = std::max(0., first_at_rest[c] - at_rest[c]) / area;
     for (std::size_t c = 0; c < n_columns; ++c)
       {
         const double *of_column = sums.data() + n_sums * c;
@@ -124,13 +138,15 @@ namespace scree
         arrival.end(),
         [](const double t) { return t < 0.; },
         dim == 2 ? std::numeric_limits<double>::quiet_NaN() : no_data);
-    const std::vector<std::pair<std::string, const Map *>> maps{ { "thickness (m)", &thickness },
-                                                                 { "mass (kg/m^2)", &mass },
-                                                                 { "deposit (m)", &deposit },
-                                                                 { "largest thickness (m)", &largest_thickness },
-                                                                 { "largest speed (m/s)", &largest_speed },
-                                                                 { "largest impact pressure (Pa)", &largest_pressure },
-                                                                 { "arrival time (s)", &arrival } };
+    std::vector<std::pair<std::string, const Map *>> maps{ { "thickness (m)", &thickness },
+                                                           { "mass (kg/m^2)", &mass },
+                                                           { "deposit (m)", &deposit },
+                                                           { "largest thickness (m)", &largest_thickness },
+                                                           { "largest speed (m/s)", &largest_speed },
+                                                           { "largest impact pressure (Pa)", &largest_pressure },
+                                                           { "arrival time (s)", &arrival } };
+    if (!scour_depth.empty())
+      maps.emplace_back("scour depth (m)", &scour_depth);
     const std::string of_time = '_' + number_text(time) + 's';
     if (dim == 2)
       {

@@ -119,10 +119,12 @@ namespace scree
                       wall_forces,
                       "Whether the force on each face of the box is written with each row of statistics.",
                       Patterns::Bool());
-    prm.add_parameter("Displacement",
-                      displacement,
-                      "Whether the soil's points in the pictures have their displacement since the start.",
-                      Patterns::Bool());
+    prm.add_parameter(
+        "Displacement",
+        displacement,
+        "Whether the soil's points in the pictures have their displacement since the start, and maps the scour "
+        "depth.",
+        Patterns::Bool());
     prm.leave_subsection();
   }
 
