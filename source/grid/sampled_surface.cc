@@ -161,6 +161,37 @@ namespace scree
     return result;
   }
 
+
+  template <int dim>
+  Batch SampledSurface<dim>::distances(const unsigned int cell, const std::array<Batch, dim> &places) const
+  {
+    // Hat functions along the axes at the lattice's corners.
+    std::array<std::array<Batch, 3>, dim> hats;
+    for (unsigned int a = 0; a < dim; ++a)
+      if (is_moving())
+        for (unsigned int j = 0; j < 3; ++j)
+          hats[a][j] = simd::max<Batch>(1. - simd::abs<Batch>(places[a] + (1. - part_of_cell[a] - j)),
+                                        simd::broadcast<Batch>(0.));
+      else
+        {
+          hats[a][0] = 1. - places[a];
+          hats[a][1] = places[a];
+        }
+    const SurfaceView<dim> *corner = &corners[std::size_t(entry_of_cell[cell]) * n_of_cell];
+    Batch sum{};
+    for (unsigned int k = 0; k < (dim == 3 ? n_1d : 1); ++k)
+      for (unsigned int j = 0; j < n_1d; ++j)
+        {
+          Batch line{};
+          for (unsigned int i = 0; i < n_1d; ++i, ++corner)
+            line += hats[0][i] * corner->distance;
+          if constexpr (dim == 3)
+            line *= hats[2][k];
+          sum += hats[1][j] * line;
+        }
+    return sum;
+  }
+
   template class SampledSurface<2>;
   template class SampledSurface<3>;
 } // namespace scree

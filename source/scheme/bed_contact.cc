@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/batch_pointers.h>
 #include <scree/scheme/bed_contact.h>
-#include <scree/scheme/contact_row.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace scree
 {
@@ -73,74 +74,63 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
   void BedContact<dim>::add_contact(const SoilBody<dim> &body,
                                     const unsigned int surface,
                                     const PointView<dim, double> &point,
                                     const SurfaceView<dim> &view,
                                     const double dt)
   {
-    using Row        = ContactRow<dim, n>;
-    const Cell &cell = cells.back();
-    typename Row::OfNodes inverse_masses;
-    for (unsigned int i = 0; i < Row::n_nodes; ++i)
-      inverse_masses[i] = nodes[nodes_of_cells[cell.nodes + i]].inverse_mass;
-    const double width         = grid.cell_size();
-    const double depth         = std::clamp(view.distance, 0., body.spacing);
-    const double most_mobility = 2. / (body.density * Utilities::fixed_power<dim>(width));
-    const Row row(point.reference_location,
-                  -depth / width * view.normal,
-                  grid.open_knots(cell.number),
-                  inverse_masses,
-                  most_mobility);
-
+    const double depth = std::clamp(view.distance, 0., body.spacing);
     Contact contact;
     contact.force    = point.properties + body.layout.contact_force(surface);
     contact.surface  = surface;
     contact.friction = surfaces[surface].friction_at(point.location);
+    contact.place    = point.reference_location;
+    contact.to_foot  = -depth / grid.cell_size() * view.normal;
+    contact.foot     = point.location - depth * view.normal;
     contact.normal   = view.normal;
     contact.approach = least_approach(view.distance - point.properties[body.layout.touching_distance(surface)], dt);
-    contact.inertia  = row.mobility > 0. ? 1. / row.mobility : 0.;
     const Tensor<1, dim> J = dt * vector_of<dim>(contact.force);
     const double normal    = J * view.normal;
     contact.normal_impulse = std::max(0., normal);
     contact.tangent_impulse =
-        coulomb_friction<dim>(J - normal * view.normal, contact.available(contact.normal_impulse)).impulse;
+        coulomb_friction<dim>(J - normal * view.normal, available_friction(contact.friction, contact.normal_impulse))
+            .impulse;
     constexpr double irrational[3] = { 1., 0.7548776662466927, 0.5698402909980532 };
     contact.order                  = 0.;
     for (unsigned int a = 0; a < dim; ++a)
       contact.order += irrational[a] * point.reference_location[a];
 
     // In order among the cell's contacts.
+    Cell &cell         = cells.back();
     unsigned int place = contacts.size();
     while (place > cell.first && contacts[place - 1].order > contact.order)
       --place;
     contacts.insert(contacts.begin() + place, contact);
-    if (n_obstacles > 0)
-      feet.insert(feet.begin() + place, point.location - depth * view.normal);
-    constexpr unsigned int n_doubles = OfCell<dim, n>::n_doubles;
-    rows.insert(rows.begin() + std::size_t(place) * n_doubles, n_doubles, 0.);
-    std::copy(row.shape.begin(), row.shape.end(), rows.begin() + std::size_t(place) * n_doubles);
-    ++cells.back().n;
+    ++cell.n;
   }
 
 
   template <int dim>
-  void BedContact<dim>::open_cell(const unsigned int cell, const NodalField<dim> &field)
+  void BedContact<dim>::open_cell(const SoilBody<dim> &body, const unsigned int cell, const NodalField<dim> &field)
   {
     const auto &place   = grid.fine_cells().cells()[grid.fine_cells().of_index(cell)].place;
     unsigned int colour = 0;
     for (unsigned int a = dim; a-- > 0;)
       colour = colours_1d * colour + place[a] % colours_1d;
     Cell entry{};
-    entry.number = cell;
-    entry.colour = colour;
-    entry.first  = contacts.size();
-    entry.nodes  = nodes_of_cells.size();
+    entry.number                = cell;
+    entry.colour                = colour;
+    entry.first                 = contacts.size();
+    entry.nodes                 = nodes_of_cells.size();
+    entry.most_mobility         = 2. / (body.density * Utilities::fixed_power<dim>(grid.cell_size()));
+    const unsigned int *of_cell = grid.nodes(cell);
     for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
       {
-        nodes_of_cells.push_back(nodes.add(grid.nodes(cell)[i], field));
-        entry.is_held = entry.is_held || nodes[nodes_of_cells.back()].held != nodes.free;
+        const unsigned int number = nodes.add(of_cell[i], field);
+        nodes_of_cells.push_back(number);
+        entry.is_held   = entry.is_held || nodes.is_held(number);
+        entry.is_shared = entry.is_shared || nodes.is_shared(of_cell[i]);
       }
     cells.push_back(entry);
   }
@@ -170,16 +160,14 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
   void BedContact<dim>::add_cell(const SoilBody<dim> &body,
                                  const CellPoints<dim> &points,
                                  const NodalField<dim> &field,
                                  const double dt)
   {
-    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
-    const unsigned int *of_cell    = grid.nodes(points.cell);
-    double fastest                 = 0.; // square of the speed
-    for (unsigned int i = 0; i < n_nodes; ++i)
+    const unsigned int *of_cell = grid.nodes(points.cell);
+    double fastest              = 0.; // square of the speed
+    for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
       if (const double *values = field[of_cell[i]]; values[NodalField<dim>::mass] > 0.)
         fastest = std::max(fastest, vector_of<dim>(values + NodalField<dim>::velocity).norm_square());
     find_near_surfaces(body, points, std::sqrt(fastest), dt);
@@ -187,34 +175,47 @@ namespace scree
       return;
 
     bool is_new = true;
-    for_each_point(points, [&](const auto &point) {
+    for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+      const BatchPointers<dim> pointers(points, indices);
+      std::array<Batch, dim> places;
+      simd::load_records<dim>(pointers.places, places.data());
       for (const Near &one : near)
         {
-          const SurfaceView<dim> view = surfaces[one.surface].samples->view(point.cell, point.reference_location);
-          if (view.distance - point.properties[body.layout.touching_distance(one.surface)] > one.margin)
+          const SampledSurface<dim> &samples = *surfaces[one.surface].samples;
+          const unsigned int touching        = body.layout.touching_distance(one.surface);
+          Batch touching_distances;
+          for (unsigned int l = 0; l < batch_size; ++l)
+            touching_distances[l] = pointers.properties[l][touching];
+          const unsigned int far =
+              simd::bits_of(samples.distances(points.cell, places) - touching_distances > one.margin);
+          for (unsigned int l = 0; l < n; ++l)
             {
-              std::fill_n(point.properties + body.layout.contact_force(one.surface), dim, 0.);
-              continue;
+              if (far >> l & 1)
+                {
+                  std::fill_n(pointers.properties[l] + body.layout.contact_force(one.surface), dim, 0.);
+                  continue;
+                }
+              if (is_new)
+                open_cell(body, points.cell, field);
+              is_new               = false;
+              const unsigned int p = indices[l];
+              const PointView<dim, double> point{
+                points.cell, points.properties_of(p), points.location_of(p), points.reference_location_of(p)
+              };
+              add_contact(body, one.surface, point, samples.view(points.cell, point.reference_location), dt);
             }
-          if (is_new)
-            open_cell(points.cell, field);
-          is_new = false;
-          add_contact<n>(body, one.surface, point, view, dt);
         }
     });
   }
 
 
   template <int dim>
-  template <int n>
   void BedContact<dim>::find_contacts(const NodalField<dim> &field, const double time_step)
   {
     nodes.begin(field);
     cells.clear();
     nodes_of_cells.clear();
     contacts.clear();
-    rows.clear();
-    feet.clear();
     for (RigidSurface<dim> &surface : surfaces)
       if (surface.obstacle)
         surface.velocity = surface.obstacle->velocity();
@@ -224,30 +225,57 @@ namespace scree
           return true;
       return false;
     };
+    unsigned int number = 0;
     for (auto &body : bodies)
-      if (body.group == group && !body.is_rigid)
-        for (const auto &cell : body.points.cells())
-          if (is_near(cell.cell))
-            add_cell<n>(body, cell, field, time_step);
+      {
+        const unsigned int first = cells.size();
+        if (body.group == group && !body.is_rigid)
+          for (const auto &cell : body.points.cells())
+            if (is_near(cell.cell))
+              add_cell(body, cell, field, time_step);
+        for (unsigned int c = first; c < cells.size(); ++c)
+          cells[c].body = number;
+        ++number;
+      }
   }
 
 
   template <int dim>
-  void BedContact<dim>::colour_cells()
+  void BedContact<dim>::join_cells()
   {
     constexpr unsigned int n_colours = Utilities::pow(colours_1d, dim), any = n_colours;
     static_assert(any < 32, "A bit each.");
-    std::stable_sort(cells.begin(), cells.end(), [](const Cell &a, const Cell &b) { return a.colour < b.colour; });
+    // Cells of two bodies may be the same one. Those with as many contacts lie together, as each lane waits for the
+    // last.
+    std::stable_sort(cells.begin(), cells.end(), [](const Cell &a, const Cell &b) {
+      return std::make_tuple(a.colour, a.body, a.n) < std::make_tuple(b.colour, b.body, b.n);
+    });
+    cell_lanes.clear();
     first_of_colour.assign(n_colours + 1, 0);
-    unsigned int own_bits = 0;
-    for (const Cell &cell : cells)
+    unsigned int own_bits = 0, n_contacts = 0;
+    for (unsigned int c = 0; c < cells.size();)
       {
-        ++first_of_colour[cell.colour + 1];
+        const Cell &first = cells[c];
+        CellLanes lanes{};
+        lanes.first = n_contacts;
+        for (; lanes.n_cells < batch_size && c < cells.size() && cells[c].colour == first.colour &&
+               cells[c].body == first.body;
+             ++c)
+          {
+            lanes.cells[lanes.n_cells++] = c;
+            lanes.n                      = cells[c].n;
+            lanes.is_held                = lanes.is_held || cells[c].is_held;
+            if (cells[c].is_shared)
+              own_bits |= 1u << first.colour;
+          }
+        std::fill(lanes.cells.begin() + lanes.n_cells, lanes.cells.end(), c - 1);
+        n_contacts += lanes.n;
         own_bits |= 1u << any;
-        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          if (nodes.is_shared(grid.nodes(cell.number)[i]))
-            own_bits |= 1u << cell.colour;
+        ++first_of_colour[first.colour + 1];
+        cell_lanes.push_back(lanes);
       }
+    if (contact_lanes.size() < n_contacts)
+      contact_lanes.resize(n_contacts);
     for (unsigned int c = 0; c < n_colours; ++c)
       first_of_colour[c + 1] += first_of_colour[c];
     unsigned int bits = 0;
@@ -263,65 +291,19 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void BedContact<dim>::finish(const NodalField<dim> &field, const double time_step, StepBalance<dim> &balance)
-  {
-    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
-    for (const Cell &cell : cells)
-      for (unsigned int c = cell.first; c < cell.first + cell.n; ++c)
-        {
-          const Contact &contact       = contacts[c];
-          const Tensor<1, dim> impulse = contact.normal_impulse * contact.normal + contact.tangent_impulse;
-          for (unsigned int a = 0; a < dim; ++a)
-            contact.force[a] = impulse[a] / time_step;
-          Tensor<1, dim> mean_velocity;
-          double sum = 0.;
-          for (unsigned int i = 0; i < n_nodes; ++i)
-            {
-              const double shape   = rows[std::size_t(c) * OfCell<dim, n>::n_doubles + i];
-              const auto &node     = nodes[nodes_of_cells[cell.nodes + i]];
-              const double *values = field[node.node];
-              sum += shape;
-              for (unsigned int a = 0; a < dim && shape != 0.; ++a)
-                mean_velocity[a] += shape * (values[NodalField<dim>::velocity + a] -
-                                             0.5 * values[NodalField<dim>::velocity_change + a]);
-              if (node.held != nodes.free)
-                {
-                  const Tensor<1, dim> reaction = -shape * nodes.held(node).held_part(impulse);
-                  balance.wall_impulse += reaction;
-                  balance.soil_walls.add(constraints.at(node.node)->soil_faces, reaction);
-                }
-            }
-          const RigidSurface<dim> &surface = surfaces[contact.surface];
-          if (surface.obstacle == nullptr)
-            {
-              balance.bed_impulse += sum * impulse;
-              balance.bed_dissipation -= impulse * mean_velocity;
-              continue;
-            }
-          ObstacleBalance<dim> &obstacle = balance.obstacles[contact.surface - (surfaces.size() - n_obstacles)];
-          const double work              = sum * impulse * surface.velocity;
-          obstacle.impulse += sum * impulse;
-          obstacle.add_moment(feet[c] - surface.obstacle->pivot, sum * impulse);
-          obstacle.work += work;
-          obstacle.dissipation += work - impulse * mean_velocity;
-        }
-  }
-
-
-  template <int dim>
-  template <int n>
   void BedContact<dim>::solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance)
   {
     balance.obstacles.resize(n_obstacles);
-    find_contacts<n>(field, time_step);
-    colour_cells();
+    find_contacts(field, time_step);
+    join_cells();
     if (!any_contact)
       return;
     start<n>();
     for (unsigned int s = 0; s < n_sweeps; ++s)
       sweep<n>(s % 2 == 0);
     nodes.write(field, balance);
-    finish<n>(field, time_step, balance);
+    nodes.take_means(field);
+    finish<n>(time_step, balance);
   }
 
 

@@ -1,26 +1,132 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/bed_contact.h>
-#include <scree/scheme/contact_row.h>
+#include <scree/tensor/vector.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    template <int dim>
+    DEAL_II_ALWAYS_INLINE inline Batch product(const Batch *a, const Batch *b)
+    {
+      Batch sum = a[0] * b[0];
+      for (unsigned int c = 1; c < dim; ++c)
+        sum += a[c] * b[c];
+      return sum;
+    }
+
+    /// Coulomb's law, coulomb_friction(), in lanes.
+    template <int dim>
+    DEAL_II_ALWAYS_INLINE inline void
+    limit_friction(const Batch &coefficient, const Batch &normal_impulse, Batch *impulse)
+    {
+      const Batch none{}, one = simd::broadcast<Batch>(1.);
+      const Batch available = simd::select<Batch>(normal_impulse > 0., coefficient * normal_impulse, none);
+      const Batch size      = simd::sqrt(product<dim>(impulse, impulse));
+      const Batch part =
+          simd::select<Batch>(size < available, one, simd::select<Batch>(size > 0., available / size, none));
+      for (unsigned int a = 0; a < dim; ++a)
+        impulse[a] *= part;
+    }
+
+    constexpr double smallest = 1e-9; // of the free point's mobility: below, walls hold it
+  }                                   // namespace
+
+
+  template <int dim>
+  std::array<const unsigned int *, batch_size> BedContact<dim>::nodes_of(const CellLanes &lanes) const
+  {
+    std::array<const unsigned int *, batch_size> result;
+    for (unsigned int l = 0; l < batch_size; ++l)
+      result[l] = &nodes_of_cells[cells[lanes.cells[l]].nodes];
+    return result;
+  }
+
+
+  template <int dim>
+  void BedContact<dim>::fill_lanes(const CellLanes &lanes, const unsigned int k, ContactLanes<dim> &to) const
+  {
+    const Contact nothing{};
+    for (unsigned int l = 0; l < batch_size; ++l)
+      {
+        const Cell &cell       = cells[lanes.cells[l]];
+        const Contact &contact = k < cell.n ? contacts[cell.first + k] : nothing;
+        to.approach[l]         = contact.approach;
+        to.friction[l]         = contact.friction;
+        to.normal_impulse[l]   = contact.normal_impulse;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            to.normal[a][l]           = contact.normal[a];
+            to.tangent_impulse[a][l]  = contact.tangent_impulse[a];
+            to.surface_velocity[a][l] = surfaces[contact.surface].velocity[a];
+          }
+      }
+  }
+
+
   template <int dim>
   template <int n>
-  void BedContact<dim>::push(const Cell &cell, const unsigned int contact, const Tensor<1, dim> &impulse)
+  void BedContact<dim>::start(const CellLanes &lanes)
   {
-    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
-    const double *row              = &rows[std::size_t(contact) * OfCell<dim, n>::n_doubles];
-    for (unsigned int i = 0; i < n_nodes; ++i)
+    using OfNodes                  = NodeLanes<dim, n>;
+    constexpr unsigned int n_nodes = OfNodes::n_nodes;
+    OfNodes of_nodes(nodes, nodes_of(lanes));
+    of_nodes.find_free_axes(lanes.is_held);
+    std::array<OpenKnots, batch_size> open;
+    Batch most_mobility;
+    for (unsigned int l = 0; l < batch_size; ++l)
       {
-        auto &node                  = nodes[nodes_of_cells[cell.nodes + i]];
-        const Tensor<1, dim> change = row[i] * node.inverse_mass * impulse;
-        node.velocity += node.held == nodes.free ? change : nodes.held(node).free_part(change);
+        open[l]          = grid.open_knots(cells[lanes.cells[l]].number);
+        most_mobility[l] = cells[lanes.cells[l]].most_mobility;
       }
+    const Batch none{}, one = simd::broadcast<Batch>(1.);
+    bool is_changed = false;
+    for (unsigned int k = 0; k < lanes.n; ++k)
+      {
+        ContactLanes<dim> &contact = contact_lanes[lanes.first + k];
+        fill_lanes(lanes, k, contact);
+        std::array<Batch, dim> place, to_foot;
+        simd::BatchBits is_there;
+        for (unsigned int l = 0; l < batch_size; ++l)
+          {
+            const Cell &cell = cells[lanes.cells[l]];
+            const Contact &c = contacts[cell.first + std::min(k, cell.n - 1)];
+            is_there[l]      = k < cell.n ? -1 : 0;
+            for (unsigned int a = 0; a < dim; ++a)
+              {
+                place[a][l]   = c.place[a];
+                to_foot[a][l] = c.to_foot[a];
+              }
+          }
+        set_shapes<dim, n>(place, to_foot, open, most_mobility, of_nodes, contact);
+        contact.inertia        = simd::select<Batch>(is_there, contact.inertia, none);
+        contact.normal_inertia = contact.inertia;
+        if (lanes.is_held)
+          {
+            Batch across{};
+            for (unsigned int a = 0; a < dim; ++a)
+              {
+                contact.mobility[a] = none;
+                for (unsigned int i = 0; i < n_nodes; ++i)
+                  contact.mobility[a] += contact.shape[i] * contact.shape[i] * of_nodes.inverse_mass(i, a);
+                across += contact.normal[a] * contact.normal[a] * contact.mobility[a];
+              }
+            contact.normal_inertia = simd::select<Batch>(across * contact.inertia >= smallest, one / across, none);
+          }
+        if (!simd::any(contact.normal_impulse > 0.))
+          continue;
+        is_changed = true;
+        Batch impulse[dim];
+        for (unsigned int a = 0; a < dim; ++a)
+          impulse[a] = contact.normal_impulse * contact.normal[a] + contact.tangent_impulse[a];
+        of_nodes.push(contact.shape, impulse);
+      }
+    if (is_changed)
+      of_nodes.store();
   }
 
 
@@ -28,9 +134,8 @@ namespace scree
   template <int n>
   void BedContact<dim>::start()
   {
-    for (const Cell &cell : cells)
-      for (unsigned int c = cell.first; c < cell.first + cell.n; ++c)
-        push<n>(cell, c, contacts[c].normal_impulse * contacts[c].normal + contacts[c].tangent_impulse);
+    for (const CellLanes &lanes : cell_lanes)
+      start<n>(lanes);
     if (std::find(is_colour_shared.begin(), is_colour_shared.end(), true) != is_colour_shared.end())
       nodes.exchange();
   }
@@ -38,100 +143,60 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void BedContact<dim>::sweep_cell(const Cell &cell, const bool is_forward)
+  void BedContact<dim>::sweep(const CellLanes &lanes, const bool is_forward)
   {
-    using Lanes                 = OfCell<dim, n>;
-    const unsigned int *numbers = &nodes_of_cells[cell.nodes];
-    Lanes velocity[dim], inverse_mass;
-    for (unsigned int i = 0; i < Lanes::n_nodes; ++i)
+    NodeLanes<dim, n> of_nodes(nodes, nodes_of(lanes));
+    of_nodes.find_free_axes(lanes.is_held);
+    const Batch none{};
+    bool is_changed = false;
+    for (unsigned int k = 0; k < lanes.n; ++k)
       {
-        inverse_mass.set(i, nodes[numbers[i]].inverse_mass);
+        ContactLanes<dim> &contact = contact_lanes[lanes.first + (is_forward ? k : lanes.n - 1 - k)];
+        Batch slip[dim]; // at the foot, from the surface
+        of_nodes.velocity_at(contact.shape, slip);
         for (unsigned int a = 0; a < dim; ++a)
-          velocity[a].set(i, nodes[numbers[i]].velocity[a]);
-      }
-    for (unsigned int k = 0; k < cell.n; ++k)
-      {
-        const unsigned int c = is_forward ? cell.first + k : cell.first + cell.n - 1 - k;
-        Contact &contact     = contacts[c];
-        const Lanes row(&rows[std::size_t(c) * Lanes::n_doubles]);
-        const RigidSurface<dim> &surface = surfaces[contact.surface];
-        Tensor<1, dim> at_foot; // from the surface
-        for (unsigned int a = 0; a < dim; ++a)
-          at_foot[a] = row.product(velocity[a]) - surface.velocity[a];
-
-        // An impulse across the surface does nothing along it: both follow from one velocity.
-        const double across = at_foot * contact.normal;
-        const double normal = std::max(0., contact.normal_impulse - (across - contact.approach) * contact.inertia);
-        if (normal == 0. && contact.normal_impulse == 0.)
-          continue;
-        const Tensor<1, dim> tangent =
-            coulomb_friction<dim>(contact.tangent_impulse - contact.inertia * (at_foot - across * contact.normal),
-                                  contact.available(normal))
-                .impulse;
-        const Tensor<1, dim> change =
-            (normal - contact.normal_impulse) * contact.normal + (tangent - contact.tangent_impulse);
-        contact.normal_impulse  = normal;
-        contact.tangent_impulse = tangent;
-        const Lanes response    = row.times(inverse_mass);
-        for (unsigned int a = 0; a < dim; ++a)
-          velocity[a].add(change[a], response);
-      }
-    for (unsigned int i = 0; i < Lanes::n_nodes; ++i)
-      for (unsigned int a = 0; a < dim; ++a)
-        nodes[numbers[i]].velocity[a] = velocity[a].get(i);
-  }
-
-
-  template <int dim>
-  template <int n>
-  void BedContact<dim>::sweep_held_cell(const Cell &cell, const bool is_forward)
-  {
-    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
-    const unsigned int *numbers    = &nodes_of_cells[cell.nodes];
-    for (unsigned int k = 0; k < cell.n; ++k)
-      {
-        const unsigned int c             = is_forward ? cell.first + k : cell.first + cell.n - 1 - k;
-        const double *row                = &rows[std::size_t(c) * OfCell<dim, n>::n_doubles];
-        Contact &contact                 = contacts[c];
-        const RigidSurface<dim> &surface = surfaces[contact.surface];
-        const auto velocity              = [&] { // from the surface
-          Tensor<1, dim> sum = -surface.velocity;
-          for (unsigned int i = 0; i < n_nodes; ++i)
-            sum += row[i] * nodes[numbers[i]].velocity;
-          return sum;
-        };
-        // What an impulse of 1 along a direction gives to the velocity along it.
-        const auto mobility = [&](const Tensor<1, dim> &direction) {
-          double sum = 0.;
-          for (unsigned int i = 0; i < n_nodes; ++i)
-            {
-              const auto &node          = nodes[numbers[i]];
-              const Tensor<1, dim> free = node.held == nodes.free ? direction : nodes.held(node).free_part(direction);
-              sum += row[i] * row[i] * node.inverse_mass * (free * direction);
-            }
-          return sum;
-        };
-        constexpr double smallest = 1e-9; // of the free point's: below, walls hold it
-        const double across       = mobility(contact.normal);
-        if (across * contact.inertia < smallest)
-          continue;
-        const double normal =
-            std::max(0., contact.normal_impulse - (velocity() * contact.normal - contact.approach) / across);
-        if (normal == 0. && contact.normal_impulse == 0.)
-          continue;
-        push<n>(cell, c, (normal - contact.normal_impulse) * contact.normal);
+          slip[a] -= contact.surface_velocity[a];
+        const Batch across = product<dim>(slip, contact.normal);
+        const Batch before = contact.normal_impulse;
+        const Batch normal = simd::max<Batch>(before - (across - contact.approach) * contact.normal_inertia, none);
+        if (!simd::any((normal > 0.) | (before > 0.)))
+          continue; // None of them touches.
+        const Batch more       = normal - before;
         contact.normal_impulse = normal;
-
-        Tensor<1, dim> slip = velocity();
-        slip -= (slip * contact.normal) * contact.normal;
-        const double speed = slip.norm();
-        const double along = speed > 0. ? mobility(slip / speed) : 0.;
-        const Tensor<1, dim> needed =
-            contact.tangent_impulse - (along * contact.inertia >= smallest ? slip / along : Tensor<1, dim>());
-        const Tensor<1, dim> tangent = coulomb_friction<dim>(needed, contact.available(normal)).impulse;
-        push<n>(cell, c, tangent - contact.tangent_impulse);
-        contact.tangent_impulse = tangent;
+        is_changed             = true;
+        for (unsigned int a = 0; a < dim; ++a)
+          slip[a] -= across * contact.normal[a];
+        // An impulse across the surface does nothing along it, but where walls hold nodes.
+        Batch inertia = contact.inertia;
+        if (lanes.is_held)
+          {
+            Batch gained[dim], along{};
+            for (unsigned int a = 0; a < dim; ++a)
+              gained[a] = more * contact.mobility[a] * contact.normal[a];
+            const Batch gained_across = product<dim>(gained, contact.normal);
+            for (unsigned int a = 0; a < dim; ++a)
+              {
+                slip[a] += gained[a] - gained_across * contact.normal[a];
+                along += slip[a] * slip[a] * contact.mobility[a];
+              }
+            const Batch square = product<dim>(slip, slip);
+            inertia            = simd::select<Batch>(
+                (square > 0.) & (along * contact.inertia >= smallest * square), square / along, none);
+          }
+        Batch tangent[dim], change[dim];
+        for (unsigned int a = 0; a < dim; ++a)
+          tangent[a] = contact.tangent_impulse[a] - inertia * slip[a];
+        limit_friction<dim>(contact.friction, normal, tangent);
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            tangent[a] = simd::select<Batch>(contact.normal_inertia > 0., tangent[a], contact.tangent_impulse[a]);
+            change[a]  = more * contact.normal[a] + (tangent[a] - contact.tangent_impulse[a]);
+            contact.tangent_impulse[a] = tangent[a];
+          }
+        of_nodes.push(contact.shape, change);
       }
+    if (is_changed)
+      of_nodes.store();
   }
 
 
@@ -143,17 +208,92 @@ namespace scree
     for (unsigned int k = 0; k < n_colours; ++k)
       {
         const unsigned int colour = is_forward ? k : n_colours - 1 - k;
-        const unsigned int first = first_of_colour[colour], n_cells = first_of_colour[colour + 1] - first;
-        for (unsigned int i = 0; i < n_cells; ++i)
-          {
-            const Cell &cell = cells[is_forward ? first + i : first + n_cells - 1 - i];
-            if (cell.is_held)
-              sweep_held_cell<n>(cell, is_forward);
-            else
-              sweep_cell<n>(cell, is_forward);
-          }
+        const unsigned int first = first_of_colour[colour], last = first_of_colour[colour + 1];
+        for (unsigned int i = first; i < last; ++i)
+          sweep<n>(cell_lanes[is_forward ? i : first + last - 1 - i], is_forward);
         if (is_colour_shared[colour])
           nodes.exchange();
+      }
+  }
+
+
+  template <int dim>
+  template <int n>
+  void BedContact<dim>::add_reactions(const CellLanes &lanes, StepBalance<dim> &balance)
+  {
+    const double *axes = nodes.free_axes();
+    for (unsigned int l = 0; l < lanes.n_cells; ++l)
+      {
+        const Cell &cell = cells[lanes.cells[l]];
+        for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes && cell.is_held; ++i)
+          {
+            const unsigned int number = nodes_of_cells[cell.nodes + i];
+            if (!nodes.is_held(number))
+              continue;
+            Tensor<1, dim> reaction;
+            for (unsigned int k = 0; k < cell.n; ++k)
+              {
+                const ContactLanes<dim> &contact = contact_lanes[lanes.first + k];
+                for (unsigned int a = 0; a < dim; ++a)
+                  reaction[a] -= contact.shape[i][l] *
+                                 (contact.normal_impulse[l] * contact.normal[a][l] + contact.tangent_impulse[a][l]);
+              }
+            for (unsigned int a = 0; a < dim; ++a)
+              reaction[a] *= 1. - axes[number * ContactNodes<dim>::n_doubles + a];
+            balance.wall_impulse += reaction;
+            balance.soil_walls.add(constraints.at(nodes.node(number))->soil_faces, reaction);
+          }
+      }
+  }
+
+
+  template <int dim>
+  template <int n>
+  void BedContact<dim>::finish(const double time_step, StepBalance<dim> &balance)
+  {
+    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
+    for (const CellLanes &lanes : cell_lanes)
+      {
+        const NodeLanes<dim, n> means(nodes, nodes_of(lanes));
+        for (unsigned int k = 0; k < lanes.n; ++k)
+          {
+            const ContactLanes<dim> &in_lanes = contact_lanes[lanes.first + k];
+            Batch mean_velocity[dim], impulses[dim], sum{};
+            means.velocity_at(in_lanes.shape, mean_velocity);
+            for (unsigned int i = 0; i < n_nodes; ++i)
+              sum += in_lanes.shape[i];
+            for (unsigned int a = 0; a < dim; ++a)
+              impulses[a] = in_lanes.normal_impulse * in_lanes.normal[a] + in_lanes.tangent_impulse[a];
+            const Batch work_at_nodes = product<dim>(impulses, mean_velocity);
+            for (unsigned int l = 0; l < lanes.n_cells; ++l)
+              {
+                const Cell &cell = cells[lanes.cells[l]];
+                if (k >= cell.n)
+                  continue;
+                const Contact &contact = contacts[cell.first + k];
+                Tensor<1, dim> impulse;
+                for (unsigned int a = 0; a < dim; ++a)
+                  {
+                    contact.force[a] = impulses[a][l] / time_step;
+                    impulse[a]       = sum[l] * impulses[a][l];
+                  }
+                const RigidSurface<dim> &surface = surfaces[contact.surface];
+                if (surface.obstacle == nullptr)
+                  {
+                    balance.bed_impulse += impulse;
+                    balance.bed_dissipation -= work_at_nodes[l];
+                    continue;
+                  }
+                ObstacleBalance<dim> &obstacle = balance.obstacles[contact.surface - (surfaces.size() - n_obstacles)];
+                const double work              = impulse * surface.velocity;
+                obstacle.impulse += impulse;
+                obstacle.add_moment(contact.foot - surface.obstacle->pivot, impulse);
+                obstacle.work += work;
+                obstacle.dissipation += work - work_at_nodes[l];
+              }
+          }
+        if (lanes.is_held)
+          add_reactions<n>(lanes, balance);
       }
   }
 
@@ -165,4 +305,8 @@ namespace scree
   template void BedContact<2>::sweep<3>(const bool);
   template void BedContact<3>::sweep<2>(const bool);
   template void BedContact<3>::sweep<3>(const bool);
+  template void BedContact<2>::finish<2>(const double, StepBalance<2> &);
+  template void BedContact<2>::finish<3>(const double, StepBalance<2> &);
+  template void BedContact<3>::finish<2>(const double, StepBalance<3> &);
+  template void BedContact<3>::finish<3>(const double, StepBalance<3> &);
 } // namespace scree

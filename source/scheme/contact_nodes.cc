@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace scree
 {
   using namespace dealii;
@@ -57,7 +59,8 @@ namespace scree
     for (const Node &node : nodes)
       number_of_node[node.node] = free;
     nodes.clear();
-    held_directions.clear();
+    motion_records.clear();
+    axis_records.clear();
     for (const unsigned int node : shared_owned)
       if (field[node][NodalField<dim>::mass] > 0.)
         add(node, field);
@@ -65,37 +68,44 @@ namespace scree
 
 
   template <int dim>
-  unsigned int ContactNodes<dim>::add(const unsigned int node, const NodalField<dim> &field)
+  void ContactNodes<dim>::append(const unsigned int node, const NodalField<dim> &field)
   {
-    if (number_of_node[node] != free)
-      return number_of_node[node];
-    number_of_node[node]          = nodes.size();
-    const double *values          = field[node];
-    const double mass             = values[NodalField<dim>::mass];
-    const Tensor<1, dim> velocity = mass > 0. ? vector_of<dim>(values + NodalField<dim>::velocity) : Tensor<1, dim>();
-    nodes.push_back({ node, mass > 0. ? 1. / mass : 0., velocity, velocity, free });
-    find_walls(nodes.back());
-    return number_of_node[node];
+    number_of_node[node] = nodes.size();
+    const double *values = field[node];
+    const double mass    = values[NodalField<dim>::mass];
+    Record motion{}, axes{ { 1., 1., 1., 1. } };
+    Tensor<1, dim> velocity;
+    if (mass > 0.)
+      {
+        motion[inverse_mass] = 1. / mass;
+        for (unsigned int c = 0; c < dim; ++c)
+          motion[c] = velocity[c] = values[NodalField<dim>::velocity + c];
+      }
+    bool is_held = false;
+    if (const NodeConstraints<dim> *walls = constraints.at(node))
+      {
+        const HeldDirections<dim> held = held_by_walls(*walls, velocity);
+        is_held                        = held.any();
+        for (unsigned int a = 0; a < dim; ++a)
+          axes[a] = held.free_part(Point<dim>::unit_vector(a))[a];
+      }
+    nodes.push_back({ node, is_held, velocity });
+    motion_records.push_back(motion);
+    axis_records.push_back(axes);
   }
 
 
   template <int dim>
-  void ContactNodes<dim>::find_walls(Node &node)
+  HeldDirections<dim> ContactNodes<dim>::held_by_walls(const NodeConstraints<dim> &walls,
+                                                       const Tensor<1, dim> &velocity)
   {
-    const NodeConstraints<dim> *walls = constraints.at(node.node);
-    if (walls == nullptr)
-      return;
-    HeldDirections<dim> held = walls->soil_held;
+    HeldDirections<dim> held = walls.soil_held;
     // A wall that the step has found the soil to push on bears what the bed adds.
     constexpr double rounding = 1e-12;
-    for (const NodeConstraint<dim> &wall : walls->soil)
-      if (wall.type == NodeConstraint<dim>::Type::unilateral &&
-          node.velocity * wall.normal <= rounding * node.velocity.norm())
+    for (const NodeConstraint<dim> &wall : walls.soil)
+      if (wall.type == NodeConstraint<dim>::Type::unilateral && velocity * wall.normal <= rounding * velocity.norm())
         held.hold(wall.normal);
-    if (!held.any())
-      return;
-    node.held = held_directions.size();
-    held_directions.push_back(held);
+    return held;
   }
 
 
@@ -105,24 +115,20 @@ namespace scree
     if (!is_parallel)
       return;
     const unsigned int n_owned = grid.n_owned_nodes();
-    for (const Node &node : nodes)
-      if (node.node >= n_owned)
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      if (nodes[k].node >= n_owned)
         for (unsigned int c = 0; c < dim; ++c)
-          messages[node.node][c] = node.velocity[c] - node.known[c];
+          messages[nodes[k].node][c] = motion_records[k][c] - nodes[k].known[c];
     messages.add_contributions();
-    for (const unsigned int shared_node : shared_owned)
-      if (const unsigned int number = number_of_node[shared_node]; number != free)
-        {
-          Node &node = nodes[number];
-          node.velocity += vector_of<dim>(messages[shared_node]);
-          node.known = node.velocity;
-          for (unsigned int c = 0; c < dim; ++c)
-            messages[shared_node][c] = node.velocity[c];
-        }
+    for (const unsigned int node : shared_owned)
+      if (const unsigned int number = number_of_node[node]; number != free)
+        for (unsigned int c = 0; c < dim; ++c)
+          messages[node][c] = nodes[number].known[c] = motion_records[number][c] += messages[node][c];
     messages.update_ghosts();
-    for (Node &node : nodes)
-      if (node.node >= n_owned)
-        node.velocity = node.known = vector_of<dim>(messages[node.node]);
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      if (nodes[k].node >= n_owned)
+        for (unsigned int c = 0; c < dim; ++c)
+          motion_records[k][c] = nodes[k].known[c] = messages[nodes[k].node][c];
     messages.clear();
   }
 
@@ -130,19 +136,34 @@ namespace scree
   template <int dim>
   void ContactNodes<dim>::write(NodalField<dim> &field, StepBalance<dim> &balance)
   {
-    for (Node &node : nodes)
-      if (node.node < grid.n_owned_nodes())
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      if (const unsigned int node = nodes[k].node; node < grid.n_owned_nodes() && motion_records[k][inverse_mass] > 0.)
         {
-          if (const NodeConstraints<dim> *walls = constraints.at(node.node); walls != nullptr && node.inverse_mass > 0.)
-            stop_at_walls(*walls, node.inverse_mass, node.velocity, balance);
-          double *values = field[node.node];
-          for (unsigned int c = 0; c < dim && node.inverse_mass > 0.; ++c)
+          Tensor<1, dim> velocity = vector_of<dim>(motion_records[k].data());
+          if (const NodeConstraints<dim> *walls = constraints.at(node))
+            stop_at_walls(*walls, motion_records[k][inverse_mass], velocity, balance);
+          double *values = field[node];
+          for (unsigned int c = 0; c < dim; ++c)
             {
-              values[NodalField<dim>::velocity_change + c] += node.velocity[c] - values[NodalField<dim>::velocity + c];
-              values[NodalField<dim>::velocity + c] = node.velocity[c];
+              values[NodalField<dim>::velocity_change + c] += velocity[c] - values[NodalField<dim>::velocity + c];
+              values[NodalField<dim>::velocity + c] = velocity[c];
             }
         }
     field.update_ghosts();
+  }
+
+
+  template <int dim>
+  void ContactNodes<dim>::take_means(const NodalField<dim> &field)
+  {
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      if (motion_records[k][inverse_mass] > 0.)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double *values = field[nodes[k].node];
+            motion_records[k][c] =
+                values[NodalField<dim>::velocity + c] - 0.5 * values[NodalField<dim>::velocity_change + c];
+          }
   }
 
   template void stop_at_walls(const NodeConstraints<2> &, const double, Tensor<1, 2> &, StepBalance<2> &);

@@ -4,6 +4,7 @@
 
 #include <scree/geometry/level_set.h>
 #include <scree/grid/background_grid.h>
+#include <scree/simd/batch.h>
 
 #include <array>
 #include <limits>
@@ -60,6 +61,9 @@ namespace scree
 
     /// The surface from a place (from 0 to 1) in a near cell.
     SurfaceView<dim> view(const unsigned int cell, const dealii::Point<dim> &place) const;
+
+    /// Its distance alone, m, from several places in a near cell; equal to that of view() but for rounding.
+    Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const;
 
   private:
     static constexpr unsigned int n_corners = 1u << dim;

@@ -4,9 +4,10 @@
 
 #include <scree/grid/sampled_surface.h>
 #include <scree/points/soil_body.h>
-#include <scree/scheme/contact_nodes.h>
+#include <scree/scheme/contact_lanes.h>
 #include <scree/scheme/obstacle.h>
 
+#include <array>
 #include <list>
 #include <vector>
 
@@ -70,43 +71,48 @@ namespace scree
     {
       double *force; ///< the point's slots
       unsigned int surface;
-      double friction; ///< coefficient
+      double friction;                ///< coefficient
+      dealii::Point<dim> place;       ///< of the point in its cell
+      dealii::Tensor<1, dim> to_foot; ///< from there, cell widths
+      dealii::Point<dim> foot;        ///< m
       dealii::Tensor<1, dim> normal;
       double approach;                        ///< least velocity along the normal from the surface, m/s
-      double inertia;                         ///< 1/sum A_i^2/m_i, kg; 0 where nothing can move
       double normal_impulse;                  ///< N s, not negative
       dealii::Tensor<1, dim> tangent_impulse; ///< N s
       double order;                           ///< of the points in a cell, the same on any rank
-
-      /// The impulse along the surface, N s, that friction allows for one across it.
-      double available(const double normal_impulse) const
-      {
-        return available_friction(friction, normal_impulse);
-      }
     };
 
-    /// The contacts of a cell; their rows and its nodes lie behind each other.
+    /// The contacts of a body's points in a cell; its nodes lie behind each other.
     struct Cell
     {
       unsigned int number; ///< active cell index
       unsigned int colour;
+      unsigned int body;
       unsigned int first, n; ///< contacts
       unsigned int nodes;    ///< first of its nodes
       bool is_held;          ///< whether walls hold one of its nodes
+      bool is_shared;        ///< whether other ranks know one
+      double most_mobility;  ///< of a contact with the foot's own shape functions, 1/kg
+    };
+
+    /// Cells that share no nodes, a lane each. Without enough of them the last one is repeated.
+    struct CellLanes
+    {
+      unsigned int n_cells;                       ///< that count
+      std::array<unsigned int, batch_size> cells; ///< numbers in the list
+      unsigned int first, n;                      ///< contacts in lanes, as many as the cell with the most has
+      bool is_held;                               ///< whether walls hold nodes of any
     };
 
     /// Finds the surfaces that points of the cell may touch, with their margins.
     void
     find_near_surfaces(const SoilBody<dim> &body, const CellPoints<dim> &points, const double fastest, const double dt);
 
-    /// Lists the contacts with their rows.
-    template <int n>
+    /// Lists the contacts.
     void find_contacts(const NodalField<dim> &field, const double time_step);
-    void open_cell(const unsigned int cell, const NodalField<dim> &field);
-    template <int n>
+    void open_cell(const SoilBody<dim> &body, const unsigned int cell, const NodalField<dim> &field);
     void
     add_cell(const SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field, const double dt);
-    template <int n>
     void add_contact(const SoilBody<dim> &body,
                      const unsigned int surface,
                      const PointView<dim, double> &point,
@@ -116,26 +122,33 @@ namespace scree
     /// The velocity along the normal that a point with this gap, m, must have at least.
     double least_approach(const double gap, const double dt) const;
 
-    /// Orders cells by colours, and tells which colours concern several ranks. Collective.
-    void colour_cells();
+    /// Puts cells of a colour together in lanes, and tells which colours concern several ranks. Collective.
+    void join_cells();
 
-    /// Impulses of the step before.
+    /// Numbers of the nodes of the cells in lanes.
+    std::array<const unsigned int *, batch_size> nodes_of(const CellLanes &lanes) const;
+
+    /// Puts the contacts into lanes and gives the nodes the impulses of the step before.
     template <int n>
     void start();
     template <int n>
+    void start(const CellLanes &lanes);
+
+    /// Copies a contact of each cell.
+    void fill_lanes(const CellLanes &lanes, const unsigned int k, ContactLanes<dim> &contact) const;
+
+    template <int n>
     void sweep(const bool is_forward);
     template <int n>
-    void sweep_cell(const Cell &cell, const bool is_forward);
-    template <int n>
-    void sweep_held_cell(const Cell &cell, const bool is_forward);
-
-    /// Adds an impulse at a contact's foot to the nodes, as far as walls let them go.
-    template <int n>
-    void push(const Cell &cell, const unsigned int contact, const dealii::Tensor<1, dim> &impulse);
+    void sweep(const CellLanes &lanes, const bool is_forward);
 
     /// Stores the forces in the points and adds up what the surfaces did.
     template <int n>
-    void finish(const NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
+    void finish(const double time_step, StepBalance<dim> &balance);
+
+    /// Adds what walls bear of the impulses on the nodes that they hold.
+    template <int n>
+    void add_reactions(const CellLanes &lanes, StepBalance<dim> &balance);
 
     template <int n>
     void solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
@@ -149,21 +162,21 @@ namespace scree
     std::list<SoilBody<dim>> &bodies;
     const unsigned int group;
     ContactNodes<dim> nodes;
-    std::vector<Cell> cells;
-    std::vector<unsigned int> nodes_of_cells; // numbers in `nodes`
-    std::vector<Contact> contacts;
     /// A surface that a cell's points may touch, and the largest gap of those that may, m.
     struct Near
     {
       unsigned int surface;
       double margin;
     };
-    std::vector<Near> near;               // of the current cell
-    std::vector<dealii::Point<dim>> feet; // of each contact, m; not without obstacles
-    std::vector<double> rows;             // of each contact: the shape functions at its foot, as OfCell reads them
-    std::vector<unsigned int> first_of_colour;
-    std::vector<char> is_colour_shared; // by ranks
-    bool any_contact = false;           // on any rank
+    std::vector<Near> near; // of the current cell
+    std::vector<Cell> cells;
+    std::vector<unsigned int> nodes_of_cells; // numbers in `nodes`
+    std::vector<Contact> contacts;
+    std::vector<CellLanes> cell_lanes;
+    std::vector<ContactLanes<dim>> contact_lanes; // room for those of the step with the most
+    std::vector<unsigned int> first_of_colour;    // in lanes
+    std::vector<char> is_colour_shared;           // by ranks
+    bool any_contact = false;                     // on any rank
   };
 } // namespace scree
 

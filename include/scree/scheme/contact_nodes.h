@@ -6,6 +6,7 @@
 #include <scree/grid/nodal_field.h>
 #include <scree/scheme/step_balance.h>
 
+#include <array>
 #include <vector>
 
 namespace scree
@@ -26,14 +27,9 @@ namespace scree
   class ContactNodes
   {
   public:
-    struct Node
-    {
-      unsigned int node; ///< of the grid
-      double inverse_mass;
-      dealii::Tensor<1, dim> velocity; ///< m/s
-      dealii::Tensor<1, dim> known;    ///< as all ranks know it
-      unsigned int held;               ///< number of its directions that walls hold; ContactNodes::free without any
-    };
+    /// What impulses change of a node, as a record that lanes load and store: velocity, m/s, and 1/mass, 1/kg, 0
+    /// without soil.
+    static constexpr unsigned int n_doubles = 4, inverse_mass = 3;
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
@@ -46,21 +42,34 @@ namespace scree
     void begin(const NodalField<dim> &field);
 
     /// The number here of a node of this rank's cells, from now on if it was not there.
-    unsigned int add(const unsigned int node, const NodalField<dim> &field);
-
-    Node &operator[](const unsigned int number)
+    unsigned int add(const unsigned int node, const NodalField<dim> &field)
     {
-      return nodes[number];
-    }
-    const Node &operator[](const unsigned int number) const
-    {
-      return nodes[number];
+      if (number_of_node[node] == free)
+        append(node, field);
+      return number_of_node[node];
     }
 
-    /// The directions along which walls stop a node.
-    const HeldDirections<dim> &held(const Node &node) const
+    /// The node of the grid.
+    unsigned int node(const unsigned int number) const
     {
-      return held_directions[node.held];
+      return nodes[number].node;
+    }
+
+    /// The records of all nodes.
+    double *motions()
+    {
+      return motion_records.data()->data();
+    }
+
+    /// Records as long: 0 for the axes along which walls hold the node, else 1. (Walls are faces of the box.)
+    double *free_axes()
+    {
+      return axis_records.data()->data();
+    }
+
+    bool is_held(const unsigned int number) const
+    {
+      return nodes[number].is_held;
     }
 
     /// Whether other ranks know the node, too.
@@ -76,19 +85,33 @@ namespace scree
     /// field, those of ghosts included. Collective.
     void write(NodalField<dim> &field, StepBalance<dim> &balance);
 
+    /// Puts the mean velocities of the step, which write() has ended, into the records.
+    void take_means(const NodalField<dim> &field);
+
   private:
-    /// Finds what walls hold of a node.
-    void find_walls(Node &node);
+    struct Node
+    {
+      unsigned int node; // of the grid
+      bool is_held;
+      dealii::Tensor<1, dim> known; // velocity as all ranks know it, m/s
+    };
+
+    using Record = std::array<double, n_doubles>;
+
+    void append(const unsigned int node, const NodalField<dim> &field);
+
+    /// The axes along which walls hold a node with this velocity, m/s.
+    static HeldDirections<dim> held_by_walls(const NodeConstraints<dim> &walls, const dealii::Tensor<1, dim> &velocity);
 
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
     const bool is_parallel;
     NodeValues<dim, dim> messages;
     std::vector<Node> nodes;
-    std::vector<HeldDirections<dim>> held_directions;
-    std::vector<unsigned int> number_of_node; // of the grid's nodes; `free`: not there
-    std::vector<unsigned int> shared_owned;   // nodes of this rank that others know
-    std::vector<char> shared;                 // whether others know a node
+    std::vector<Record> motion_records, axis_records; // by number
+    std::vector<unsigned int> number_of_node;         // of the grid's nodes; `free`: not there
+    std::vector<unsigned int> shared_owned;           // nodes of this rank that others know
+    std::vector<char> shared;                         // whether others know a node
   };
 } // namespace scree
 
