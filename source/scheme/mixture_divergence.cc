@@ -4,9 +4,20 @@
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Fills of a cell from which on its whole, and up to which only the part that is filled is looked at; between them
+    /// a share of both, so that the scatter of points changes nothing at once.
+    constexpr double full = 0.95, partly_full = 0.85;
+  } // namespace
+
 
   template <int dim>
   template <unsigned int n_1d>
@@ -17,12 +28,21 @@ namespace scree
       {
         points[q]  = gauss.point(q);
         weights[q] = gauss.weight(q);
-        for (unsigned int v = 0; v < n_corners; ++v)
-          {
-            shapes[q][v]          = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
-            shape_gradients[q][v] = GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
-          }
       }
+    find_shapes();
+  }
+
+
+  template <int dim>
+  template <unsigned int n_1d>
+  void MixtureDivergence<dim>::Rule<n_1d>::find_shapes()
+  {
+    for (unsigned int q = 0; q < n_points; ++q)
+      for (unsigned int v = 0; v < n_corners; ++v)
+        {
+          shapes[q][v]          = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
+          shape_gradients[q][v] = GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
+        }
   }
 
 
@@ -38,6 +58,30 @@ namespace scree
       , form(form)
       , open_cells(open_cells)
   {
+  }
+
+
+  template <int dim>
+  typename MixtureDivergence<dim>::template Rule<2> MixtureDivergence<dim>::rule_in(const MixtureCell<dim> &cell) const
+  {
+    Point<dim> moment; // in cells
+    double volume = 0;
+    for (unsigned int v = 0; v < n_corners; ++v)
+      {
+        const double filled = cell.water_at_corner[v] + cell.effective_saturation * cell.grains_at_corner[v];
+        volume += filled;
+        moment += filled * GeometryInfo<dim>::unit_cell_vertex(v);
+      }
+    const double share = std::min((full - cell.fill) / (full - partly_full), 1.);
+    Rule<2> rule       = whole;
+    for (Point<dim> &point : rule.points)
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          const double off_middle = share * (moment[a] / volume - 0.5);
+          point[a]                = 0.5 + off_middle + (1. - 2. * std::abs(off_middle)) * (point[a] - 0.5);
+        }
+    rule.find_shapes();
+    return rule;
   }
 
 
@@ -153,6 +197,8 @@ namespace scree
             add_integrals<n>(cut_rule, cut->weights.data(), scale, open, flow, integrals);
             add_ground<n>(*cut, flow, integrals);
           }
+        else if (cell.fill < full)
+          add_integrals<n>(rule_in(cell), whole.weights.data(), scale, open, flow, integrals);
         else
           add_integrals<n>(whole, whole.weights.data(), scale, open, flow, integrals);
         for (unsigned int v = 0; v < n_corners; ++v)

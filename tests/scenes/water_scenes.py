@@ -434,16 +434,19 @@ def cavitation(scree):
 def still_water(scree):
     """The volume correction leaves water at rest alone, wherever its surface lies in a cell: to 1e-9 of its potential energy.
 
-    A source that takes the surface for a lack of water sinks it: 3.7 J of 2100 in 0.2 s with the surface at half a cell.
+    Beside the same water without it: where the surface cuts a row of points short, the start is out of balance by 1e-4 of p, and the
+    points move by less than 1e-9 m. A source that takes the surface for a lack of water sinks it: 3.7 J of 2100 in 0.2 s with the
+    surface at half a cell.
     """
     for part in (0, 0.1, 0.25, 0.5, 0.6, 0.75):
-        name, surface = "still_%g" % part, 1 + 0.1 * part
-        table = run(scree, "hydrostatic", name, {"Water/Region": "y < %.10g" % surface, "Water/Volume correction rate": "20",
-                                                 "Water/Pressure/Relative tolerance": "1e-12"})
-        energy = table["Potential energy (J)"]
+        surface = 1 + 0.1 * part
+        tables = [run(scree, "hydrostatic", "still_%g_%s" % (part, rate), {
+            "Water/Region": "y < %.10g" % surface, "Water/Volume correction rate": rate, "Water/Pressure/Relative tolerance": "1e-12"})
+            for rate in ("20", "0")]
+        corrected, free = (table["Potential energy (J)"] for table in tables)
         label = "still water, surface at %g of a cell: " % part
-        check(label + "change of potential energy, relative", max(abs(e / energy[0] - 1) for e in energy), 0, 1e-9)
-        check(label + "speed, m/s", speed(table), 0, 1e-9)
+        check(label + "change of potential energy by the correction, relative", max(abs(e / f - 1) for e, f in zip(corrected, free)), 0, 1e-9)
+        check(label + "speed, m/s", speed(tables[0]), 0, 1e-9)
 
 
 def sloshing(scree):

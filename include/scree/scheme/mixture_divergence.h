@@ -8,8 +8,10 @@
 namespace scree
 {
   /// The volume that the mixture's flow draws from the corners: integrals of -psi div u, where u = (1-n) v_s + n v_w is
-  /// formed at the nodes. In cells that rigid ground cuts they are over the open part, and what u carries through the
-  /// ground is drawn, too: the pressure has to stop it.
+  /// formed at the nodes. In partly full cells they are over the part that material fills: beyond it the nodes' few
+  /// points tell next to nothing of u, and a pressure that heeds it makes energy without bound. In cells that rigid
+  /// ground cuts they are over the open part, and what u carries through the ground is drawn, too: the pressure has to
+  /// stop it.
   template <int dim>
   class MixtureDivergence
   {
@@ -45,6 +47,9 @@ namespace scree
       std::array<std::array<dealii::Tensor<1, dim>, n_corners>, n_points> shape_gradients; // per cell width
 
       Rule();
+
+      /// Of the points.
+      void find_shapes();
     };
 
     /// The mixture's velocity at a cell's nodes, component by component in rows.
@@ -66,6 +71,10 @@ namespace scree
                        const OpenKnots open,
                        const Flow<n> &flow,
                        AtCorners &integrals) const;
+
+    /// Points over the part of a cell that material fills, taken to reach from its centre as far to either side as the
+    /// cell does to the nearer one along each axis: exact where it fills the cell from one side.
+    Rule<2> rule_in(const MixtureCell<dim> &cell) const;
 
     /// Adds what flows through the ground in a cell.
     template <int n>
