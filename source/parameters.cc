@@ -296,7 +296,7 @@ namespace scree
     boundaries.check(dimension);
     bed.check(dimension);
     for (const ObstacleParameters &obstacle : obstacles)
-      obstacle.check(dimension, has_water);
+      obstacle.check(dimension);
     for (const InflowParameters &inflow : inflows)
       check_inflow(inflow);
     surface_load.check(grid, dimension);

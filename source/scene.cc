@@ -132,18 +132,32 @@ namespace scree
   template <int dim>
   void Scene<dim>::join_ground()
   {
-    if (!obstacles.empty())
+    std::vector<const LevelSet<dim> *> all, at_rest;
+    std::vector<GroundPart<dim>> parts;
+    if (ground)
+      all.push_back(ground.get());
+    at_rest = all;
+    for (const Obstacle<dim> &obstacle : obstacles)
       {
-        std::vector<const LevelSet<dim> *> parts;
-        if (ground)
-          parts.push_back(ground.get());
-        for (const Obstacle<dim> &obstacle : obstacles)
-          parts.push_back(&obstacle.shape());
-        joined_ground  = std::make_unique<JoinedSurface<dim>>(parts);
-        joined_samples = std::make_unique<SampledSurface<dim>>(grid, *joined_ground);
+        all.push_back(&obstacle.shape());
+        if (obstacle.is_moving)
+          parts.push_back({ &obstacle.surface, &obstacle.velocity() });
+        else
+          at_rest.push_back(&obstacle.shape());
       }
-    if (wet_ground() != nullptr)
-      open_cells = std::make_unique<OpenCells<dim>>(grid, *wet_ground());
+    if (all.empty())
+      return;
+    if (!obstacles.empty())
+      joined_ground = std::make_unique<JoinedSurface<dim>>(all);
+    if (at_rest.size() > (ground ? 1 : 0))
+      {
+        joined_at_rest = std::make_unique<JoinedSurface<dim>>(at_rest);
+        joined_samples = std::make_unique<SampledSurface<dim>>(grid, *joined_at_rest);
+      }
+    if (!at_rest.empty())
+      parts.insert(parts.begin(), { joined_samples ? joined_samples.get() : bed.get() });
+    wet_ground = std::make_unique<RigidGround<dim>>(parts);
+    open_cells = std::make_unique<OpenCells<dim>>(grid, *wet_ground);
   }
 
 
@@ -209,7 +223,7 @@ namespace scree
         loads,
         open_cells.get(),
         open_cells ? std::make_unique<BedProjection<dim>>(
-                         grid, *wet_ground(), rigid_surfaces(), *open_cells, parameters.pressure.relative_tolerance)
+                         grid, *wet_ground, rigid_surfaces(), *open_cells, parameters.pressure.relative_tolerance)
                    : nullptr,
         inflows,
         timer);
@@ -318,9 +332,25 @@ namespace scree
   template <int dim>
   void Scene<dim>::end_step(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals)
   {
+    let_in(time_step, pressure, totals);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::move_obstacles(const double time_step)
+  {
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.end_step(time_step);
-    let_in(time_step, pressure, totals);
+  }
+
+
+  template <int dim>
+  bool Scene<dim>::follow_obstacles()
+  {
+    if (!wet_ground || !wet_ground->moves())
+      return false;
+    open_cells->follow();
+    return true;
   }
 
 

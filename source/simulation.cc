@@ -271,6 +271,8 @@ namespace scree
     wait();
     scheme->solve(time_step, step);
     partition.finish(Work::to_nodes);
+    if (is_released)
+      scene.move_obstacles(time_step); // Points in water are put back to where the ground is then.
     scheme->to_points(time_step, step);
     place_points(time_step, step.speeds);
 
@@ -289,6 +291,8 @@ namespace scree
   {
     const std::unique_ptr<WaterView<dim>> water = scene.inflows.empty() ? nullptr : scheme->water_view();
     scene.end_step(time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
+    if (scene.follow_obstacles())
+      scheme->follow_ground();
   }
 
 

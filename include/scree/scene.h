@@ -35,10 +35,15 @@ namespace scree
     /// What acts on the soil in the step, s, that comes.
     void begin_step(const double time, const double time_step);
 
-    /// Moves the obstacles to where they are after the step, and puts in what enters with it, which it books.
-    /// Collective.
+    /// Puts in what enters with the step, which it books. Collective.
     /// @param pressure of the water, for its points that enter; read in scenes with water
     void end_step(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
+
+    /// Moves the obstacles to where they are after the step. Collective.
+    void move_obstacles(const double time_step);
+
+    /// Lets what the ground leaves open follow the obstacles; returns whether any may have moved in water.
+    bool follow_obstacles();
 
     /// Adds the speeds of what enters.
     void include_inflows(Speeds &speeds) const;
@@ -101,7 +106,9 @@ namespace scree
     std::unique_ptr<LevelSet<dim>> ground;        ///< null without a bed
     std::unique_ptr<SampledSurface<dim>> bed;     ///< the same as the mesh sees it
     std::unique_ptr<LevelSet<dim>> joined_ground; ///< bed and obstacles as one; null without water or obstacles
+    std::unique_ptr<LevelSet<dim>> joined_at_rest;       ///< those at rest; null if there is no more than the bed
     std::unique_ptr<SampledSurface<dim>> joined_samples; ///< the same as the mesh sees it
+    std::unique_ptr<RigidGround<dim>> wet_ground;        ///< what water meets; null if there is nothing
     std::unique_ptr<OpenCells<dim>> open_cells; ///< what ground leaves of the cells; null without water or ground
 
   private:
@@ -172,12 +179,6 @@ namespace scree
                       const std::array<double, (1 << dim)> &pressure,
                       std::vector<double> &properties) const;
     void require_points_outside_obstacles() const;
-
-    /// What water meets, as the mesh sees it; null if there is nothing.
-    const SampledSurface<dim> *wet_ground() const
-    {
-      return joined_samples ? joined_samples.get() : bed.get();
-    }
 
     /// The bed and the obstacles: what points in contact have slots for, in this order.
     std::vector<RigidSurface<dim>> rigid_surfaces() const;

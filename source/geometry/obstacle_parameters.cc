@@ -43,7 +43,7 @@ namespace scree
   }
 
 
-  void ObstacleParameters::check(const unsigned int dim, const bool has_water) const
+  void ObstacleParameters::check(const unsigned int dim) const
   {
     surface.check(dim);
     if (!velocity.empty())
@@ -53,10 +53,5 @@ namespace scree
                   "Moment about",
                   pivot,
                   "write " + std::to_string(dim) + " numbers in m, separated by commas.");
-    require_entry(!has_water || !is_moving(),
-                  surface.subsection,
-                  "Velocity",
-                  velocity,
-                  "an obstacle that moves in water is not possible yet. Remove the entry, or subsection Water.");
   }
 } // namespace scree

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace scree
 {
@@ -61,9 +62,10 @@ namespace scree
 
 
   template <int dim>
-  OpenCells<dim>::OpenCells(const BackgroundGrid<dim> &grid, const SampledSurface<dim> &surface)
+  OpenCells<dim>::OpenCells(const BackgroundGrid<dim> &grid, const RigidGround<dim> &ground)
       : grid(grid)
-      , surface(surface)
+      , ground(ground)
+      , unit_cube(simplices_of_cube(Point<dim>(), 1.))
   {
     reinit();
   }
@@ -111,12 +113,28 @@ namespace scree
 
 
   template <int dim>
-  void OpenCells<dim>::integrate_ground(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut) const
+  void OpenCells<dim>::integrate_ground(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut)
   {
     static const QWitherdenVincentSimplex<dim - 1> rule(dim == 2 ? 3 : 4); // quadratics along all axes
-    double sum = 0.;
-    Tensor<1, dim> areas;
-    std::vector<double> shapes(grid.n_nodes_per_cell());
+    cut.first_segment      = all_segments.size();
+    const bool is_one_part = ground.n_near(cut.cell) == 1;
+    const auto segment_at  = [&](const std::array<Point<dim>, dim> &face) -> GroundSegment<dim>  &{
+      Point<dim> middle;
+      for (const Point<dim> &corner : face)
+        middle += 1. / dim * corner;
+      const unsigned int part =
+          is_one_part && cut.n_segments == 1 ? all_segments.back().part : ground.nearest_part(cut.cell, middle);
+      for (unsigned int s = cut.first_segment; s < all_segments.size(); ++s)
+        if (all_segments[s].part == part)
+          return all_segments[s];
+      ++cut.n_segments;
+      GroundSegment<dim> segment;
+      segment.cell = cut.cell;
+      segment.part = part;
+      segment.shapes.resize(grid.n_nodes_per_cell());
+      all_segments.push_back(std::move(segment));
+      return all_segments.back();
+    };
     for (const Simplex<dim> &simplex : open)
       {
         // A simplex with a face on the ground has one corner in the open.
@@ -133,66 +151,125 @@ namespace scree
         Tensor<1, dim> area = area_vector(face);
         if (area * (inside - face[0]) > 0.)
           area *= -1.;
-        const double size = area.norm();
-        sum += size;
-        areas += area;
+        const double size           = area.norm();
+        GroundSegment<dim> &segment = segment_at(face);
+        segment.area += size;
+        segment.normal += area;
         visit_rule<dim>(rule, face, [&](const Point<dim> &x, const double part) {
           for (unsigned int v = 0; v < cut.n_corners; ++v)
-            cut.ground_hats[v] += part * size * GeometryInfo<dim>::d_linear_shape_function(x, v);
+            segment.ground_hats[v] += part * size * GeometryInfo<dim>::d_linear_shape_function(x, v);
           unsigned int i = 0;
-          visit_nodes(
-              grid, cut.cell, x, [&](const unsigned int, const double shape) { shapes[i++] += part * size * shape; });
+          visit_nodes(grid, cut.cell, x, [&](const unsigned int, const double shape) {
+            segment.shapes[i++] += part * size * shape;
+          });
         });
       }
     constexpr double smallest_area = 1e-9; // what is less is a corner that touches the ground
-    if (areas.norm() < smallest_area)
+    const auto is_small = [](const GroundSegment<dim> &segment) { return segment.normal.norm() < smallest_area; };
+    all_segments.erase(std::remove_if(all_segments.begin() + cut.first_segment, all_segments.end(), is_small),
+                       all_segments.end());
+    cut.n_segments = all_segments.size() - cut.first_segment;
+    for (unsigned int s = cut.first_segment; s < all_segments.size(); ++s)
       {
-        cut.ground_hats.fill(0.);
-        return;
+        GroundSegment<dim> &segment = all_segments[s];
+        for (double &hat : segment.ground_hats)
+          hat /= segment.area;
+        for (double &shape : segment.shapes)
+          shape /= segment.area;
+        const double size = segment.normal.norm();
+        segment.area      = size * Utilities::fixed_power<dim - 1>(grid.cell_size());
+        segment.normal /= size;
       }
-    cut.area   = areas.norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
-    cut.normal = areas / areas.norm();
-    for (double &hat : cut.ground_hats)
-      hat /= sum;
-    for (double &shape : shapes)
-      shape /= sum;
-    cut.shapes = std::move(shapes);
+  }
+
+
+  template <int dim>
+  void OpenCells<dim>::look_at(const unsigned int cell)
+  {
+    constexpr double on_ground = 1e-9;     // cells: what is nearer lies on the ground
+    constexpr double sliver    = 3. / 16.; // cells: see below
+    constexpr double nothing   = 1e-12;
+    const bool may_change      = ground.moves_near(cell);
+    if (!(ground.least_distance(cell) < (may_change ? sliver : on_ground) * grid.cell_size()))
+      return;
+    // Ground that moves comes through all places. An open part that is too thin for points would hide it from the
+    // water, for no cell without points takes part: the ground is then on the face behind. Thin is between a half and
+    // the whole of a usual spacing of points; doc/verification.md has what other bounds do.
+    const auto margin_at = [&](const Point<dim> &place) {
+      return may_change && ground.parts()[ground.nearest_part(cell, place)].velocity ? sliver : on_ground;
+    };
+    auto simplices = unit_cube;
+    for (Simplex<dim> &simplex : simplices)
+      for (SimplexCorner<dim> &corner : simplex)
+        {
+          const double distance = ground.view(cell, corner.place).distance / grid.cell_size();
+          corner.side           = distance > -on_ground && distance < margin_at(corner.place) ? 0. : distance;
+        }
+    CutCell<dim> cut;
+    cut.cell        = cell;
+    cut.may_change  = may_change;
+    const auto open = open_part(std::move(simplices), linear_crossing<dim>);
+    integrate_open_part(open, cut);
+    integrate_ground(open, cut);
+    if (cut.open_fraction > 1. - nothing && cut.n_segments == 0)
+      return;
+    entry_of_cell[cell] = cut_cells.size();
+    cut_cells.push_back(std::move(cut));
   }
 
 
   template <int dim>
   void OpenCells<dim>::reinit()
   {
-    constexpr double on_ground = 1e-9; // cells: what is nearer lies on the ground
-    constexpr double nothing   = 1e-12;
     entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
     cut_cells.clear();
-    const auto unit_cube = simplices_of_cube(Point<dim>(), 1.);
+    all_segments.clear();
+    for (const auto &cell : grid.fine_cells().cells())
+      if (grid.fine_cells().is_owned(cell))
+        look_at(cell.index);
+  }
+
+
+  template <int dim>
+  void OpenCells<dim>::follow()
+  {
+    std::vector<CutCell<dim>> old_cells;
+    std::vector<GroundSegment<dim>> old_segments;
+    old_cells.swap(cut_cells);
+    old_segments.swap(all_segments);
+    before.clear();
     for (const auto &cell : grid.fine_cells().cells())
       {
-        if (!grid.fine_cells().is_owned(cell) || !(surface.least_distance(cell.index) < on_ground * grid.cell_size()))
+        if (!grid.fine_cells().is_owned(cell))
           continue;
-        auto simplices = unit_cube;
-        for (Simplex<dim> &simplex : simplices)
-          for (SimplexCorner<dim> &corner : simplex)
-            {
-              const double distance = surface.view(cell.index, corner.place).distance / grid.cell_size();
-              corner.side           = std::abs(distance) < on_ground ? 0. : distance;
-            }
-        CutCell<dim> cut;
-        cut.cell        = cell.index;
-        const auto open = open_part(std::move(simplices), linear_crossing<dim>);
-        integrate_open_part(open, cut);
-        integrate_ground(open, cut);
-        if (cut.open_fraction > 1. - nothing && cut.area == 0.)
-          continue;
-        entry_of_cell[cell.index] = cut_cells.size();
-        cut_cells.push_back(std::move(cut));
+        const unsigned int entry = std::exchange(entry_of_cell[cell.index], none);
+        const CutCell<dim> *old  = entry == none ? nullptr : &old_cells[entry];
+        const bool may_change    = ground.moves_near(cell.index);
+        const unsigned int first = all_segments.size();
+        if (may_change || (old && old->may_change))
+          look_at(cell.index);
+        else if (old)
+          {
+            entry_of_cell[cell.index] = cut_cells.size();
+            cut_cells.push_back(*old);
+            cut_cells.back().first_segment = first;
+            for (unsigned int s = old->first_segment; s < old->first_segment + old->n_segments; ++s)
+              all_segments.push_back(std::move(old_segments[s]));
+          }
+        for (unsigned int s = first; s < all_segments.size(); ++s)
+          {
+            before.push_back(none);
+            for (unsigned int o = 0; old && o < old->n_segments; ++o)
+              if (old_segments[old->first_segment + o].part == all_segments[s].part)
+                before.back() = old->first_segment + o;
+          }
       }
   }
 
   template struct CutCell<2>;
   template struct CutCell<3>;
+  template struct GroundSegment<2>;
+  template struct GroundSegment<3>;
   template class OpenCells<2>;
   template class OpenCells<3>;
 } // namespace scree

@@ -51,7 +51,7 @@ namespace scree
 
 
   template <int dim>
-  double BedContact<dim>::fastest(const double time) const
+  double fastest(const std::vector<RigidSurface<dim>> &surfaces, const double time)
   {
     double speed = 0.;
     for (const RigidSurface<dim> &surface : surfaces)
@@ -316,6 +316,8 @@ namespace scree
       solve<3>(field, time_step, balance);
   }
 
+  template double fastest(const std::vector<RigidSurface<2>> &, const double);
+  template double fastest(const std::vector<RigidSurface<3>> &, const double);
   template class BedContact<2>;
   template class BedContact<3>;
 } // namespace scree

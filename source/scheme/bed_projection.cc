@@ -39,7 +39,7 @@ namespace scree
 
   template <int dim>
   BedProjection<dim>::BedProjection(const BackgroundGrid<dim> &grid,
-                                    const SampledSurface<dim> &ground,
+                                    const RigidGround<dim> &ground,
                                     const std::vector<RigidSurface<dim>> &surfaces,
                                     const OpenCells<dim> &open_cells,
                                     const double relative_tolerance)
@@ -57,30 +57,64 @@ namespace scree
 
 
   template <int dim>
+  unsigned int BedProjection<dim>::find_surface(const GroundSegment<dim> &segment, const Point<dim> &middle) const
+  {
+    const GroundPart<dim> &part = ground.parts()[segment.part];
+    unsigned int number         = 0;
+    double nearest              = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i < surfaces.size(); ++i)
+      {
+        const RigidSurface<dim> &surface = surfaces[i];
+        if (surface.samples == part.samples)
+          return i;
+        if (!(surface.obstacle && surface.obstacle->is_moving) && surface.samples->is_near(segment.cell))
+          if (const double distance = surface.samples->view(segment.cell, middle).distance; distance < nearest)
+            {
+              nearest = distance;
+              number  = i;
+            }
+      }
+    return number;
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::find_surfaces()
+  {
+    const auto &segments       = open_cells.segments();
+    const FineCells<dim> &fine = grid.fine_cells();
+    surface_numbers.resize(segments.size());
+    middles.resize(segments.size());
+    for (unsigned int s = 0; s < segments.size(); ++s)
+      {
+        Point<dim> middle; // in the unit cell
+        for (unsigned int v = 0; v < CutCell<dim>::n_corners; ++v)
+          middle += segments[s].ground_hats[v] * GeometryInfo<dim>::unit_cell_vertex(v);
+        middles[s] = fine.box().corner(fine.cells()[fine.of_index(segments[s].cell)].place) + grid.cell_size() * middle;
+        surface_numbers[s] = find_surface(segments[s], middle);
+      }
+  }
+
+
+  template <int dim>
   void BedProjection<dim>::reinit()
   {
     impulses.reinit();
-    const auto &cut_cells = open_cells.cells();
-    of_segments.assign(cut_cells.size(), Impulses()); // The next step begins its search from nothing.
-    surface_numbers.assign(cut_cells.size(), 0);
-    middles.assign(cut_cells.size(), Point<dim>());
-    const FineCells<dim> &fine = grid.fine_cells();
-    for (unsigned int s = 0; s < cut_cells.size(); ++s)
-      {
-        const CutCell<dim> &cut = cut_cells[s];
-        Point<dim> middle; // in the unit cell
-        for (unsigned int v = 0; v < cut.n_corners; ++v)
-          middle += cut.ground_hats[v] * GeometryInfo<dim>::unit_cell_vertex(v);
-        middles[s]     = fine.box().corner(fine.cells()[fine.of_index(cut.cell)].place) + grid.cell_size() * middle;
-        double nearest = std::numeric_limits<double>::infinity();
-        for (unsigned int i = 0; i < surfaces.size(); ++i)
-          if (surfaces[i].samples->is_near(cut.cell))
-            if (const double distance = surfaces[i].samples->view(cut.cell, middle).distance; distance < nearest)
-              {
-                nearest            = distance;
-                surface_numbers[s] = i;
-              }
-      }
+    of_segments.assign(open_cells.segments().size(), Impulses()); // The next step begins its search from nothing.
+    find_surfaces();
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::follow()
+  {
+    const std::vector<unsigned int> &numbers = open_cells.numbers_before();
+    std::vector<Impulses> now(numbers.size());
+    for (unsigned int s = 0; s < numbers.size(); ++s)
+      if (numbers[s] != open_cells.none)
+        now[s] = of_segments[numbers[s]];
+    of_segments = std::move(now);
+    find_surfaces();
   }
 
 
@@ -110,33 +144,34 @@ namespace scree
   template <typename Values>
   double BedProjection<dim>::speed_of(const Row &row, const Values &values_of_node) const
   {
-    const CutCell<dim> &cut   = open_cells.cells()[contacts[row.contact].segment];
-    const unsigned int *nodes = grid.nodes(cut.cell);
-    double speed              = 0.;
-    for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+    const GroundSegment<dim> &segment = open_cells.segments()[contacts[row.contact].segment];
+    const unsigned int *nodes         = grid.nodes(segment.cell);
+    double speed                      = 0.;
+    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
       {
         const double *values = values_of_node(nodes[i]);
         for (unsigned int c = 0; c < dim; ++c)
-          speed += cut.shapes[i] * row.direction[c] * values[c];
+          speed += segment.shapes[i] * row.direction[c] * values[c];
       }
     return speed;
   }
 
 
   template <int dim>
-  double
-  BedProjection<dim>::mobility_at(const CutCell<dim> &cut, const Phase phase, const MixtureNodes<dim> &nodes) const
+  double BedProjection<dim>::mobility_at(const GroundSegment<dim> &segment,
+                                         const Phase phase,
+                                         const MixtureNodes<dim> &nodes) const
   {
     // Without walls: ranks that do not own a node know its masses only.
     double mobility = 0.;
-    for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
       {
-        const unsigned int node = grid.nodes(cut.cell)[i];
+        const unsigned int node = grid.nodes(segment.cell)[i];
         const double soil = nodes.soil[node][Field<dim>::mass], water = nodes.water[node][Field<dim>::mass];
         const double own = phase == Phase::soil ? soil : water, other = phase == Phase::soil ? water : soil;
         const double drag = nodes.pores[node][PoreField<dim>::drag];
         if (own > 0.)
-          mobility += cut.shapes[i] * cut.shapes[i] *
+          mobility += segment.shapes[i] * segment.shapes[i] *
                       (other > 0. ? (other + drag) / (own * other + drag * (own + other)) : 1. / own);
       }
     return mobility;
@@ -149,8 +184,9 @@ namespace scree
                                        const bool is_unilateral,
                                        const MixtureNodes<dim> &nodes)
   {
-    const CutCell<dim> &cut = open_cells.cells()[segment];
-    impulses.activate_cell(cut.cell);
+    const GroundSegment<dim> &of_ground = open_cells.segments()[segment];
+    const Tensor<1, dim> velocity       = open_cells.velocity(of_ground);
+    impulses.activate_cell(of_ground.cell);
     Contact contact{};
     contact.segment       = segment;
     contact.phase         = phase;
@@ -159,23 +195,24 @@ namespace scree
     contact.first_row     = rows.size();
     contact.n_rows        = contact.rubs ? dim : 1;
     contacts.push_back(contact);
-    const auto along      = tangents(cut.normal);
-    const double mobility = mobility_at(cut, phase, nodes);
+    const auto along      = tangents(of_ground.normal);
+    const double mobility = mobility_at(of_ground, phase, nodes);
     for (unsigned int r = 0; r < contact.n_rows; ++r)
       {
         Row row;
         row.contact       = contacts.size() - 1;
-        row.area          = cut.area;
-        row.direction     = r == 0 ? cut.normal : along[r - 1];
+        row.area          = of_ground.area;
+        row.direction     = r == 0 ? of_ground.normal : along[r - 1];
         row.mobility      = mobility;
         const auto &field = phase == Phase::soil ? nodes.soil : nodes.water;
-        row.speed         = speed_of(row, [&](const unsigned int node) { return field[node] + Field<dim>::velocity; });
+        row.speed         = speed_of(row, [&](const unsigned int node) { return field[node] + Field<dim>::velocity; }) -
+                    row.direction * velocity;
         rows.push_back(row);
       }
     // Unilateral soil that neither presses nor comes near is left alone.
     const Impulses &before = of_segments[segment];
     if (is_unilateral && rows[contact.first_row].speed <= 0. &&
-        !((phase == Phase::soil ? before.soil : before.water) * cut.normal > 0.))
+        !((phase == Phase::soil ? before.soil : before.water) * of_ground.normal > 0.))
       {
         contacts.pop_back();
         rows.resize(contact.first_row);
@@ -193,12 +230,12 @@ namespace scree
       if (of_rows[k] != 0.)
         {
           const Contact &contact   = contacts[rows[k].contact];
-          const CutCell<dim> &cut  = open_cells.cells()[contact.segment];
-          const unsigned int *ids  = grid.nodes(cut.cell);
+          const auto &segment      = open_cells.segments()[contact.segment];
+          const unsigned int *ids  = grid.nodes(segment.cell);
           const unsigned int first = contact.phase == Phase::soil ? 0 : dim;
-          for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+          for (unsigned int i = 0; i < segment.shapes.size(); ++i)
             for (unsigned int c = 0; c < dim; ++c)
-              impulses[ids[i]][first + c] += of_rows[k] * cut.shapes[i] * rows[k].direction[c];
+              impulses[ids[i]][first + c] += of_rows[k] * segment.shapes[i] * rows[k].direction[c];
         }
     impulses.add_contributions();
   }
@@ -379,12 +416,9 @@ namespace scree
     for (Impulses &segment : of_segments)
       segment.soil = segment.water = Tensor<1, dim>();
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (const CutCell<dim> *cut = open_cells.find(cell.cell);
-          cut && cut->area > 0. && cell.soil_mass > 0. && !cell.is_rigid)
-        {
-          const unsigned int segment = cut - open_cells.cells().data();
-          add_contact(segment, Phase::soil, !is_fixed(segment), nodes);
-        }
+      if (cell.soil_mass > 0. && !cell.is_rigid)
+        for_segments(cell.cell,
+                     [&](const unsigned int segment) { add_contact(segment, Phase::soil, !is_fixed(segment), nodes); });
     for (Row &row : rows)
       row.impulse = time_step * (of_segments[contacts[row.contact].segment].force * row.direction);
     project(nodes, step, relative_tolerance, balance);
@@ -404,14 +438,12 @@ namespace scree
     contacts.clear();
     rows.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (const CutCell<dim> *cut = open_cells.find(cell.cell); cut && cut->area > 0.)
-        {
-          const unsigned int segment = cut - open_cells.cells().data();
-          if (cell.soil_mass > 0. && !cell.is_rigid)
-            add_contact(segment, Phase::soil, !is_fixed(segment), nodes);
-          if (cell.water_volume > 0.)
-            add_contact(segment, Phase::water, !surface.has_unknown(cell.cell), nodes);
-        }
+      for_segments(cell.cell, [&](const unsigned int segment) {
+        if (cell.soil_mass > 0. && !cell.is_rigid)
+          add_contact(segment, Phase::soil, !is_fixed(segment), nodes);
+        if (cell.water_volume > 0.)
+          add_contact(segment, Phase::water, !surface.has_unknown(cell.cell), nodes);
+      });
     for (Contact &contact : contacts)
       if (contact.phase == Phase::soil)
         for (unsigned int r = 0; r < contact.n_rows; ++r)
@@ -434,26 +466,28 @@ namespace scree
         const Impulses &taken = of_segments[s];
         if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
           continue;
-        const CutCell<dim> &cut = open_cells.cells()[s];
+        const GroundSegment<dim> &segment = open_cells.segments()[s];
         Tensor<1, dim> impulse;
         double dissipation = 0.;
-        for (unsigned int i = 0; i < cut.shapes.size(); ++i)
+        for (unsigned int i = 0; i < segment.shapes.size(); ++i)
           {
-            const unsigned int node = grid.nodes(cut.cell)[i];
+            const unsigned int node = grid.nodes(segment.cell)[i];
             const auto add          = [&](const double *values, const Tensor<1, dim> &of_phase) {
               if (values[Field<dim>::mass] <= 0.)
                 return;
-              impulse -= cut.shapes[i] * of_phase;
-              dissipation += cut.shapes[i] * of_phase * mean(values);
+              impulse -= segment.shapes[i] * of_phase;
+              dissipation += segment.shapes[i] * of_phase * mean(values);
             };
             add(nodes.soil[node], taken.soil);
             add(nodes.water[node], taken.water);
           }
         if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
           {
+            const double work = impulse * open_cells.velocity(segment);
             obstacle->impulse += impulse;
             obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
-            obstacle->dissipation += dissipation;
+            obstacle->work += work;
+            obstacle->dissipation += work + dissipation;
           }
         else
           {
@@ -473,20 +507,21 @@ namespace scree
     if (n_obstacles == 0)
       return;
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (const CutCell<dim> *cut = open_cells.find(cell.cell); cut && cut->area > 0. && cell.water_volume > 0.)
-        {
-          const unsigned int s           = cut - open_cells.cells().data();
+      if (cell.water_volume > 0.)
+        for_segments(cell.cell, [&](const unsigned int s) {
           ObstacleBalance<dim> *obstacle = balance_of(s, balance);
           if (obstacle == nullptr)
-            continue;
-          const auto corners = pressure.pressure_of(cell.cell);
-          double mean        = 0.;
+            return;
+          const GroundSegment<dim> &segment = open_cells.segments()[s];
+          const auto corners                = pressure.pressure_of(cell.cell);
+          double mean                       = 0.;
           for (unsigned int v = 0; v < corners.size(); ++v)
-            mean += cut->ground_hats[v] * corners[v];
-          const Tensor<1, dim> impulse = -time_step * std::max(mean, 0.) * cut->area * cut->normal;
+            mean += segment.ground_hats[v] * corners[v];
+          const Tensor<1, dim> impulse = -time_step * std::max(mean, 0.) * segment.area * segment.normal;
           obstacle->pressure_impulse += impulse;
           obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
-        }
+          obstacle->work += impulse * open_cells.velocity(segment);
+        });
   }
 
 

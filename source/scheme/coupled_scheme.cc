@@ -77,6 +77,14 @@ namespace scree
 
 
   template <int dim>
+  void CoupledScheme<dim>::follow_ground()
+  {
+    pressure.follow_ground();
+    bed->follow();
+  }
+
+
+  template <int dim>
   void CoupledScheme<dim>::gather()
   {
     mixture.clear();
@@ -266,7 +274,9 @@ namespace scree
   template <int dim>
   double CoupledScheme<dim>::stable_step(const Clock &clock, const Speeds &speeds) const
   {
-    return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points);
+    const double fastest = bed ? bed->fastest(clock.time()) : 0.;
+    // Not std::max: it might lose a NaN.
+    return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points < fastest ? fastest : speeds.points);
   }
 
 

@@ -147,18 +147,20 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void MixtureDivergence<dim>::add_ground(const CutCell<dim> &cut, const Flow<n> &flow, AtCorners &integrals) const
+  void
+  MixtureDivergence<dim>::add_ground(const GroundSegment<dim> &segment, const Flow<n> &flow, AtCorners &integrals) const
   {
-    if (cut.area == 0. || form != Divergence::expanded) // integrated by parts, the flux is not there
-      return;
-    double speed = 0; // out of the open
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int i = 0; i < cut.shapes.size(); ++i)
-        speed += cut.normal[c] * cut.shapes[i] * flow[c][i / n][i % n];
-    if (speed < 0. && !surface.has_unknown(cut.cell))
-      return; // Water may leave ground that it does not press on.
+    double speed = -(segment.normal * open_cells->velocity(segment)); // out of the open, from the ground
+    if (form == Divergence::expanded)                                 // integrated by parts, the flux is not there
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int i = 0; i < segment.shapes.size(); ++i)
+            speed += segment.normal[c] * segment.shapes[i] * flow[c][i / n][i % n];
+        if (speed < 0. && !surface.has_unknown(segment.cell))
+          return; // Water may leave ground that it does not press on.
+      }
     for (unsigned int v = 0; v < n_corners; ++v)
-      integrals[v] += cut.area * speed * cut.ground_hats[v];
+      integrals[v] += segment.area * speed * segment.ground_hats[v];
   }
 
 
@@ -195,7 +197,8 @@ namespace scree
         if (const CutCell<dim> *cut = open_cells ? open_cells->find(cell.cell) : nullptr)
           {
             add_integrals<n>(cut_rule, cut->weights.data(), scale, open, flow, integrals);
-            add_ground<n>(*cut, flow, integrals);
+            for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
+              add_ground<n>(open_cells->segments()[s], flow, integrals);
           }
         else if (cell.fill < full)
           add_integrals<n>(rule_in(cell), whole.weights.data(), scale, open, flow, integrals);

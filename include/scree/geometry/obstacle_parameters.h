@@ -22,7 +22,7 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.
-    void check(const unsigned int dim, const bool has_water) const;
+    void check(const unsigned int dim) const;
 
     /// Without the prefix.
     std::string name() const;

@@ -3,14 +3,14 @@
 #define scree_grid_open_cells_h
 
 #include <scree/geometry/open_part.h>
-#include <scree/grid/sampled_surface.h>
+#include <scree/grid/rigid_ground.h>
 
 #include <algorithm>
 
 namespace scree
 {
-  /// What rigid ground leaves open of a cell, and the ground in it. The ground is plane in each simplex of the cell
-  /// (Kuhn's), between distances at the corners.
+  /// What rigid ground leaves open of a cell. The ground is plane in each simplex of the cell (Kuhn's), between
+  /// distances at the corners.
   template <int dim>
   struct CutCell
   {
@@ -26,10 +26,21 @@ namespace scree
     std::array<double, n_points> weights{};
     AtCorners open_hats{}; ///< integrals of the corners' linear functions over the open part, over the cell's volume
 
-    double area = 0.;              ///< of the ground: what its normals add up to, m^(dim-1)
-    dealii::Tensor<1, dim> normal; ///< unit, mean over the ground, out of the open
-    AtCorners ground_hats{};       ///< means of the linear functions over the ground
-    std::vector<double> shapes;    ///< the same of the velocity's functions; empty without ground
+    unsigned int first_segment = 0, n_segments = 0; ///< of the ground in it
+    bool may_change = false;                        ///< whether ground that moves is near
+  };
+
+  /// What a cell has of one part of the ground.
+  template <int dim>
+  struct GroundSegment
+  {
+    unsigned int cell = 0; ///< active cell index
+    unsigned int part = 0; ///< of RigidGround
+
+    double area = 0.;                               ///< what its normals add up to, m^(dim-1)
+    dealii::Tensor<1, dim> normal;                  ///< unit, mean over the segment, out of the open
+    typename CutCell<dim>::AtCorners ground_hats{}; ///< means of the corners' linear functions over the segment
+    std::vector<double> shapes;                     ///< the same of the velocity's functions
   };
 
   /// The cells of this rank that are not all open: cut by rigid ground, beside it, or below it.
@@ -38,10 +49,19 @@ namespace scree
   {
   public:
     /// Both are kept by reference.
-    OpenCells(const BackgroundGrid<dim> &grid, const SampledSurface<dim> &surface);
+    OpenCells(const BackgroundGrid<dim> &grid, const RigidGround<dim> &ground);
 
-    /// Looks at the cells anew, after the surface has.
+    /// Looks at the cells anew, after the ground has.
     void reinit();
+
+    /// The same on the mesh as it was, where ground moves.
+    void follow();
+
+    /// For each segment its number before follow(), `none` if it is new.
+    const std::vector<unsigned int> &numbers_before() const
+    {
+      return before;
+    }
 
     /// What the ground does to a cell; null if that is all open and has none on its faces.
     const CutCell<dim> *find(const unsigned int cell) const
@@ -62,21 +82,41 @@ namespace scree
       return cut_cells;
     }
 
+    /// The ground in all cells, cell by cell.
+    const std::vector<GroundSegment<dim>> &segments() const
+    {
+      return all_segments;
+    }
+
+    /// How fast the ground is at a segment, m/s.
+    dealii::Tensor<1, dim> velocity(const GroundSegment<dim> &segment) const
+    {
+      const dealii::Tensor<1, dim> *of_part = ground.parts()[segment.part].velocity;
+      return of_part == nullptr ? dealii::Tensor<1, dim>() : *of_part;
+    }
+
     /// The Gauss points of CutCell::weights along an axis.
     static std::array<double, CutCell<dim>::n_gauss> gauss_points();
 
-    static constexpr double smallest = 1e-9;
-
-  private:
+    static constexpr double smallest   = 1e-9;
     static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
 
+  private:
+    /// Adds a cell, if it is not all open, and its segments.
+    void look_at(const unsigned int cell);
+
     void integrate_open_part(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut) const;
-    void integrate_ground(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut) const;
+
+    /// Adds the segments of a cell.
+    void integrate_ground(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut);
 
     const BackgroundGrid<dim> &grid;
-    const SampledSurface<dim> &surface;
+    const RigidGround<dim> &ground;
+    const std::vector<Simplex<dim>> unit_cube;
     std::vector<unsigned int> entry_of_cell; // by active cell index
     std::vector<CutCell<dim>> cut_cells;
+    std::vector<GroundSegment<dim>> all_segments;
+    std::vector<unsigned int> before;
   };
 } // namespace scree
 

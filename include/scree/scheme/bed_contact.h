@@ -29,6 +29,10 @@ namespace scree
     }
   };
 
+  /// The largest speed of a surface at a time, m/s.
+  template <int dim>
+  double fastest(const std::vector<RigidSurface<dim>> &surfaces, const double time);
+
   /// Contact of points of dry soil with rigid surfaces, the bed and obstacles, by impulses on the nodes between their
   /// own step and the points'.
   ///
@@ -59,7 +63,10 @@ namespace scree
     void reinit();
 
     /// The largest speed of a surface at a time, m/s.
-    double fastest(const double time) const;
+    double fastest(const double time) const
+    {
+      return scree::fastest(surfaces, time);
+    }
 
     /// Corrects the nodes' velocities, which the step of `time_step` s has found and ranks have exchanged, and
     /// exchanges them anew. Collective.

@@ -10,30 +10,40 @@
 
 namespace scree
 {
-  /// Rigid ground, the bed and obstacles at rest, in scenes with water: takes from soil and water at the nodes what
-  /// would carry them through it.
+  /// Rigid ground, the bed and obstacles, in scenes with water: takes from soil and water at the nodes what would carry
+  /// them through it.
   ///
-  /// The ground in a cell is one segment, whose velocity is the mean of the field's over it. Impulses on soil and water
-  /// there, shared out by the means of the shape functions, stop it: N A^-1 N^T l = N v, v -= A^-1 N^T l, with masses,
-  /// drag and walls in A, by conjugate gradients. Predicted soil is stopped by itself, so that the pressure sees how it
-  /// moves, while the pressure stops the water; soil and water are stopped after the corrector. Soil that is not fixed
-  /// may lift off, and rubs by Coulomb's law; water may leave where it has no pressure.
+  /// The ground in a cell is one segment, and one of each part that moves; a field's velocity there is its mean over
+  /// the segment, beside the segment's own. Impulses on soil and water there, shared out by the means of the shape
+  /// functions, stop it: N A^-1 N^T l = N v, v -= A^-1 N^T l, with masses, drag and walls in A, by conjugate gradients.
+  /// Predicted soil is stopped by itself, so that the pressure sees how it moves, while the pressure stops the water;
+  /// soil and water are stopped after the corrector. Soil that is not fixed may lift off, and rubs by Coulomb's law;
+  /// water may leave where it has no pressure.
   template <int dim>
   class BedProjection
   {
   public:
-    /// @param ground all surfaces as one
+    /// @param ground all surfaces
     /// @param surfaces what it consists of
     /// @param open_cells of the ground
     /// @param relative_tolerance of the velocities through the ground
     BedProjection(const BackgroundGrid<dim> &grid,
-                  const SampledSurface<dim> &ground,
+                  const RigidGround<dim> &ground,
                   const std::vector<RigidSurface<dim>> &surfaces,
                   const OpenCells<dim> &open_cells,
                   const double relative_tolerance);
 
     /// Fits the nodes to the grid's current partition, after the cells have been looked at. Collective.
     void reinit();
+
+    /// Fits it to the ground, after the cells have followed that.
+    void follow();
+
+    /// The largest speed of a surface at a time, m/s.
+    double fastest(const double time) const
+    {
+      return scree::fastest(surfaces, time);
+    }
 
     /// Stops predicted soil. Ghosts of `nodes` hold values before, not after. Collective.
     void predict(const MixtureNodes<dim> &nodes,
@@ -71,7 +81,7 @@ namespace scree
     /// What happens to a phase at a segment.
     struct Contact
     {
-      unsigned int segment; // number of the cut cell
+      unsigned int segment; // its number
       Phase phase;
       bool is_unilateral;                  // the impulse presses only
       bool rubs;                           // as much as friction allows
@@ -95,13 +105,22 @@ namespace scree
       dealii::Tensor<1, dim> soil, water, force;
     };
 
+    /// Calls `act(segment)` for the segments in a cell.
+    template <typename Function>
+    void for_segments(const unsigned int cell, const Function &act) const
+    {
+      if (const CutCell<dim> *cut = open_cells.find(cell))
+        for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
+          act(s);
+    }
+
     void add_contact(const unsigned int segment,
                      const Phase phase,
                      const bool is_unilateral,
                      const MixtureNodes<dim> &nodes);
 
     /// What an impulse of 1 at a segment gives to the velocity of a phase there, 1/kg, in any direction.
-    double mobility_at(const CutCell<dim> &cut, const Phase phase, const MixtureNodes<dim> &nodes) const;
+    double mobility_at(const GroundSegment<dim> &segment, const Phase phase, const MixtureNodes<dim> &nodes) const;
 
     /// Finds the impulses of the rows, from what they hold, and gives them to the nodes. Collective.
     /// @param wanted flow through the ground that may be left, over the largest of the step
@@ -143,14 +162,20 @@ namespace scree
     /// What a segment's surface did, if it is an obstacle; else null.
     ObstacleBalance<dim> *balance_of(const unsigned int segment, StepBalance<dim> &balance) const;
 
+    /// Finds the segments' surfaces and middles.
+    void find_surfaces();
+
+    /// The surface that a segment is of.
+    unsigned int find_surface(const GroundSegment<dim> &segment, const dealii::Point<dim> &middle) const;
+
     const BackgroundGrid<dim> &grid;
-    const SampledSurface<dim> &ground;
+    const RigidGround<dim> &ground;
     const std::vector<RigidSurface<dim>> surfaces;
     const unsigned int n_obstacles; // the last of the surfaces
     const OpenCells<dim> &open_cells;
     const double relative_tolerance;
     NodeValues<dim, 2 * dim> impulses;         // on soil and water, N s; then what they do, m/s
-    std::vector<Impulses> of_segments;         // by cut cell
+    std::vector<Impulses> of_segments;         // by segment
     std::vector<unsigned int> surface_numbers; // the same
     std::vector<dealii::Point<dim>> middles;   // of the segments, m
     std::vector<Contact> contacts;

@@ -48,6 +48,7 @@ namespace scree
                   dealii::TimerOutput &timer);
 
     void reinit() override;
+    void follow_ground() override;
     void read_points() override;
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;

@@ -43,6 +43,12 @@ namespace scree
     /// Fits the surface to the grid's current corners. Collective.
     void reinit();
 
+    /// Fits it to ground that has moved, on the mesh as it was. Collective.
+    void follow_ground()
+    {
+      find_closed();
+    }
+
     /// Finds the surface, and fills `pressure` at the unknown corners from the mixture's points (0 elsewhere but at
     /// drained walls). Collective.
     void locate(const Mixture<dim> &mixture, CornerVector &pressure);

@@ -11,7 +11,7 @@ namespace scree
   /// formed at the nodes. In partly full cells they are over the part that material fills: beyond it the nodes' few
   /// points tell next to nothing of u, and a pressure that heeds it makes energy without bound. In cells that rigid
   /// ground cuts they are over the open part, and what u carries through the ground is drawn, too: the pressure has to
-  /// stop it.
+  /// stop it. Ground that moves into the open gives the volume that it takes.
   template <int dim>
   class MixtureDivergence
   {
@@ -76,9 +76,9 @@ namespace scree
     /// cell does to the nearer one along each axis: exact where it fills the cell from one side.
     Rule<2> rule_in(const MixtureCell<dim> &cell) const;
 
-    /// Adds what flows through the ground in a cell.
+    /// Adds what flows through a segment of the ground, beside its own motion.
     template <int n>
-    void add_ground(const CutCell<dim> &cut, const Flow<n> &flow, AtCorners &integrals) const;
+    void add_ground(const GroundSegment<dim> &segment, const Flow<n> &flow, AtCorners &integrals) const;
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &corners;

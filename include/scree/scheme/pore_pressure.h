@@ -34,6 +34,12 @@ namespace scree
     /// Fits the corners to the grid's current partition. Collective.
     void reinit();
 
+    /// Fits it to ground that has moved, on the mesh as it was. Collective.
+    void follow_ground()
+    {
+      surface.follow_ground();
+    }
+
     /// Finds the water's surface and the pressure at the start of a step. Collective.
     void locate(const Mixture<dim> &mixture);
 

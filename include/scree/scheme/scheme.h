@@ -22,6 +22,11 @@ namespace scree
     /// Fits all that lives on the nodes to the grid's current partition. Collective.
     virtual void reinit() = 0;
 
+    /// Fits it to ground that has moved, on the mesh as it was. Collective.
+    virtual void follow_ground()
+    {
+    }
+
     /// Empties the nodes but for what the points carry and pictures show before the first step. Collective.
     virtual void read_points() = 0;
 

@@ -22,7 +22,7 @@ namespace scree
     dealii::Tensor<1, dim> impulse;                ///< on soil and water but for the next, N s
     dealii::Tensor<1, dim> pressure_impulse;       ///< against the water's pressure, N s; StepBalance has it in its own
     dealii::Tensor<1, n_rotations> moment_impulse; ///< of both about the obstacle's pivot, N m s
-    double work        = 0;                        ///< of the impulse at the obstacle's velocity: on the soil, J
+    double work        = 0;                        ///< of both at the obstacle's velocity, on soil and water, J
     double dissipation = 0;                        ///< energy that is lost in contact, J
 
     ObstacleBalance &operator+=(const ObstacleBalance &other);

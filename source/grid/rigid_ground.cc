@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/rigid_ground.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  RigidGround<dim>::RigidGround(const std::vector<GroundPart<dim>> &parts)
+      : all_parts(parts)
+      , any_moves(std::any_of(parts.begin(), parts.end(), [](const GroundPart<dim> &part) {
+        return part.velocity != nullptr;
+      }))
+  {
+  }
+
+
+  template <int dim>
+  bool RigidGround<dim>::moves_near(const unsigned int cell) const
+  {
+    return any_moves && std::any_of(all_parts.begin(), all_parts.end(), [cell](const GroundPart<dim> &part) {
+             return part.velocity != nullptr && part.samples->is_near(cell);
+           });
+  }
+
+
+  template <int dim>
+  unsigned int RigidGround<dim>::n_near(const unsigned int cell) const
+  {
+    return std::count_if(all_parts.begin(), all_parts.end(), [cell](const GroundPart<dim> &part) {
+      return part.samples->is_near(cell);
+    });
+  }
+
+
+  template <int dim>
+  double RigidGround<dim>::least_distance(const unsigned int cell) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const GroundPart<dim> &part : all_parts)
+      least = std::min(least, part.samples->least_distance(cell));
+    return least;
+  }
+
+
+  template <int dim>
+  unsigned int RigidGround<dim>::nearest_part(const unsigned int cell, const Point<dim> &place) const
+  {
+    unsigned int nearest = 0;
+    double distance      = std::numeric_limits<double>::infinity();
+    for (unsigned int p = 0; p < all_parts.size(); ++p)
+      if (all_parts[p].samples->is_near(cell))
+        if (const double of_part = all_parts[p].samples->view(cell, place).distance; of_part < distance)
+          {
+            distance = of_part;
+            nearest  = p;
+          }
+    return nearest;
+  }
+
+
+  template <int dim>
+  SurfaceView<dim> RigidGround<dim>::view(const unsigned int cell, const Point<dim> &place) const
+  {
+    const unsigned int part = all_parts.size() == 1 ? 0 : nearest_part(cell, place);
+    return all_parts[part].samples->view(cell, place);
+  }
+
+  template class RigidGround<2>;
+  template class RigidGround<3>;
+} // namespace scree

@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""obstacle_motion_scenes.py SCREE SCENE: obstacles that move in water and in saturated soil, as scenes.py.
+
+Bounds stood before the runs, but where it says "ours": these are a frame around what was found.
+"""
+
+import math
+
+import numpy as np
+
+from bed_water_scenes import GRAVITY, WEIGHT, gain
+from obstacle_water_scenes import check_balance_of_water
+from scene_tools import at, check, main, run
+
+# scene_tools has put doc/ on the path.
+import render
+
+
+def numbers(table):
+    return {column: np.array(values) for column, values in table.items()}
+
+
+def obstacle_bore(scree):
+    """A piston at constant speed into still water: the bore has the depth and the speed of the shock relations, and the piston's force is what
+    the momentum grows by."""
+    still, depth, piston = 0.4, 0.8, math.sqrt(0.75 * GRAVITY * 0.4)
+    bore = 2 * piston  # speed, from the conservation of mass
+    for cell, most_speed in ((0.1, 1.07), (0.05, 1.03)):  # the first is ours: water four cells deep
+        name = "bore, cells of %g m" % cell
+        folder = "bore_%g" % cell
+        table = numbers(run(scree, "bed/bore", folder,
+                            {"Mesh/Cell size": str(cell), "Time step/Maximum time step": "%g" % (0.04 * cell), "Output/Graphics": "points",
+                             "Water/Volume correction rate": "%g" % (0.5 * math.sqrt(GRAVITY / cell))}))
+        time, work = table["Time (s)"], table["Obstacle Piston work (J)"]
+        check_balance_of_water(name, table)
+        check(name + ": mean force on the piston over that of the depth behind", -np.mean(table["Obstacle Piston force x (N)"][time > 2]) /
+              (WEIGHT * depth**2 / 2), 0.97, 1.03)
+        given = -table["Obstacle Piston impulse x (N s)"] - WEIGHT * still**2 / 2 * time
+        momentum = table["Momentum x (N s)"]
+        check(name + ": momentum less impulses of piston and far wall over momentum", np.max(np.abs(momentum - given)) / momentum[-1], 0, 0.01)
+        energy = table["Kinetic energy (J)"] + table["Potential energy (J)"]
+        check(name + ": energy gained over work of the piston", (energy[-1] - energy[0]) / work[-1], 0.5, 1)
+        dissipation = table["Numerical dissipation (J)"]
+        check(name + ": energy made over work of the piston", np.max(np.maximum.accumulate(dissipation) - dissipation) / work[-1], 0, 1e-3)
+        times, fronts, depths = [], [], []
+        for moment in render.read_times(folder, "water"):
+            if moment < 1.99:
+                continue
+            water = render.read_points(folder, moment, "water")
+            column, faces = np.histogram(water.positions[:, 0], 102, (0, 20.4), weights=water.arrays["volume"].ravel() / 0.2)
+            times.append(moment)
+            fronts.append(faces[np.nonzero(column > (still + depth) / 2)[0][-1] + 1])
+            behind = 0.4 + np.interp(moment, time, table["Obstacle Piston displacement x (m)"])
+            depths.append(np.mean(column[(faces[:-1] > behind + 0.2) & (faces[1:] < fronts[-1] - 0.6)]))
+        check(name + ": mean depth behind over that of the shock", np.mean(depths) / depth, 0.97, 1.03)
+        check(name + ": speed over that of the shock", np.polyfit(times, fronts, 1)[0] / bore, 0.97, most_speed)
+
+
+def obstacle_lifted_gate(scree):
+    """A gate that holds water, and lets go of it: nothing gets past it before, and the faster it is, the less it changes of the dam break."""
+    moments = (0.3, 0.5, 0.8)
+    reference = run(scree, "dam_break", "reference", {"Output/Statistics interval": "0.01"})
+    errors = []
+    for speed in (20, 40):
+        name = "gate at %d m/s" % speed
+        table = run(scree, "bed/gate", "gate", {"Obstacle Gate/Velocity": "0; if(t < 0.1, 0, %d)" % speed})
+        closed = [i for i, time in enumerate(table["Time (s)"]) if 0 < time < 0.0999]
+        check(name + ": foremost point while it is closed, m", max(table["Water tip (m)"][i] for i in closed), 0.98, 1)
+        check(name + ": force while it is closed over that of still water",
+              np.mean([table["Obstacle Gate force x (N)"][i] for i in closed]) / (WEIGHT * 2), 0.99, 1.01)
+        check(name + ": gain of energy over released", gain(table), 0, 1e-3)
+        check_balance_of_water(name, numbers(table))
+        errors.append(max(abs(at(table, column, 0.1 + moment) / at(reference, column, moment) - 1) for moment in moments
+                          for column in ("Water front 90 % (m)", "Water front 99 % (m)")))
+    check("gate at 20 m/s: largest difference of a front from the dam break", errors[0], 0, 0.05)
+    check("gate at 40 m/s: over that at 20 m/s", errors[1] / errors[0], 0, 0.7)
+    table = run(scree, "bed/gate", "slow", {})
+    check("gate of the case: gain of energy over released", gain(table), 0, 1e-3)
+
+
+def obstacle_moving_tank(scree):
+    """A tank of water with a cylinder in it, all of which move at the same speed, is a tank at rest. So is one of saturated soil."""
+    volume = math.pi * 0.25**2
+    for velocity, bound in (("0.5; 0", 0.01), ("0; 0.3", 0.01), ("0.4; 0.3", 0.015)):  # the last is ours
+        name = "tank at %s m/s" % velocity
+        table = numbers(run(scree, "hydrostatic", "tank",
+                            {"End time": "0.6", "Mesh/Upper corner": "2, 1.6", "Mesh/Cell size": "0.05", "Water/Region": "x > 0.2 && x < 1.4 && y < 1.113",
+                             "Water/Initial velocity": velocity,
+                             "Obstacle Tank/Type": "free slip", "Obstacle Tank/Velocity": velocity,
+                             "Obstacle Tank/Level set expression": "min(min(x - 0.313, 1.313 - x), y - 0.213)",
+                             "Obstacle Body/Type": "free slip", "Obstacle Body/Velocity": velocity,
+                             "Obstacle Body/Level set expression": "sqrt((x - 0.813)^2 + (y - 0.613)^2) - 0.25"}))
+        up, weight = table["Obstacle Body force y (N)"], GRAVITY * table["Water mass (kg)"][0]
+        check(name + ": mean force upwards on the cylinder over the weight of its water", np.mean(up[1:]) / (WEIGHT * volume), 1 - bound, 1 + bound)
+        check(name + ": mean force to the side over it", abs(np.mean(table["Obstacle Body force x (N)"][1:])) / (WEIGHT * volume), 0, bound)
+        check(name + ": force of cylinder and tank downwards over the weight", -np.mean((up + table["Obstacle Tank force y (N)"])[1:]) / weight,
+              0.99, 1.01)
+        check_balance_of_water(name, table)
+    table = numbers(run(scree, "saturated_rest", "wet_tank",
+                        {"End time": "0.3", "Mesh/Upper corner": "1.8, 1.2", "Mesh/Cell size": "0.05", "Soil/Region": "x > 0.213 && x < 1.213 && y < 0.83",
+                         "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.25",
+                         "Soil/Initial velocity": "0.5; 0", "Water/Initial velocity": "0.5; 0", "Boundaries/Bottom": "free slip",
+                         "Soil/Initial state/K0": "%.15g" % (1 / 3), "Obstacle Tank/Type": "free slip",
+                         "Obstacle Tank/Level set expression": "x - 0.213", "Obstacle Tank/Velocity": "0.5; 0",
+                         "Obstacle Wall/Type": "free slip", "Obstacle Wall/Level set expression": "1.213 - x", "Obstacle Wall/Velocity": "0.5; 0"}))
+    soil = table["Mass (kg)"][0] / 0.83 * GRAVITY
+    pores = table["Water mass (kg)"][0] / (1000 * 0.83)
+    exact = 0.5 * 0.83**2 * (WEIGHT + (soil - (1 - pores) * WEIGHT) / 3)
+    for wall, sign in (("Wall", 1), ("Tank", -1)):
+        check("saturated soil between walls that move, %s: force over water and earth pressure" % wall.lower(),
+              sign * np.mean(table["Obstacle %s force x (N)" % wall][2:]) / exact, 0.98, 1.02)
+
+
+if __name__ == "__main__":
+    main(globals())
