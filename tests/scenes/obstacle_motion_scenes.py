@@ -26,7 +26,7 @@ def obstacle_bore(scree):
     the momentum grows by."""
     still, depth, piston = 0.4, 0.8, math.sqrt(0.75 * GRAVITY * 0.4)
     bore = 2 * piston  # speed, from the conservation of mass
-    for cell, most_speed in ((0.1, 1.07), (0.05, 1.03)):  # the first is ours: water four cells deep
+    for cell, most_speed, most_gain in ((0.1, 1.07, 2e-3), (0.05, 1.03, 1e-3)):  # the first are ours: water four cells deep
         name = "bore, cells of %g m" % cell
         folder = "bore_%g" % cell
         table = numbers(run(scree, "bed/bore", folder,
@@ -42,7 +42,7 @@ def obstacle_bore(scree):
         energy = table["Kinetic energy (J)"] + table["Potential energy (J)"]
         check(name + ": energy gained over work of the piston", (energy[-1] - energy[0]) / work[-1], 0.5, 1)
         dissipation = table["Numerical dissipation (J)"]
-        check(name + ": energy made over work of the piston", np.max(np.maximum.accumulate(dissipation) - dissipation) / work[-1], 0, 1e-3)
+        check(name + ": energy made over work of the piston", np.max(np.maximum.accumulate(dissipation) - dissipation) / work[-1], 0, most_gain)
         times, fronts, depths = [], [], []
         for moment in render.read_times(folder, "water"):
             if moment < 1.99:
