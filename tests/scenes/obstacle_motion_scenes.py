@@ -26,7 +26,7 @@ def obstacle_bore(scree):
     the momentum grows by."""
     still, depth, piston = 0.4, 0.8, math.sqrt(0.75 * GRAVITY * 0.4)
     bore = 2 * piston  # speed, from the conservation of mass
-    for cell, most_speed, most_gain in ((0.1, 1.07, 2e-3), (0.05, 1.03, 1e-3)):  # the first are ours: water four cells deep
+    for cell, most_speed, most_gain in ((0.1, 1.07, 2e-3), (0.05, 1.03, 1e-3)):  # the first are ours: four cells deep, and it breaks
         name = "bore, cells of %g m" % cell
         folder = "bore_%g" % cell
         table = numbers(run(scree, "bed/bore", folder,
