@@ -677,6 +677,30 @@ def filter_layers(scree):
     check_rigid("filter", "filter", table)
 
 
+def net(scree):
+    """A net two cells thick, rigid soil of its own conductivity: elastic soil lies on it, and water seeps through both, as by Darcy; a saturated
+    column that collapses against it stays before it, and its water goes on."""
+    for cell, bound in ((0.05, 0.03), (0.025, 0.01)):
+        run(scree, "filter", "net", pictures({
+            "Mesh/Cell size": str(cell), "End time": "0.4", "Sand/Region": "y >= 1 && y < 1.5", "Sand/Material": "linear elastic",
+            "Sand/Grain density": "2650", "Sand/Linear elastic/Young's modulus": "1e7", "Sand/Linear elastic/Poisson's ratio": "0.3",
+            "Sand/Initial state/Type": "K0", "Sand/Initial state/K0": "0.43", "Gravel/Region": "y >= 0.9 && y < 1",
+            "Gravel/Initial porosity": "0.4", "Gravel/Hydraulic conductivity": "2e-4", "Boundaries/Water/Bottom": "drained 9810"}))
+        water, soil = render.read_points("net", None, "water"), render.read_points("net")
+        y = water.positions[:, 1]
+        discharge = -np.mean(water.arrays["velocity"][(y > 0.2) & (y < 0.6), 1])
+        check("net below soil, cells of %g m: discharge over Darcy's" % cell, discharge * (0.5 / 1e-3 + 0.1 / 2e-4), 1 - bound, 1 + bound)
+        check("net below soil, cells of %g m: lowest point of the soil that moves, m" % cell,
+              np.min(soil.positions[soil.arrays["body"].ravel() == 0, 1]), 1., 1.01)
+    table = run(scree, "net", "wall", pictures({"End time": "2", "Output/Interval": "2"}))
+    water, soil = render.read_points("wall", None, "water"), render.read_points("wall")
+    x, mass = water.positions[:, 0], water.arrays["mass"].ravel()
+    check("net before a saturated column: share of the water beyond", np.sum(mass[x > 1.6]) / np.sum(mass), 0.03, 0.1)
+    moves = soil.arrays["body"].ravel() == 0
+    check("net before a saturated column: foremost point of the soil, m", np.max(soil.positions[moves, 0]), 1.4, 1.5)
+    check_balances("net before a saturated column", table)
+
+
 def porous_block(scree):
     """Water enters and leaves a block of soil with its own speed on either side of the face: nothing crowds there.
 
