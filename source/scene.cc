@@ -157,7 +157,12 @@ namespace scree
     if (!at_rest.empty())
       parts.insert(parts.begin(), { joined_samples ? joined_samples.get() : bed.get() });
     wet_ground = std::make_unique<RigidGround<dim>>(parts);
-    open_cells = std::make_unique<OpenCells<dim>>(grid, *wet_ground);
+    // Between a half and the whole of the points' spacing; doc/verification.md has what others do.
+    constexpr double thinnest = 0.75;
+    const unsigned int points = parameters.water.point_sets_kind() == PointSets::double_point
+                                    ? parameters.water.points_per_cell
+                                    : points_per_cell().first;
+    open_cells                = std::make_unique<OpenCells<dim>>(grid, *wet_ground, thinnest / points);
   }
 
 

@@ -291,6 +291,7 @@ namespace scree
   {
     const std::unique_ptr<WaterView<dim>> water = scene.inflows.empty() ? nullptr : scheme->water_view();
     scene.end_step(time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
+    const TimedPart part(timer, StepPart::bed);
     if (scene.follow_obstacles())
       scheme->follow_ground();
   }

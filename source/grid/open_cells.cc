@@ -62,9 +62,10 @@ namespace scree
 
 
   template <int dim>
-  OpenCells<dim>::OpenCells(const BackgroundGrid<dim> &grid, const RigidGround<dim> &ground)
+  OpenCells<dim>::OpenCells(const BackgroundGrid<dim> &grid, const RigidGround<dim> &ground, const double thinnest)
       : grid(grid)
       , ground(ground)
+      , thinnest(thinnest)
       , unit_cube(simplices_of_cube(Point<dim>(), 1.))
   {
     reinit();
@@ -186,17 +187,16 @@ namespace scree
   template <int dim>
   void OpenCells<dim>::look_at(const unsigned int cell)
   {
-    constexpr double on_ground = 1e-9;     // cells: what is nearer lies on the ground
-    constexpr double sliver    = 3. / 16.; // cells: see below
+    constexpr double on_ground = 1e-9; // cells: what is nearer lies on the ground
     constexpr double nothing   = 1e-12;
     const bool may_change      = ground.moves_near(cell);
-    if (!(ground.least_distance(cell) < (may_change ? sliver : on_ground) * grid.cell_size()))
+    const double margin        = std::max(thinnest, on_ground);
+    if (!(ground.least_distance(cell) < (may_change ? margin : on_ground) * grid.cell_size()))
       return;
     // Ground that moves comes through all places. An open part that is too thin for points would hide it from the
-    // water, for no cell without points takes part: the ground is then on the face behind. Thin is between a half and
-    // the whole of a usual spacing of points; doc/verification.md has what other bounds do.
+    // water, for no cell without points takes part: the ground is then on the face behind.
     const auto margin_at = [&](const Point<dim> &place) {
-      return may_change && ground.parts()[ground.nearest_part(cell, place)].velocity ? sliver : on_ground;
+      return may_change && ground.parts()[ground.nearest_part(cell, place)].velocity ? margin : on_ground;
     };
     auto simplices = unit_cube;
     for (Simplex<dim> &simplex : simplices)

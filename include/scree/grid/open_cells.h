@@ -49,7 +49,8 @@ namespace scree
   {
   public:
     /// Both are kept by reference.
-    OpenCells(const BackgroundGrid<dim> &grid, const RigidGround<dim> &ground);
+    /// @param thinnest open part of a cell beside ground that moves, cells: what is thinner counts as closed
+    OpenCells(const BackgroundGrid<dim> &grid, const RigidGround<dim> &ground, const double thinnest = 0.);
 
     /// Looks at the cells anew, after the ground has.
     void reinit();
@@ -112,6 +113,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const RigidGround<dim> &ground;
+    const double thinnest;
     const std::vector<Simplex<dim>> unit_cube;
     std::vector<unsigned int> entry_of_cell; // by active cell index
     std::vector<CutCell<dim>> cut_cells;
