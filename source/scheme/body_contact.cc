@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/grid/cell_basis.h>
 #include <scree/scheme/body_contact.h>
 #include <scree/scheme/contact_nodes.h>
 #include <scree/scheme/node_contact.h>
+#include <scree/simd/records.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -42,6 +42,92 @@ namespace scree
   } // namespace
 
 
+  /// The shape functions of a cell's nodes, a lane each, as polynomials c_0 + c_1 s + c_2 s^2 along the axes.
+  template <int dim>
+  template <int n>
+  struct BodyContact<dim>::NodeShapes
+  {
+    static constexpr unsigned int n_nodes   = CellBasis<dim, n>::n_nodes,
+                                  n_batches = (n_nodes + batch_size - 1) / batch_size;
+
+    OpenKnots open;
+
+    explicit NodeShapes(const OpenKnots open)
+        : open(open)
+    {
+      Point<dim> end;
+      const CellBasis<dim, n> at_start(end, open);
+      for (unsigned int a = 0; a < dim; ++a)
+        end[a] = 1.;
+      const CellBasis<dim, n> at_end(end, open);
+      const auto node_places = node_positions<n>(open);
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const unsigned int b = i / batch_size, l = i % batch_size, j = along<n>(a, i);
+            const double start = at_start.value[a][j], slope = at_start.derivative[a][j];
+            position[b][a][l]        = node_places[i][a];
+            coefficients[b][a][0][l] = start;
+            coefficients[b][a][1][l] = slope;
+            coefficients[b][a][2][l] = at_end.value[a][j] - start - slope;
+          }
+    }
+
+    /// The moments of points, without friction, around the nodes of batch `b`.
+    void sum_moments(const unsigned int b, const Ball *ball, const Ball *end, Batch *result) const
+    {
+      Batch sums[friction] = {};
+      for (; ball != end; ++ball)
+        {
+          Batch value[dim], slope[dim], x[dim];
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              const Batch *c = coefficients[b][a];
+              const double s = ball->place[a];
+              x[a]           = s - position[b][a];
+              value[a]       = c[0] + s * (c[1] + s * c[2]);
+              slope[a]       = c[1] + (2. * s) * c[2];
+            }
+          Batch part = ball->volume * value[0];
+          for (unsigned int a = 1; a < dim; ++a)
+            part *= value[a];
+          sums[0] += part;
+          for (unsigned int a = 0, k = second_moments; a < dim; ++a)
+            {
+              const Batch moment = part * x[a];
+              sums[first_moments + a] += moment;
+              for (unsigned int c = 0; c <= a; ++c, ++k)
+                sums[k] += moment * x[c];
+              Batch along_axis = ball->volume * slope[a];
+              for (unsigned int c = 0; c < dim; ++c)
+                if (c != a)
+                  along_axis *= value[c];
+              sums[gradient + a] += along_axis;
+            }
+        }
+      std::copy_n(sums, friction, result);
+    }
+
+  private:
+    Batch position[n_batches][dim] = {}, coefficients[n_batches][dim][3] = {};
+  };
+
+
+  template <int dim>
+  template <int n>
+  std::array<Point<dim>, CellBasis<dim, n>::n_nodes> BodyContact<dim>::node_positions(const OpenKnots open)
+  {
+    std::array<Point<dim>, CellBasis<dim, n>::n_nodes> result;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        const auto of_axis = CellBasis<dim, n>::node_positions(open, a);
+        for (unsigned int i = 0; i < result.size(); ++i)
+          result[i][a] = of_axis[along<n>(a, i)];
+      }
+    return result;
+  }
+
+
   template <int dim>
   BodyContact<dim>::BodyContact(const BackgroundGrid<dim> &grid,
                                 const BodyGroup<dim> &first,
@@ -72,8 +158,10 @@ namespace scree
   template <int dim>
   bool BodyContact<dim>::acts_on(const unsigned int side, const unsigned int node) const
   {
+    if ((*groups[side].field)[node][NodalField<dim>::mass] > 0.)
+      return true;
     const NodeConstraints<dim> *walls = groups[side].constraints->at(node);
-    return (*groups[side].field)[node][NodalField<dim>::mass] > 0. || (walls != nullptr && walls->is_rigid);
+    return walls != nullptr && walls->is_rigid;
   }
 
 
@@ -148,49 +236,42 @@ namespace scree
   template <int n>
   void BodyContact<dim>::find_normals()
   {
-    using Basis                    = CellBasis<dim, n>;
-    constexpr unsigned int n_nodes = Basis::n_nodes;
+    using Shapes = NodeShapes<n>;
     sums.clear();
     normals.clear();
+    balls.clear();
+    Shapes shapes(0);
     for (const Cell &cell : cells)
       {
         const unsigned int number = cell.points->cell;
         sums.activate_cell(number);
         normals.activate_cell(number);
-        const OpenKnots open = grid.open_knots(number);
-        std::array<std::array<double, n>, dim> positions;
-        for (unsigned int a = 0; a < dim; ++a)
-          positions[a] = Basis::node_positions(open, a);
-        double moments[n_nodes][n_moments] = {};
+        const std::size_t first = balls.size();
         for_each_point(*cell.points, [&](const auto &point) {
-          const Basis basis(point.reference_location, open);
           const double volume = point.properties[PropertyLayout<dim>::volume];
-          for (unsigned int i = 0; i < n_nodes; ++i)
-            {
-              double part = volume, x[dim], slope[dim];
-              for (unsigned int a = 0; a < dim; ++a)
-                {
-                  part *= basis.value[a][along<n>(a, i)];
-                  x[a]     = point.reference_location[a] - positions[a][along<n>(a, i)];
-                  slope[a] = volume;
-                  for (unsigned int b = 0; b < dim; ++b)
-                    slope[a] *= (a == b ? basis.derivative : basis.value)[b][along<n>(b, i)];
-                }
-              double *of_node = moments[i];
-              of_node[0] += part;
-              of_node[friction] += part * cell.friction;
-              for (unsigned int a = 0, k = second_moments; a < dim; ++a)
-                {
-                  of_node[first_moments + a] += part * x[a];
-                  of_node[gradient + a] += slope[a];
-                  for (unsigned int b = 0; b <= a; ++b, ++k)
-                    of_node[k] += part * x[a] * x[b];
-                }
-            }
+          balls.push_back({ point.reference_location,
+                            volume,
+                            0.5 * (dim == 2 ? std::sqrt(volume) : std::cbrt(volume)) / grid.cell_size() });
         });
-        for (unsigned int i = 0; i < n_nodes; ++i)
-          for (unsigned int k = 0; k < n_moments; ++k)
-            sums[grid.nodes(number)[i]][cell.side * n_moments + k] += moments[i][k];
+        if (shapes.open != grid.open_knots(number))
+          shapes = Shapes(grid.open_knots(number));
+        for (unsigned int b = 0; b < Shapes::n_batches; ++b)
+          {
+            const unsigned int *nodes = grid.nodes(number) + b * batch_size;
+            const unsigned int n_here = std::min(Shapes::n_nodes - b * batch_size, batch_size);
+            if (std::none_of(nodes, nodes + n_here, [this](const unsigned int node) { return is_shared[node]; }))
+              continue;
+            Batch moments[friction];
+            shapes.sum_moments(b, balls.data() + first, balls.data() + balls.size(), moments);
+            for (unsigned int l = 0; l < n_here; ++l)
+              if (is_shared[nodes[l]])
+                {
+                  double *of_node = &sums[nodes[l]][cell.side * n_moments];
+                  for (unsigned int k = 0; k < friction; ++k)
+                    of_node[k] += moments[k][l];
+                  of_node[friction] += moments[0][l] * cell.friction;
+                }
+          }
       }
     sums.add_contributions();
     for (const unsigned int node : normals.active_nodes())
@@ -203,34 +284,55 @@ namespace scree
   template <int n>
   void BodyContact<dim>::find_reach(const unsigned int n_of)
   {
-    using Basis = CellBasis<dim, n>;
+    constexpr unsigned int most_batches = (CellBasis<dim, n>::n_nodes + batch_size - 1) / batch_size;
     sums.clear();
+    const Ball *ball = balls.data();
     for (const Cell &cell : cells)
       {
         const unsigned int number = cell.points->cell;
         sums.activate_cell(number);
-        const double sign = cell.side == 0 ? 1. : -1.;
-        std::array<std::array<double, n>, dim> positions;
-        for (unsigned int a = 0; a < dim; ++a)
-          positions[a] = Basis::node_positions(grid.open_knots(number), a);
-        for_each_point(*cell.points, [&](const auto &point) {
-          const double volume = point.properties[PropertyLayout<dim>::volume];
-          const double radius = 0.5 * (dim == 2 ? std::sqrt(volume) : std::cbrt(volume)) / grid.cell_size();
-          for (unsigned int i = 0; i < Basis::n_nodes; ++i)
+        const double sign    = cell.side == 0 ? 1. : -1.;
+        const auto positions = node_positions<n>(grid.open_knots(number));
+        // The reach of a place from the shared nodes, a lane each, is offset + slope . place + radius.
+        Batch slope[most_batches][n_normals][dim], offset[most_batches][n_normals], largest[most_batches][n_normals];
+        std::array<unsigned int, CellBasis<dim, n>::n_nodes> nodes;
+        unsigned int n_nodes = 0;
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          if (const unsigned int node = grid.nodes(number)[i]; is_shared[node])
             {
-              const unsigned int node = grid.nodes(number)[i];
-              if (!is_shared[node])
-                continue;
+              const unsigned int b = n_nodes / batch_size, l = n_nodes % batch_size;
               for (unsigned int k = 0; k < n_of; ++k)
                 {
-                  double height = 0.;
+                  if (l == 0)
+                    {
+                      offset[b][k] = largest[b][k] = Batch{};
+                      std::fill_n(slope[b][k], dim, Batch{});
+                    }
+                  offset[b][k][l] = reach_of_none;
                   for (unsigned int a = 0; a < dim; ++a)
-                    height += normals[node][k * dim + a] * (point.reference_location[a] - positions[a][along<n>(a, i)]);
-                  double &reach = sums[node][cell.side * n_normals + k];
-                  reach         = std::max(reach, reach_of_none + sign * height + radius);
+                    {
+                      slope[b][k][a][l] = sign * normals[node][k * dim + a];
+                      offset[b][k][l] -= slope[b][k][a][l] * positions[i][a];
+                    }
                 }
+              nodes[n_nodes++] = node;
             }
-        });
+        const unsigned int n_batches = (n_nodes + batch_size - 1) / batch_size;
+        for (unsigned int p = 0; p < cell.points->n_points; ++p, ++ball)
+          for (unsigned int b = 0; b < n_batches; ++b)
+            for (unsigned int k = 0; k < n_of; ++k)
+              {
+                Batch reach = offset[b][k] + ball->radius;
+                for (unsigned int a = 0; a < dim; ++a)
+                  reach += slope[b][k][a] * ball->place[a];
+                largest[b][k] = simd::max<Batch>(reach, largest[b][k]);
+              }
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          for (unsigned int k = 0; k < n_of; ++k)
+            {
+              double &reach = sums[nodes[i]][cell.side * n_normals + k];
+              reach         = std::max(reach, largest[i / batch_size][k][i % batch_size]);
+            }
       }
     sums.take_largest();
   }
@@ -271,20 +373,47 @@ namespace scree
   void BodyContact<dim>::smooth_normals()
   {
     averages.clear();
+    constexpr unsigned int most_nodes = (Utilities::pow(3, dim) + batch_size - 1) / batch_size * batch_size;
     for (const Cell &cell : cells)
       {
         averages.activate_cell(cell.points->cell);
-        const unsigned int *nodes = grid.nodes(cell.points->cell);
+        // The nodes with a normal, a lane each; whole batches of them.
+        alignas(Batch) double of_nodes[1 + dim][most_nodes];
+        std::array<unsigned int, most_nodes> nodes;
+        unsigned int n_nodes = 0;
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          for (unsigned int j = 0; j < grid.n_nodes_per_cell(); ++j)
-            {
-              const double *own = normals[nodes[i]], *other = normals[nodes[j]];
-              double cosine = 0.;
-              for (unsigned int a = 0; a < dim; ++a)
-                cosine += own[a] * other[a];
-              for (unsigned int a = 0; a < dim && cosine > same_face; ++a)
-                averages[nodes[i]][a] += other[weight] * other[a];
-            }
+          {
+            const unsigned int node = grid.nodes(cell.points->cell)[i];
+            const double *of_node   = normals[node];
+            if (of_node[weight] == 0.)
+              continue;
+            for (unsigned int a = 0; a < dim; ++a)
+              of_nodes[a][n_nodes] = of_node[a];
+            of_nodes[dim][n_nodes] = of_node[weight];
+            nodes[n_nodes++]       = node;
+          }
+        unsigned int n_lanes = n_nodes;
+        for (; n_lanes % batch_size > 0; ++n_lanes)
+          for (auto &row : of_nodes)
+            row[n_lanes] = 0.;
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          {
+            Batch sum[dim] = {};
+            for (unsigned int first = 0; first < n_lanes; first += batch_size)
+              {
+                Batch other[dim], cosine{};
+                for (unsigned int a = 0; a < dim; ++a)
+                  {
+                    other[a] = simd::load(&of_nodes[a][first]);
+                    cosine += of_nodes[a][i] * other[a];
+                  }
+                const Batch part = simd::select<Batch>(cosine > same_face, simd::load(&of_nodes[dim][first]), Batch{});
+                for (unsigned int a = 0; a < dim; ++a)
+                  sum[a] += part * other[a];
+              }
+            for (unsigned int a = 0; a < dim; ++a)
+              averages[nodes[i]][a] += simd::sum_of_lanes(sum[a]);
+          }
       }
     averages.add_contributions();
     for (const unsigned int node : averages.active_nodes())

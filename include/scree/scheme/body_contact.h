@@ -2,6 +2,7 @@
 #ifndef scree_scheme_body_contact_h
 #define scree_scheme_body_contact_h
 
+#include <scree/grid/cell_basis.h>
 #include <scree/grid/constraints.h>
 #include <scree/grid/nodal_field.h>
 #include <scree/points/soil_body.h>
@@ -87,6 +88,21 @@ namespace scree
       std::array<double, 2> inverse_mass; ///< 1/kg
     };
 
+    /// A point, as a ball of its size.
+    struct Ball
+    {
+      dealii::Point<dim> place; ///< in its cell
+      double volume;            ///< m^3
+      double radius;            ///< cell widths
+    };
+
+    template <int n>
+    struct NodeShapes;
+
+    /// Of a cell's nodes, cell widths from its lower corner.
+    template <int n>
+    static std::array<dealii::Point<dim>, CellBasis<dim, n>::n_nodes> node_positions(const OpenKnots open);
+
     bool acts_on(const unsigned int side, const unsigned int node) const;
     double inverse_mass(const unsigned int side, const unsigned int node) const;
 
@@ -129,6 +145,7 @@ namespace scree
     NodeValues<dim, dim> averages;                // times weights
     std::vector<char> is_shared;                  // by node
     std::vector<Cell> cells;
+    std::vector<Ball> balls; // of the points of these cells
     std::vector<Meeting> meetings;
   };
 } // namespace scree
