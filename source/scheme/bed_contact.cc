@@ -137,6 +137,29 @@ namespace scree
 
 
   template <int dim>
+  double BedContact<dim>::margin(const double speed, const RigidSurface<dim> &surface, const double dt) const
+  {
+    return slack + 1.5 * (speed + surface.velocity.norm()) * dt;
+  }
+
+
+  template <int dim>
+  double BedContact<dim>::fastest_node(const NodalField<dim> &field) const
+  {
+    double square      = 0.;
+    const auto include = [&](const unsigned int node) {
+      if (const double *values = field[node]; values[NodalField<dim>::mass] > 0.)
+        square = std::max(square, vector_of<dim>(values + NodalField<dim>::velocity).norm_square());
+    };
+    for (const unsigned int node : field.active_nodes())
+      include(node);
+    for (unsigned int ghost = grid.n_owned_nodes(); ghost < grid.numbering().n_local(); ++ghost)
+      include(ghost);
+    return std::sqrt(square);
+  }
+
+
+  template <int dim>
   void BedContact<dim>::find_near_surfaces(const SoilBody<dim> &body,
                                            const CellPoints<dim> &points,
                                            const double fastest,
@@ -148,9 +171,9 @@ namespace scree
         const RigidSurface<dim> &surface = surfaces[s];
         if (!surface.samples->is_near(points.cell))
           continue;
-        const double margin = slack + 1.5 * (fastest + surface.velocity.norm()) * dt;
-        if (surface.samples->least_distance(points.cell) <= body.spacing + margin)
-          near.push_back({ s, margin });
+        const double of_surface = margin(fastest, surface, dt);
+        if (surface.samples->least_distance(points.cell) <= body.spacing + of_surface)
+          near.push_back({ s, of_surface });
         else if (surface.obstacle && surface.obstacle->is_moving)
           for_each_point(points, [&](const auto &point) { // It may have gone away from points that touched it.
             std::fill_n(point.properties + body.layout.contact_force(s), dim, 0.);
@@ -183,11 +206,11 @@ namespace scree
         {
           const SampledSurface<dim> &samples = *surfaces[one.surface].samples;
           const unsigned int touching        = body.layout.touching_distance(one.surface);
-          Batch touching_distances;
+          double touching_distances[batch_size];
           for (unsigned int l = 0; l < batch_size; ++l)
             touching_distances[l] = pointers.properties[l][touching];
           const unsigned int far =
-              simd::bits_of(samples.distances(points.cell, places) - touching_distances > one.margin);
+              simd::bits_of(samples.distances(points.cell, places) - simd::load(touching_distances) > one.margin);
           for (unsigned int l = 0; l < n; ++l)
             {
               if (far >> l & 1)
@@ -219,9 +242,13 @@ namespace scree
     for (RigidSurface<dim> &surface : surfaces)
       if (surface.obstacle)
         surface.velocity = surface.obstacle->velocity();
-    const auto is_near = [this](const unsigned int cell) {
+    // Most cells near a surface are farther away than any node moves in the step.
+    const double all_fastest = fastest_node(field);
+    const auto may_touch     = [&](const SoilBody<dim> &body, const unsigned int cell) {
       for (const RigidSurface<dim> &surface : surfaces)
-        if (surface.samples->is_near(cell))
+        if (surface.obstacle && surface.obstacle->is_moving
+                    ? surface.samples->is_near(cell)
+                    : surface.samples->least_distance(cell) <= body.spacing + margin(all_fastest, surface, time_step))
           return true;
       return false;
     };
@@ -231,7 +258,7 @@ namespace scree
         const unsigned int first = cells.size();
         if (body.group == group && !body.is_rigid)
           for (const auto &cell : body.points.cells())
-            if (is_near(cell.cell))
+            if (may_touch(body, cell.cell))
               add_cell(body, cell, field, time_step);
         for (unsigned int c = first; c < cells.size(); ++c)
           cells[c].body = number;

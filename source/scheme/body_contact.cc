@@ -176,9 +176,8 @@ namespace scree
   template <int dim>
   void BodyContact<dim>::find_cells()
   {
-    is_shared.resize(grid.numbering().n_local());
-    for (unsigned int node = 0; node < is_shared.size(); ++node)
-      is_shared[node] = acts_on(0, node) && acts_on(1, node);
+    constexpr char unknown = 2;
+    is_shared.assign(grid.numbering().n_local(), unknown);
     cells.clear();
     auto friction = friction_coefficients.begin();
     for (const auto &body : bodies)
@@ -187,10 +186,15 @@ namespace scree
           if (body.group == groups[side].number)
             for (const auto &cell : body.points.cells())
               {
-                const unsigned int *nodes = grid.nodes(cell.cell);
-                if (std::any_of(nodes, nodes + grid.n_nodes_per_cell(), [this](const unsigned int node) {
-                      return is_shared[node];
-                    }))
+                bool any = false;
+                for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+                  {
+                    const unsigned int node = grid.nodes(cell.cell)[i];
+                    if (is_shared[node] == unknown)
+                      is_shared[node] = acts_on(0, node) && acts_on(1, node);
+                    any = any || is_shared[node];
+                  }
+                if (any)
                   cells.push_back({ side, &cell, *friction });
               }
         ++friction;

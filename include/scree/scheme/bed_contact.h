@@ -111,6 +111,12 @@ namespace scree
       bool is_held;                               ///< whether walls hold nodes of any
     };
 
+    /// The gap, m, up to which points beside nodes as fast, m/s, may touch a surface in the step.
+    double margin(const double speed, const RigidSurface<dim> &surface, const double dt) const;
+
+    /// The speed of the fastest node that this rank knows, m/s.
+    double fastest_node(const NodalField<dim> &field) const;
+
     /// Finds the surfaces that points of the cell may touch, with their margins.
     void
     find_near_surfaces(const SoilBody<dim> &body, const CellPoints<dim> &points, const double fastest, const double dt);

@@ -143,7 +143,7 @@ namespace scree
     NodeValues<dim, 2 * n_moments> sums;          // moments; then how far points reach along the normals
     NodeValues<dim, n_normals * dim + 2> normals; // behind them the weight in averages and the friction coefficient
     NodeValues<dim, dim> averages;                // times weights
-    std::vector<char> is_shared;                  // by node
+    std::vector<char> is_shared;                  // by node of cells with points
     std::vector<Cell> cells;
     std::vector<Ball> balls; // of the points of these cells
     std::vector<Meeting> meetings;
