@@ -3,6 +3,7 @@
 #define scree_input_input_error_h
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/point.h>
 
 #include <mpi.h>
 
