@@ -433,7 +433,7 @@ namespace scree
   void Parameters::check_water() const
   {
     water.check(gravity, bodies.size());
-    pressure.check(bodies.size());
+    pressure.check(bodies.size(), water.bulk_modulus);
     water_boundaries.check(dimension);
     require_entry(bed.friction_angles.empty(),
                   "Bed",

@@ -76,8 +76,7 @@ namespace scree
   PorePressure<dim>::PorePressure(const BackgroundGrid<dim> &grid,
                                   const WaterBoundaryConditions<dim> &walls,
                                   const PressureParameters &parameters,
-                                  const double water_density,
-                                  const double bulk_modulus,
+                                  const WaterParameters &water,
                                   const OpenCells<dim> *open_cells,
                                   TimerOutput &timer)
       : grid(grid)
@@ -85,14 +84,17 @@ namespace scree
       , previous_pressure(parameters.previous_pressure_kind())
       , relative_tolerance(parameters.relative_tolerance)
       , projection(parameters.projection)
-      , bulk_modulus(bulk_modulus)
+      , bulk_modulus(water.bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
       , corners(numbered(grid))
       , surface(grid, corners, walls, parameters.free_surface_kind(), open_cells)
       , divergence(grid, corners, surface, parameters.divergence_kind(), open_cells)
       , solver(grid, corners, parameters)
-      , memory(corners, previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading, water_density)
+      , memory(corners,
+               previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading,
+               water,
+               grid.cell_size())
   {
     reinit_vectors();
   }

@@ -11,9 +11,12 @@ namespace scree
   template <int dim>
   PressureMemory<dim>::PressureMemory(const NodeNumbering<dim> &corners,
                                       const double steepness,
-                                      const double water_density)
+                                      const WaterParameters &water,
+                                      const double cell_size)
       : steepness(steepness)
-      , water_density(water_density)
+      , water_density(water.density)
+      , viscosity(water.viscosity)
+      , cell_size(cell_size)
       , changed(corners)
       , corners(corners)
   {
@@ -46,12 +49,22 @@ namespace scree
 
 
   template <int dim>
+  double PressureMemory<dim>::made_by_motion(const double difference, const double largest) const
+  {
+    constexpr double enough = 100.; // times rho v^2: p may be made by what moves
+    double square           = std::min(1., enough * water_density * difference / largest);
+    if (viscosity > 0.)
+      square *= std::min(1., water_density * std::sqrt(difference) * cell_size / viscosity);
+    return std::sqrt(square);
+  }
+
+
+  template <int dim>
   void PressureMemory<dim>::find_forgotten(const Mixture<dim> &mixture,
                                            const FreeSurfaceLocator<dim> &surface,
                                            const CornerVector &pressure,
                                            const SpeedOfCell &difference)
   {
-    constexpr double enough = 100.; // times rho v^2: p may be made by what moves
     if (!is_on())
       return;
     changed.clear();
@@ -71,7 +84,7 @@ namespace scree
                 largest = std::max(largest, larger);
               }
           if (change > 0.)
-            change *= std::sqrt(std::min(1., enough * water_density * difference(cell.cell) / largest));
+            change *= made_by_motion(difference(cell.cell), largest);
           for (unsigned int v = 0; v < cell.n_corners; ++v)
             {
               changed[nodes[v]][changes] += change;

@@ -45,7 +45,8 @@ namespace scree
         "Fading",
         fading,
         "Where the pressure changes by a part r of itself in a step as matter comes together, as where a gap "
-        "closes, the next step starts from 1 - (Fading r)^2 of it, at least from .2; 0: from all of it.",
+        "closes, the next step starts from 1 - (Fading r)^2 of it, at least from .2; 0: from all of it. Incompressible "
+        "water only.",
         Patterns::Double(0, 1000));
     prm.add_parameter("Projection",
                       projection,
@@ -59,7 +60,7 @@ namespace scree
   }
 
 
-  void PressureParameters::check(const unsigned int n_bodies) const
+  void PressureParameters::check(const unsigned int n_bodies, const double bulk_modulus) const
   {
     const PressureParameters defaults;
     const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
@@ -68,6 +69,12 @@ namespace scree
                   "Fading",
                   fading,
                   "nothing reads it, as entry \"Previous pressure\" is dropped. Remove it.");
+    require_entry(bulk_modulus == 0. || fading == defaults.fading,
+                  "Water/Pressure",
+                  "Fading",
+                  fading,
+                  "the water is compressible (entry \"Bulk modulus\" of subsection Water), and its pressure a spring "
+                  "indeed. Remove one of them.");
     require_entry(n_bodies > 0 || splitting == defaults.splitting, "Water/Pressure", "Splitting", splitting, remedy);
     require_entry(
         n_bodies > 0 || projection == defaults.projection, "Water/Pressure", "Projection", projection, remedy);

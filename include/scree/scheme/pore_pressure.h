@@ -20,14 +20,11 @@ namespace scree
   public:
     using AtCorners = std::array<double, (1 << dim)>;
 
-    /// @param water_density kg/m^3
-    /// @param bulk_modulus of the water, Pa; 0: incompressible
     /// @param open_cells what rigid ground leaves of the cells; null: all
     PorePressure(const BackgroundGrid<dim> &grid,
                  const WaterBoundaryConditions<dim> &walls,
                  const PressureParameters &parameters,
-                 const double water_density,
-                 const double bulk_modulus,
+                 const WaterParameters &water,
                  const OpenCells<dim> *open_cells,
                  dealii::TimerOutput &timer);
 

@@ -2,6 +2,7 @@
 #ifndef scree_scheme_pressure_memory_h
 #define scree_scheme_pressure_memory_h
 
+#include <scree/points/water_parameters.h>
 #include <scree/scheme/free_surface.h>
 
 #include <functional>
@@ -13,10 +14,10 @@ namespace scree
   /// p^n is a spring: a solve leaves a part of the divergence in partly full cells, p builds up over several steps, and
   /// gives back what an impact has lost. Then p changes by a good part of itself in each step. So the next step
   /// starts from (1 - f) p, f = min(.8, (s r)^2), with r = sum m |p - p^n| / sum max(|p|, |p^n|) over the unknown
-  /// corners of the cells around a corner. m^2 = min(1, 100 rho_w v^2/p) of a cell, with the largest p of its corners
-  /// and v the differences of the mixture's velocity between its nodes, says whether what moves could have made p:
-  /// where soil bears a load or water seeps, p is kept however it changes. f varies smoothly, as a step of it between
-  /// corners is a force of its own.
+  /// corners of the cells around a corner. m^2 = min(1, 100 rho_w v^2/p) min(1, rho_w v h/mu) of a cell, with the
+  /// largest p of its corners and v the differences of the mixture's velocity between its nodes, says whether what
+  /// moves could have made p: where soil bears a load or water seeps, and where viscosity makes the differences, p is
+  /// kept however it changes. f varies smoothly, as a step of it between corners is a force of its own.
   template <int dim>
   class PressureMemory
   {
@@ -25,8 +26,11 @@ namespace scree
     using SpeedOfCell = std::function<double(const unsigned int cell)>;
 
     /// @param steepness s; 0: nothing is forgotten
-    /// @param water_density kg/m^3
-    PressureMemory(const NodeNumbering<dim> &corners, const double steepness, const double water_density);
+    /// @param cell_size h, m
+    PressureMemory(const NodeNumbering<dim> &corners,
+                   const double steepness,
+                   const WaterParameters &water,
+                   const double cell_size);
 
     bool is_on() const
     {
@@ -58,7 +62,12 @@ namespace scree
       sizes
     };
 
-    const double steepness, water_density;
+    /// m of a cell, 0 to 1.
+    /// @param difference v^2, m^2/s^2
+    /// @param largest p, Pa
+    double made_by_motion(const double difference, const double largest) const;
+
+    const double steepness, water_density, viscosity, cell_size;
     CornerVector start;         // p^n before anything is forgotten
     NodeValues<dim, 2> changed; // Sums
     const NodeNumbering<dim> &corners;

@@ -55,8 +55,9 @@ namespace scree
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError at what nothing reads.
-    void check(const unsigned int n_bodies) const;
+    /// Throws EntryError at impossible combinations.
+    /// @param bulk_modulus of the water, Pa; 0: incompressible
+    void check(const unsigned int n_bodies, const double bulk_modulus) const;
 
     Splitting splitting_kind() const;
     FreeSurface free_surface_kind() const;
