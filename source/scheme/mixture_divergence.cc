@@ -200,7 +200,7 @@ namespace scree
             for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
               add_ground<n>(open_cells->segments()[s], flow, integrals);
           }
-        else if (cell.fill < full)
+        else if (cell.fill < full && cell.soil_mass > 0.)
           add_integrals<n>(rule_in(cell), whole.weights.data(), scale, open, flow, integrals);
         else
           add_integrals<n>(whole, whole.weights.data(), scale, open, flow, integrals);
