@@ -335,13 +335,6 @@ namespace scree
 
 
   template <int dim>
-  void Scene<dim>::end_step(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals)
-  {
-    let_in(time_step, pressure, totals);
-  }
-
-
-  template <int dim>
   void Scene<dim>::move_obstacles(const double time_step)
   {
     for (Obstacle<dim> &obstacle : obstacles)
@@ -350,12 +343,10 @@ namespace scree
 
 
   template <int dim>
-  bool Scene<dim>::follow_obstacles()
+  void Scene<dim>::include_obstacles(Speeds &speeds, const double time) const
   {
-    if (!wet_ground || !wet_ground->moves())
-      return false;
-    open_cells->follow();
-    return true;
+    for (const Obstacle<dim> &obstacle : obstacles)
+      speeds.include_point(obstacle.velocity_at(time).norm());
   }
 
 

@@ -290,10 +290,13 @@ namespace scree
   void Simulation<dim>::end_step(const double time_step)
   {
     const std::unique_ptr<WaterView<dim>> water = scene.inflows.empty() ? nullptr : scheme->water_view();
-    scene.end_step(time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
-    const TimedPart part(timer, StepPart::bed);
-    if (scene.follow_obstacles())
-      scheme->follow_ground();
+    scene.let_in(time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
+    if (scene.wet_ground_moves())
+      {
+        const TimedPart part(timer, StepPart::bed);
+        scene.open_cells->follow();
+        scheme->follow_ground();
+      }
   }
 
 
@@ -365,7 +368,9 @@ namespace scree
   template <int dim>
   double Simulation<dim>::stable_step() const
   {
-    return scheme->stable_step(clock, speeds);
+    Speeds all = speeds;
+    scene.include_obstacles(all, clock.time());
+    return clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
   }
 
 

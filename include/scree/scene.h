@@ -35,15 +35,21 @@ namespace scree
     /// What acts on the soil in the step, s, that comes.
     void begin_step(const double time, const double time_step);
 
-    /// Puts in what enters with the step, which it books. Collective.
+    /// Puts in the layers that enter with a step, s, and books them. Collective.
     /// @param pressure of the water, for its points that enter; read in scenes with water
-    void end_step(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
+    void let_in(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
 
     /// Moves the obstacles to where they are after the step. Collective.
     void move_obstacles(const double time_step);
 
-    /// Lets what the ground leaves open follow the obstacles; returns whether any may have moved in water.
-    bool follow_obstacles();
+    /// Whether obstacles may move in water, so that open_cells have to follow them.
+    bool wet_ground_moves() const
+    {
+      return wet_ground && wet_ground->moves();
+    }
+
+    /// Adds the speeds of the obstacles at a time, s.
+    void include_obstacles(Speeds &speeds, const double time) const;
 
     /// Adds the speeds of what enters.
     void include_inflows(Speeds &speeds) const;
@@ -139,9 +145,6 @@ namespace scree
 
     /// Tells the nodes which inflow moves them. Until the next step begins they are at rest.
     void hold_at_inflows();
-
-    /// Puts in the layers that enter with a step, s, and books them. Collective.
-    void let_in(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
 
     /// A point that enters.
     struct Entrant

@@ -51,17 +51,6 @@ namespace scree
 
 
   template <int dim>
-  double fastest(const std::vector<RigidSurface<dim>> &surfaces, const double time)
-  {
-    double speed = 0.;
-    for (const RigidSurface<dim> &surface : surfaces)
-      if (surface.obstacle)
-        speed = std::max(speed, surface.obstacle->velocity_at(time).norm());
-    return speed;
-  }
-
-
-  template <int dim>
   double BedContact<dim>::least_approach(const double gap, const double dt) const
   {
     if (gap > slack)
@@ -343,8 +332,6 @@ namespace scree
       solve<3>(field, time_step, balance);
   }
 
-  template double fastest(const std::vector<RigidSurface<2>> &, const double);
-  template double fastest(const std::vector<RigidSurface<3>> &, const double);
   template class BedContact<2>;
   template class BedContact<3>;
 } // namespace scree

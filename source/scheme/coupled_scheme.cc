@@ -266,15 +266,6 @@ namespace scree
 
 
   template <int dim>
-  double CoupledScheme<dim>::stable_step(const Clock &clock, const Speeds &speeds) const
-  {
-    const double fastest = bed ? bed->fastest(clock.time()) : 0.;
-    // Not std::max: it might lose a NaN.
-    return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points < fastest ? fastest : speeds.points);
-  }
-
-
-  template <int dim>
   std::vector<PointSet<dim> *> CoupledScheme<dim>::point_sets()
   {
     std::vector<PointSet<dim> *> sets;

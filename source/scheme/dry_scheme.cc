@@ -18,8 +18,7 @@ namespace scree
                             std::vector<GroupSurroundings<dim>> surroundings,
                             const std::vector<ContactPair> &pairs,
                             TimerOutput &timer)
-      : grid(grid)
-      , bodies(bodies)
+      : bodies(bodies)
       , timer(timer)
   {
     std::vector<BodyGroup<dim>> at_nodes;
@@ -130,16 +129,6 @@ namespace scree
     const TimedPart part(timer, StepPart::stress);
     for (Group &group : groups)
       group.soil.to_points(time_step, report);
-  }
-
-
-  template <int dim>
-  double DryScheme<dim>::stable_step(const Clock &clock, const Speeds &speeds) const
-  {
-    const auto &bed      = groups.front().bed; // the surfaces are the same for all
-    const double fastest = bed ? bed->fastest(clock.time()) : 0.;
-    // Not std::max: it might lose a NaN.
-    return clock.stable_step(grid.cell_size(), speeds.wave, speeds.points < fastest ? fastest : speeds.points);
   }
 
 

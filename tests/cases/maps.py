@@ -26,6 +26,7 @@ subsection Output
   end
 end
 """
+SCOUR = "subsection Probes\n  set Displacement = true\nend\n"
 BLOCK = """
 set Dimension = 3
 set Gravity   = 0, 0, 0
@@ -111,9 +112,6 @@ def slide():
     for folder, ranks in (("one", 1), ("two", 1), ("two", 2)):
         shutil.rmtree(pathlib.Path(folder, "results", "maps"))
         compare(run(folder, text, "--resume", ranks=ranks), f"resumed from {folder} on {ranks}")
-
-
-SCOUR = "subsection Probes\n  set Displacement = true\nend\n"
 
 
 def scour():

@@ -17,6 +17,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <numeric>
 
 using namespace dealii;
 using namespace scree;
@@ -100,6 +101,13 @@ moment(const BackgroundGrid<dim> &grid, const OpenCells<dim> &cells, const Level
 }
 
 
+template <typename Numbers>
+double sum(const Numbers &numbers)
+{
+  return std::accumulate(numbers.begin(), numbers.end(), 0.);
+}
+
+
 /// Volume and centroid of the part of the box beyond a plane, without cells.
 template <int dim>
 std::pair<double, Point<dim>> exact(const Plane<dim> &plane)
@@ -140,24 +148,14 @@ void test_planes()
       double area = 0;
       for (const CutCell<dim> &cut : cells.cells())
         {
-          double hats = 0, weights = 0;
-          for (const double hat : cut.open_hats)
-            hats += hat;
-          for (const double weight : cut.weights)
-            weights += weight;
-          expect(hats, cut.open_fraction, 1e-12, "sum of the hat functions in the open");
-          expect(weights, cut.open_fraction, 1e-12, "sum of the weights");
+          expect(sum(cut.open_hats), cut.open_fraction, 1e-12, "sum of the hat functions in the open");
+          expect(sum(cut.weights), cut.open_fraction, 1e-12, "sum of the weights");
         }
       for (const GroundSegment<dim> &segment : cells.segments())
         {
-          double hats = 0, shapes = 0;
-          for (const double hat : segment.ground_hats)
-            hats += hat;
-          for (const double shape : segment.shapes)
-            shapes += shape;
           area += segment.area;
-          expect(hats, 1., 1e-12, "sum of the hat functions on the ground");
-          expect(shapes, 1., 1e-12, "sum of the shape functions on the ground");
+          expect(sum(segment.ground_hats), 1., 1e-12, "sum of the hat functions on the ground");
+          expect(sum(segment.shapes), 1., 1e-12, "sum of the shape functions on the ground");
           expect((segment.normal + plane.normal).norm(), 0., 1e-10, "normal");
           // Hats and shapes are exact for what is linear: the ground's mean distance is 0.
           double by_hats = 0, by_shapes = 0;

@@ -29,10 +29,6 @@ namespace scree
     }
   };
 
-  /// The largest speed of a surface at a time, m/s.
-  template <int dim>
-  double fastest(const std::vector<RigidSurface<dim>> &surfaces, const double time);
-
   /// Contact of points of dry soil with rigid surfaces, the bed and obstacles, by impulses on the nodes between their
   /// own step and the points'.
   ///
@@ -61,12 +57,6 @@ namespace scree
 
     /// Fits the nodes to the grid's current partition. Collective.
     void reinit();
-
-    /// The largest speed of a surface at a time, m/s.
-    double fastest(const double time) const
-    {
-      return scree::fastest(surfaces, time);
-    }
 
     /// Corrects the nodes' velocities, which the step of `time_step` s has found and ranks have exchanged, and
     /// exchanges them anew. Collective.

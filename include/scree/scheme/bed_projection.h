@@ -39,12 +39,6 @@ namespace scree
     /// Fits it to the ground, after the cells have followed that.
     void follow();
 
-    /// The largest speed of a surface at a time, m/s.
-    double fastest(const double time) const
-    {
-      return scree::fastest(surfaces, time);
-    }
-
     /// Stops predicted soil. Ghosts of `nodes` hold values before, not after. Collective.
     void predict(const MixtureNodes<dim> &nodes,
                  const Mixture<dim> &mixture,

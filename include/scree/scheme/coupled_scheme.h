@@ -53,7 +53,6 @@ namespace scree
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
     void to_points(const double time_step, StepReport<dim> &report) override;
-    double stable_step(const Clock &clock, const Speeds &speeds) const override;
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override;
     std::unique_ptr<WaterView<dim>> water_view() const override;

@@ -42,7 +42,6 @@ namespace scree
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
     void to_points(const double time_step, StepReport<dim> &report) override;
-    double stable_step(const Clock &clock, const Speeds &speeds) const override;
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override;
     std::unique_ptr<WaterView<dim>> water_view() const override;
@@ -59,7 +58,6 @@ namespace scree
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, StepReport<dim> &report);
 
-    const BackgroundGrid<dim> &grid;
     std::list<SoilBody<dim>> &bodies;
     std::list<Group> groups;
     std::list<BodyContact<dim>> contacts;

@@ -8,10 +8,10 @@
 namespace scree
 {
   /// The volume that the mixture's flow draws from the corners: integrals of -psi div u, where u = (1-n) v_s + n v_w is
-  /// formed at the nodes. In partly full cells they are over the part that material fills: beyond it the nodes' few
-  /// points tell next to nothing of u, and a pressure that heeds it makes energy without bound. In cells that rigid
-  /// ground cuts they are over the open part, and what u carries through the ground is drawn, too: the pressure has to
-  /// stop it. Ground that moves into the open gives the volume that it takes.
+  /// formed at the nodes. In partly full cells with soil they are over the part that material fills: beyond it the
+  /// nodes' few points tell next to nothing of u, and soil that answers a pressure that heeds it makes energy without
+  /// bound. In cells that rigid ground cuts they are over the open part, and what u carries through the ground is
+  /// drawn, too: the pressure has to stop it. Ground that moves into the open gives the volume that it takes.
   template <int dim>
   class MixtureDivergence
   {

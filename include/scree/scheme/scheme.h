@@ -4,7 +4,6 @@
 
 #include <scree/grid/nodal_field.h>
 #include <scree/scheme/step_report.h>
-#include <scree/scheme/time_step.h>
 #include <scree/transfer/water_view.h>
 
 #include <memory>
@@ -38,9 +37,6 @@ namespace scree
 
     /// Carries what the nodes have found to the points and moves them; they are not sorted yet. Collective.
     virtual void to_points(const double time_step, StepReport<dim> &report) = 0;
-
-    /// Largest step, s.
-    virtual double stable_step(const Clock &clock, const Speeds &speeds) const = 0;
 
     /// All sets of points, in a fixed order.
     virtual std::vector<PointSet<dim> *> point_sets() = 0;

@@ -5,6 +5,8 @@
 #include <scree/material/material.h>
 #include <scree/scheme/step_balance.h>
 
+#include <cmath>
+
 namespace scree
 {
   /// Speeds that limit the next step.
@@ -19,7 +21,8 @@ namespace scree
     }
     void include_point(const double speed)
     {
-      points = speed <= points ? points : speed; // keeps a NaN
+      if (!(speed <= points) && !std::isnan(points))
+        points = speed;
     }
   };
 
