@@ -382,6 +382,21 @@ def plane_poiseuille(height, gradient, viscosity, width):
     return gradient * height * (width - height) / (2 * viscosity)
 
 
+def film_velocity(height, time, acceleration, viscosity, depth, density=1000):
+    """Velocity, m/s, of a film on a plane that it sticks to, from rest: the half parabola of the steady state less what has not yet
+    come, a series in the diffusion of momentum (as Terzaghi's of pressure). `acceleration`: gravity's along the plane, m/s^2."""
+    nu, m = viscosity / density, _odd(400) * math.pi / 2
+    height = np.atleast_1d(height)[:, None]
+    missing = 2 * np.sin(m * height / depth) / m**3 * np.exp(-m**2 * nu * time / depth**2)
+    return acceleration / nu * (height[:, 0] * (depth - height[:, 0] / 2) - depth**2 * np.sum(missing, axis=1))
+
+
+def film_discharge(time, acceleration, viscosity, depth, density=1000):
+    """Its discharge, m^2/s: g sin(theta) H^3/(3 nu) in the end."""
+    nu, m = viscosity / density, _odd(400) * math.pi / 2
+    return acceleration * depth**3 / nu * (1 / 3 - 2 * np.sum(np.exp(-m**2 * nu * time / depth**2) / m**4))
+
+
 def vortex_decay(viscosity, density, size):
     """Rate, 1/s, at which the velocity (sin kx cos ky, -cos kx sin ky), k = pi/L, decays: 2 nu k^2 (Taylor 1923). The convective
     terms are a gradient, and walls along cell borders of the pattern take no shear."""
@@ -440,6 +455,11 @@ def _self_test():
     y, w = _gauss(0., 0.1)
     _check(failures, "Poiseuille: mean velocity G H^2/(12 mu)",
            abs(np.sum(w * plane_poiseuille(y, 3., 2., 0.1)) / 0.1 / (3 * 0.1**2 / 24) - 1), 1e-12)
+    y, w = _gauss(0., 1., 60)
+    _check(failures, "film: discharge is the velocity's integral at nu t/H^2 = 0.05, 0.3",
+           max(abs(np.sum(w * film_velocity(y, t, 2., 500., 1.)) / film_discharge(t, 2., 500., 1.) - 1) for t in (0.1, 0.6)), 1e-6)
+    _check(failures, "film: no wall is felt yet where u = g t (H = 1 m, nu t = 0.005 m^2)",
+           abs(film_velocity(1., 0.01, 2., 500., 1.)[0] / 0.02 - 1), 1e-6)
     _check(failures, "Krieger and Dougherty, dilute: Einstein's 1 + 5/2 phi", abs((krieger_dougherty(1., 1e-4) - 1) / 2.5e-4 - 1), 1e-3)
 
     _check(failures, "Hencky: s(J(s)) = s for s/M from 1e-9 to 10",

@@ -295,8 +295,12 @@ namespace scree
     output.maps.check(!bodies.empty());
     boundaries.check(dimension);
     bed.check(dimension);
+    check_type_for_water(bed);
     for (const ObstacleParameters &obstacle : obstacles)
-      obstacle.check(dimension);
+      {
+        obstacle.check(dimension);
+        check_type_for_water(obstacle.surface);
+      }
     for (const InflowParameters &inflow : inflows)
       check_inflow(inflow);
     surface_load.check(grid, dimension);
@@ -427,6 +431,21 @@ namespace scree
             throw EntryError(error.what());
           }
       }
+  }
+
+
+  void Parameters::check_type_for_water(const BedParameters &surface) const
+  {
+    const auto require = [&](const bool possible, const std::string &remedy) {
+      require_entry(possible || surface.water_kind() == WaterBedType::impermeable,
+                    surface.subsection,
+                    "Type for water",
+                    surface.for_water,
+                    remedy);
+    };
+    require(has_water, "nothing reads it, as there is no subsection Water. Remove it.");
+    require(water.viscosity > 0.,
+            "water without viscosity slips along anything. Write a \"Viscosity\" in subsection Water, or impermeable.");
   }
 
 

@@ -304,9 +304,13 @@ namespace scree
   {
     std::vector<RigidSurface<dim>> surfaces;
     if (bed)
-      surfaces.push_back({ bed.get(), parameters.bed.friction_coefficient(), bed_friction ? &*bed_friction : nullptr });
+      surfaces.push_back({ bed.get(),
+                           parameters.bed.friction_coefficient(),
+                           bed_friction ? &*bed_friction : nullptr,
+                           parameters.bed.water_kind() == WaterBedType::no_slip });
     for (const Obstacle<dim> &obstacle : obstacles)
-      surfaces.push_back({ &obstacle.surface, obstacle.friction_coefficient, nullptr, &obstacle });
+      surfaces.push_back(
+          { &obstacle.surface, obstacle.friction_coefficient, nullptr, obstacle.holds_water, &obstacle });
     return surfaces;
   }
 

@@ -137,6 +137,7 @@ namespace scree
     void check() const;
     void check_contacts() const;
     void read_maps();
+    void check_type_for_water(const BedParameters &surface) const;
     void check_water() const;
     void check_inflow(const InflowParameters &inflow) const;
     void check_dry() const;

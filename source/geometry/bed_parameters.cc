@@ -34,6 +34,11 @@ namespace scree
                       "What the rigid surface, which need not follow the mesh, does to soil that presses on it: fixed "
                       "(no slip), free slip or friction; none: there is no such surface.",
                       Patterns::Selection("none|fixed|free slip|friction"));
+    prm.add_parameter("Type for water",
+                      for_water,
+                      "What the surface does to free water along it: impermeable (free slip) or no slip, which needs a "
+                      "\"Viscosity\" in subsection Water.",
+                      Patterns::Selection("impermeable|no slip"));
     prm.add_parameter("Friction angle",
                       friction_angle,
                       "Angle of friction of \"Type = friction\", degrees, above 0 and below 90.",
@@ -67,6 +72,12 @@ namespace scree
     if (type == "free slip")
       return BedType::free_slip;
     return type == "friction" ? BedType::friction : BedType::none;
+  }
+
+
+  WaterBedType BedParameters::water_kind() const
+  {
+    return for_water == "no slip" ? WaterBedType::no_slip : WaterBedType::impermeable;
   }
 
 
@@ -122,6 +133,9 @@ namespace scree
             "write an angle above 0, in degrees, or \"Type = free slip\".");
     require(
         is_set() || n_given == 0, given, "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
+    require(is_set() || water_kind() == WaterBedType::impermeable,
+            std::make_pair(std::string("Type for water"), for_water),
+            "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
     if (!is_set())
       return;
     require(n_given > 0,

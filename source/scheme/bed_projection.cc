@@ -51,6 +51,8 @@ namespace scree
       , open_cells(open_cells)
       , relative_tolerance(relative_tolerance)
       , impulses(grid.numbering())
+      , any_holds_water(
+            std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.holds_water; }))
   {
     reinit();
   }
@@ -193,7 +195,8 @@ namespace scree
     contact.is_unilateral = is_unilateral;
     contact.rubs          = phase == Phase::soil && surface_of(segment).friction_coefficient > 0.;
     contact.first_row     = rows.size();
-    contact.n_rows        = contact.rubs ? dim : 1;
+    const bool sticks     = phase == Phase::water && std::binary_search(holding.begin(), holding.end(), segment);
+    contact.n_rows        = contact.rubs || sticks ? dim : 1;
     contacts.push_back(contact);
     const auto along      = tangents(of_ground.normal);
     const double mobility = mobility_at(of_ground, phase, nodes);
@@ -403,6 +406,68 @@ namespace scree
 
 
   template <int dim>
+  void BedProjection<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface)
+  {
+    for (Impulses &segment : of_segments)
+      segment.soil = segment.water = Tensor<1, dim>();
+    if (!any_holds_water)
+      return;
+    holding.clear();
+    // Water in pores is stopped by the grains, and what goes through them does not feel the ground a cell away.
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0. && cell.soil_mass <= 0. && surface.has_unknown(cell.cell))
+        for_segments(cell.cell, [&](const unsigned int segment) {
+          if (surface_of(segment).holds_water)
+            holding.push_back(segment);
+        });
+    std::sort(holding.begin(), holding.end());
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> BedProjection<dim>::viscous_force(const unsigned int s,
+                                                   const NodalField<dim> &motion,
+                                                   const double ground_share,
+                                                   const double viscosity) const
+  {
+    constexpr double slip_length      = 0.01; // cells
+    const GroundSegment<dim> &segment = open_cells.segments()[s];
+    const unsigned int *nodes         = grid.nodes(segment.cell);
+    Tensor<1, dim> velocity           = -ground_share * open_cells.velocity(segment);
+    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
+      velocity += segment.shapes[i] * vector_of<dim>(motion[nodes[i]] + Field<dim>::velocity);
+    return -viscosity * segment.area / (slip_length * grid.cell_size()) * velocity;
+  }
+
+
+  template <int dim>
+  void BedProjection<dim>::add_viscous_force(const NodalField<dim> &motion,
+                                             const double ground_share,
+                                             const double viscosity,
+                                             NodalField<dim> &force) const
+  {
+    for (const unsigned int s : holding)
+      {
+        const GroundSegment<dim> &segment = open_cells.segments()[s];
+        const Tensor<1, dim> of_segment   = viscous_force(s, motion, ground_share, viscosity);
+        const unsigned int *nodes         = grid.nodes(segment.cell);
+        for (unsigned int i = 0; i < segment.shapes.size(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            force[nodes[i]][Field<dim>::force + c] += segment.shapes[i] * of_segment[c];
+      }
+  }
+
+
+  template <int dim>
+  void
+  BedProjection<dim>::take_viscous_force(const NodalField<dim> &motion, const double viscosity, const double time_step)
+  {
+    for (const unsigned int s : holding)
+      of_segments[s].water -= time_step * viscous_force(s, motion, 1., viscosity);
+  }
+
+
+  template <int dim>
   void BedProjection<dim>::predict(const MixtureNodes<dim> &nodes,
                                    const Mixture<dim> &mixture,
                                    const MixtureStep<dim> &step,
@@ -413,8 +478,6 @@ namespace scree
     contacts.clear();
     rows.clear();
     largest_flow = 0.;
-    for (Impulses &segment : of_segments)
-      segment.soil = segment.water = Tensor<1, dim>();
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.soil_mass > 0. && !cell.is_rigid)
         for_segments(cell.cell,

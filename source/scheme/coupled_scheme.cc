@@ -174,9 +174,11 @@ namespace scree
       soil.field.update_ghosts();
       water_field.update_ghosts();
       pores.update_ghosts();
+      if (bed)
+        bed->begin_step(mixture, pressure.free_surface());
       if (viscosity)
         {
-          viscosity->apply(nodes, step, time_step, report.balance);
+          viscosity->apply(nodes, step, bed.get(), time_step, report.balance);
           soil.field.update_ghosts();
           water_field.update_ghosts();
         }
@@ -192,8 +194,6 @@ namespace scree
     {
       const TimedPart part(timer, StepPart::nodes);
       step.correct(nodes, mixture, pressure, time_step, report.balance);
-      if (viscosity)
-        viscosity->count_dissipation(nodes, report.balance);
       soil.field.update_ghosts();
       water_field.update_ghosts();
     }
@@ -206,6 +206,8 @@ namespace scree
         bed->count(nodes, report.balance);
       }
     const TimedPart part(timer, StepPart::nodes);
+    if (viscosity)
+      viscosity->count_dissipation(nodes, report.balance);
     pressure.accept_change(mixture, soil.field, water_field, pores);
     if (bed)
       bed->count_pressure(mixture, pressure, time_step, report.balance);

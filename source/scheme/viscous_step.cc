@@ -41,6 +41,7 @@ namespace scree
       : grid(grid)
       , bodies(bodies)
       , water(water)
+      , water_viscosity(parameters.viscosity)
       , force(grid, parameters)
       , soil_motion(grid)
       , water_motion(grid)
@@ -82,6 +83,8 @@ namespace scree
   template <int dim>
   void ViscousStep<dim>::find_impulses(const NodalField<dim> &soil_velocity,
                                        const NodalField<dim> &water_velocity,
+                                       const BedProjection<dim> *bed,
+                                       const double ground_share,
                                        const double time_step)
   {
     soil_impulses.clear();
@@ -91,6 +94,8 @@ namespace scree
                 one.coefficients,
                 one.is_soil ? soil_velocity : water_velocity,
                 one.is_soil ? soil_impulses : water_impulses);
+    if (bed)
+      bed->add_viscous_force(water_velocity, ground_share, water_viscosity, water_impulses);
     for (NodalField<dim> *field : { &soil_impulses, &water_impulses })
       {
         field->add_contributions();
@@ -102,7 +107,7 @@ namespace scree
 
 
   template <int dim>
-  void ViscousStep<dim>::find_impulses(const Vector &velocity, const double time_step)
+  void ViscousStep<dim>::set_motion(const Vector &velocity)
   {
     for (unsigned int i = 0; i < active.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
@@ -112,7 +117,6 @@ namespace scree
         }
     soil_motion.update_ghosts();
     water_motion.update_ghosts();
-    find_impulses(soil_motion, water_motion, time_step);
   }
 
 
@@ -134,7 +138,7 @@ namespace scree
 
 
   template <int dim>
-  unsigned int ViscousStep<dim>::solve(Vector &velocity, const double time_step)
+  unsigned int ViscousStep<dim>::solve(Vector &velocity, const BedProjection<dim> *bed, const double time_step)
   {
     constexpr double tolerance             = 1e-9; // of the residual, in the norm of its kinetic energy
     constexpr unsigned int most_iterations = 5000;
@@ -154,7 +158,8 @@ namespace scree
         AssertThrow(iteration < most_iterations,
                     ExcMessage("The viscous stress of a step was not found in 5000 iterations. Remedies: a smaller "
                                "'Viscosity' in subsection Water, or a smaller 'Maximum time step'."));
-        find_impulses(direction, time_step);
+        set_motion(direction);
+        find_impulses(soil_motion, water_motion, bed, 0., time_step);
         Vector image(active.size()); // (A + dt K) direction
         for (unsigned int i = 0; i < active.size(); ++i)
           {
@@ -184,6 +189,7 @@ namespace scree
   template <int dim>
   void ViscousStep<dim>::apply(const MixtureNodes<dim> &nodes,
                                const MixtureStep<dim> &step,
+                               BedProjection<dim> *bed,
                                const double time_step,
                                StepBalance<dim> &balance)
   {
@@ -192,20 +198,27 @@ namespace scree
     pairs.clear();
     for (const unsigned int node : active)
       pairs.push_back(step.pair_at(nodes, node));
-    find_impulses(nodes.soil, nodes.water, time_step);
     constexpr double stable = 2.; // beyond, an explicit step turns the fastest motion round and makes it grow
-    if (time_step * largest_rate() > stable)
+    const bool is_long      = time_step * largest_rate() > stable;
+    find_impulses(nodes.soil, nodes.water, is_long ? bed : nullptr, 1., time_step);
+    if (is_long)
       {
         Vector velocity;
         for (const unsigned int node : active)
           velocity.push_back(velocities(nodes, node));
-        const unsigned int n_iterations = solve(velocity, time_step);
+        const unsigned int n_iterations = solve(velocity, bed, time_step);
         if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) == 0)
           balance.n_viscous_iterations += n_iterations;
-        find_impulses(velocity, time_step); // What the solve leaves would not add up to nothing.
+        // What the solve leaves would not add up to nothing.
+        set_motion(velocity);
+        find_impulses(soil_motion, water_motion, bed, 1., time_step);
+        if (bed)
+          bed->take_viscous_force(water_motion, water_viscosity, time_step);
       }
     for (const unsigned int node : active)
       step.push(nodes, node, impulses_at(node), balance);
+    if (is_long && bed && bed->holds_water()) // which counts its own impulses
+      find_impulses(soil_motion, water_motion, nullptr, 1., time_step);
   }
 
 

@@ -23,12 +23,20 @@ namespace scree
     friction ///< Coulomb's
   };
 
+  /// What a rigid surface does to free water along it.
+  enum class WaterBedType
+  {
+    impermeable, ///< free slip
+    no_slip
+  };
+
   /// Subsection Bed: rigid ground that need not follow the mesh. Obstacles have its entries, too.
   struct BedParameters
   {
     std::string subsection = "Bed";
 
     std::string type      = "none";
+    std::string for_water = "impermeable";
     double friction_angle = 0; ///< degrees
     std::string expression, profile, raster, closed_surface;
     std::string friction_angles; ///< file; of the bed only
@@ -45,6 +53,8 @@ namespace scree
     void check(const unsigned int dim) const;
 
     BedType type_kind() const;
+
+    WaterBedType water_kind() const;
 
     bool is_set() const
     {

@@ -20,6 +20,7 @@ namespace scree
     const SampledSurface<dim> *samples;
     double friction_coefficient;               ///< infinite: soil that presses does not slip
     const Raster *friction_map      = nullptr; ///< coefficients in place of it; null: the same everywhere
+    bool holds_water                = false;   ///< whether free water does not slip
     const Obstacle<dim> *obstacle   = nullptr; ///< whose surface it is; null: the bed
     dealii::Tensor<1, dim> velocity = {};      ///< in the current step, m/s
 

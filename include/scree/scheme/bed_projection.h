@@ -18,7 +18,7 @@ namespace scree
   /// functions, stop it: N A^-1 N^T l = N v, v -= A^-1 N^T l, with masses, drag and walls in A, by conjugate gradients.
   /// Predicted soil is stopped by itself, so that the pressure sees how it moves, while the pressure stops the water;
   /// soil and water are stopped after the corrector. Soil that is not fixed may lift off, and rubs by Coulomb's law;
-  /// water may leave where it has no pressure.
+  /// water may leave where it has no pressure. It slips along the ground, but where that holds free water.
   template <int dim>
   class BedProjection
   {
@@ -38,6 +38,30 @@ namespace scree
 
     /// Fits it to the ground, after the cells have followed that.
     void follow();
+
+    /// Whether any of the surfaces holds free water.
+    bool holds_water() const
+    {
+      return any_holds_water;
+    }
+
+    /// Begins a step, once it is known which cells have water and unknown pressures: nothing is given yet.
+    void begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface);
+
+    /// Adds to the force, N, on water at the nodes what the ground that holds water gives to their `motion` in a
+    /// viscous solve: -C (u - u_ground) for the mean velocity u over a segment, with C such that water slips as if the
+    /// ground were a hundredth of a cell farther away. Across the ground, too: what a long step spreads must not go
+    /// through it.
+    /// @param motion velocities, m/s, whose ghosts hold values
+    /// @param ground_share 1; 0 if they are changes of velocities
+    /// @param viscosity of the water, Pa s
+    void add_viscous_force(const NodalField<dim> &motion,
+                           const double ground_share,
+                           const double viscosity,
+                           NodalField<dim> &force) const;
+
+    /// Takes down what add_viscous_force() gives in a step of `time_step` s.
+    void take_viscous_force(const NodalField<dim> &motion, const double viscosity, const double time_step);
 
     /// Stops predicted soil. Ghosts of `nodes` hold values before, not after. Collective.
     void predict(const MixtureNodes<dim> &nodes,
@@ -113,6 +137,12 @@ namespace scree
                      const bool is_unilateral,
                      const MixtureNodes<dim> &nodes);
 
+    /// The force of add_viscous_force() at a segment, N.
+    dealii::Tensor<1, dim> viscous_force(const unsigned int segment,
+                                         const NodalField<dim> &motion,
+                                         const double ground_share,
+                                         const double viscosity) const;
+
     /// What an impulse of 1 at a segment gives to the velocity of a phase there, 1/kg, in any direction.
     double mobility_at(const GroundSegment<dim> &segment, const Phase phase, const MixtureNodes<dim> &nodes) const;
 
@@ -168,7 +198,9 @@ namespace scree
     const unsigned int n_obstacles; // the last of the surfaces
     const OpenCells<dim> &open_cells;
     const double relative_tolerance;
-    NodeValues<dim, 2 * dim> impulses;         // on soil and water, N s; then what they do, m/s
+    NodeValues<dim, 2 * dim> impulses; // on soil and water, N s; then what they do, m/s
+    const bool any_holds_water;
+    std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
     std::vector<Impulses> of_segments;         // by segment
     std::vector<unsigned int> surface_numbers; // the same
     std::vector<dealii::Point<dim>> middles;   // of the segments, m

@@ -61,6 +61,7 @@ namespace scree
 
     const std::string name;
     const double friction_coefficient; ///< infinite: soil that presses does not slip
+    const bool holds_water;            ///< whether free water does not slip
     const bool is_moving;
     const dealii::Point<dim> pivot; ///< of the moment, m; it stays where it is
 

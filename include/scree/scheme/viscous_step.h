@@ -2,7 +2,7 @@
 #ifndef scree_scheme_viscous_step_h
 #define scree_scheme_viscous_step_h
 
-#include <scree/scheme/mixture_step.h>
+#include <scree/scheme/bed_projection.h>
 #include <scree/transfer/viscous_force.h>
 
 #include <list>
@@ -13,7 +13,8 @@ namespace scree
   /// Viscosity between predictor and pressure: (A + dt K) v = A v* for soil and water at the nodes, with masses, drag
   /// and walls in A (DragPair) and the viscosity of the points in K (ViscousForce). While the step is below what K
   /// bears, A v = (A - dt K) v* serves; above it conjugate gradients with A^-1 as preconditioner, so that viscosity
-  /// never limits the step. In both cases the impulses are dt K times a velocity, and add up to nothing.
+  /// never limits the step. In both cases the impulses are dt K times a velocity, and add up to nothing. Ground that
+  /// holds water (BedProjection) takes part in the second case: what a long step spreads must be spread to it, too.
   template <int dim>
   class ViscousStep
   {
@@ -28,8 +29,10 @@ namespace scree
 
     /// Changes the predicted velocities of `nodes`, whose ghosts hold values. Collective; throws if the solve does not
     /// converge.
+    /// @param bed null if there is none
     void apply(const MixtureNodes<dim> &nodes,
                const MixtureStep<dim> &step,
+               BedProjection<dim> *bed,
                const double time_step,
                StepBalance<dim> &balance);
 
@@ -52,16 +55,22 @@ namespace scree
     using Vector = std::vector<SoilAndWater<dim>>; // an entry an owned node on which points act
 
     /// The impulses -dt K v into `impulses`. Collective.
-    void find_impulses(const NodalField<dim> &soil, const NodalField<dim> &water, const double time_step);
+    /// @param bed that takes part, or null
+    /// @param ground_share see BedProjection
+    void find_impulses(const NodalField<dim> &soil,
+                       const NodalField<dim> &water,
+                       const BedProjection<dim> *bed,
+                       const double ground_share,
+                       const double time_step);
 
-    /// The same of a vector.
-    void find_impulses(const Vector &velocity, const double time_step);
+    /// Sets soil_motion and water_motion, ghosts too. Collective.
+    void set_motion(const Vector &velocity);
 
     SoilAndWater<dim> impulses_at(const unsigned int node) const;
 
     /// Adds to the velocity, which is that of the predictor before. `impulses` are those of it, too. Returns the
     /// iterations.
-    unsigned int solve(Vector &velocity, const double time_step);
+    unsigned int solve(Vector &velocity, const BedProjection<dim> *bed, const double time_step);
 
     /// Largest rate of all ranks, 1/s.
     double largest_rate() const;
@@ -71,6 +80,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const std::list<SoilBody<dim>> &bodies;
     const std::list<WaterPhase<dim>> &water;
+    const double water_viscosity; // Pa s
     const ViscousForce<dim> force;
     std::vector<Viscous> viscous;
     std::vector<unsigned int> active;              // owned nodes on which points act
