@@ -10,6 +10,9 @@
 #include <numeric>
 #include <tuple>
 
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
 namespace scree
 {
   using namespace dealii;
@@ -25,11 +28,53 @@ namespace scree
 
 
   template <int dim>
-  struct PressureSolver<dim>::Multigrid
+  struct PressureSolver<dim>::Preconditioner
   {
-    TrilinosWrappers::SparseMatrix matrix; // The preconditioner refers to it.
-    TrilinosWrappers::PreconditionAMG preconditioner;
+    TrilinosWrappers::SparseMatrix matrix; // The others refer to it.
+    TrilinosWrappers::PreconditionAMG multigrid;
+    TrilinosWrappers::PreconditionBlockwiseDirect blocks;
+    TrilinosWrappers::PreconditionBase *chosen = nullptr;
+
+    void choose();
+    void make_multigrid(const unsigned int n_ranks);
   };
+
+
+  template <int dim>
+  void PressureSolver<dim>::Preconditioner::choose()
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(matrix.get_mpi_communicator());
+    // Multigrid has one level up to here, which one rank would solve while the others wait.
+    constexpr unsigned int one_level = 2000;
+    // More blocks than these take so many more iterations that they do not pay.
+    constexpr unsigned int most_blocks = 3;
+    if (n_ranks > 1 && n_ranks <= most_blocks && matrix.m() <= one_level)
+      {
+        blocks.initialize(matrix);
+        chosen = &blocks;
+      }
+    else
+      {
+        make_multigrid(n_ranks);
+        chosen = &multigrid;
+      }
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::Preconditioner::make_multigrid(const unsigned int n_ranks)
+  {
+    TrilinosWrappers::PreconditionAMG::AdditionalData data;
+    data.elliptic = true;
+    Teuchos::ParameterList settings;
+    std::unique_ptr<Epetra_MultiVector> constant_modes;
+    data.set_parameters(settings, constant_modes, matrix.trilinos_matrix());
+    // A single rank solves the coarsest level.
+    constexpr int most_on_coarsest = 128;
+    if (n_ranks > 1)
+      settings.set("coarse: max size", most_on_coarsest);
+    multigrid.initialize(matrix, settings);
+  }
 
 
   template <int dim>
@@ -73,7 +118,7 @@ namespace scree
     const auto &nodes = *corners.partitioner();
     number_of_corner.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), numbers::invalid_unsigned_int);
     partitioner.reset();
-    multigrid.reset();
+    preconditioner.reset();
     is_worn = true;
   }
 
@@ -302,8 +347,8 @@ namespace scree
       }
     pattern.compress();
 
-    multigrid           = std::make_unique<Multigrid>();
-    auto &matrix_of_all = multigrid->matrix;
+    preconditioner      = std::make_unique<Preconditioner>();
+    auto &matrix_of_all = preconditioner->matrix;
     matrix_of_all.reinit(pattern);
     for (const Cell &cell : cells)
       {
@@ -321,9 +366,7 @@ namespace scree
       }
     matrix_of_all.compress(VectorOperation::add);
 
-    TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic = true;
-    multigrid->preconditioner.initialize(matrix_of_all, data);
+    preconditioner->choose();
   }
 
 
@@ -350,7 +393,7 @@ namespace scree
     double last_projection = 1., last_length = 1.;
     while (result.residual > tolerance && result.n < most)
       {
-        multigrid->preconditioner.vmult(preconditioned, remainder);
+        preconditioner->chosen->vmult(preconditioned, remainder);
         system.vmult(product, preconditioned);
         const double *r = remainder.begin(), *z = preconditioned.begin(), *w = product.begin();
         const double *s = direction_product.begin();

@@ -95,7 +95,7 @@ namespace scree
   {
   public:
     /// The part of a rank's points that may change cells before records are sorted in memory again.
-    static constexpr double most_moved = 0.2;
+    static constexpr double most_moved = 0.5;
 
     PointSet(const dealii::Triangulation<dim> &triangulation,
              const dealii::Mapping<dim> &mapping,

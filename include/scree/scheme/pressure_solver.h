@@ -136,8 +136,8 @@ namespace scree
     CornerVector remainder, preconditioned, product, direction, direction_product;
     double tolerance = 0; // of the last solve's residual, m^3/s
 
-    struct Multigrid; // what Trilinos keeps of the preconditioner
-    std::unique_ptr<Multigrid> multigrid;
+    struct Preconditioner; // Multigrid, or of small systems on few ranks a direct solver of each rank's block
+    std::unique_ptr<Preconditioner> preconditioner;
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
     unsigned int iterations_when_new = 0, surplus_iterations = 0;
     bool is_worn = true;
