@@ -36,7 +36,7 @@ namespace scree
     TrilinosWrappers::PreconditionBase *chosen = nullptr;
 
     void choose();
-    void make_multigrid(const unsigned int n_ranks);
+    void make_multigrid(const unsigned int most_on_coarsest);
   };
 
 
@@ -44,35 +44,34 @@ namespace scree
   void PressureSolver<dim>::Preconditioner::choose()
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(matrix.get_mpi_communicator());
-    // Multigrid has one level up to here, which one rank would solve while the others wait.
-    constexpr unsigned int one_level = 2000;
+    // One rank solves the coarsest level while the others wait; so many rows it may have on a single rank, and on
+    // several.
+    constexpr unsigned int one_level = 2000, most_on_coarsest = 128;
     // More blocks than these take so many more iterations that they do not pay.
     constexpr unsigned int most_blocks = 3;
-    if (n_ranks > 1 && n_ranks <= most_blocks && matrix.m() <= one_level)
+    const bool is_small                = matrix.m() <= one_level;
+    if (is_small && n_ranks > 1 && n_ranks <= most_blocks)
       {
         blocks.initialize(matrix);
         chosen = &blocks;
       }
     else
       {
-        make_multigrid(n_ranks);
+        make_multigrid(is_small || n_ranks == 1 ? one_level : most_on_coarsest);
         chosen = &multigrid;
       }
   }
 
 
   template <int dim>
-  void PressureSolver<dim>::Preconditioner::make_multigrid(const unsigned int n_ranks)
+  void PressureSolver<dim>::Preconditioner::make_multigrid(const unsigned int most_on_coarsest)
   {
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic = true;
     Teuchos::ParameterList settings;
     std::unique_ptr<Epetra_MultiVector> constant_modes;
     data.set_parameters(settings, constant_modes, matrix.trilinos_matrix());
-    // A single rank solves the coarsest level.
-    constexpr int most_on_coarsest = 128;
-    if (n_ranks > 1)
-      settings.set("coarse: max size", most_on_coarsest);
+    settings.set("coarse: max size", int(most_on_coarsest));
     multigrid.initialize(matrix, settings);
   }
 
