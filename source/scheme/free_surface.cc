@@ -34,6 +34,7 @@ namespace scree
       , open_cells(open_cells)
       , filling(corners)
       , neighbours(corners)
+      , sides(corners)
   {
     reinit();
   }
@@ -44,6 +45,7 @@ namespace scree
   {
     filling.reinit();
     neighbours.reinit();
+    sides.reinit();
     const auto &nodes = *corners.partitioner();
     kinds.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), CornerKind::dry);
     distances.assign(kinds.size(), -1.);
@@ -181,13 +183,14 @@ namespace scree
       else if (sums[water] > 0. && is_unknown(corner, fill))
         {
           kind  = CornerKind::unknown;
-          value = sums[weighted_pressure] / sums[water];
+          value = pressure_of_points(corner);
         }
       pressure.local_element(corner) = value;
     };
     for_all_wet_corners(mixture, classify);
     if (rule != FreeSurface::distance)
       return;
+    close_gaps(mixture, pressure);
 
     // Kinds beside the surface: those with unknown neighbours, then those that have only those.
     neighbours.clear();
@@ -209,6 +212,40 @@ namespace scree
     spread(CornerKind::unknown, CornerKind::surface);
     neighbours.clear_ghosts();
     spread(CornerKind::surface, CornerKind::beyond);
+  }
+
+
+  template <int dim>
+  void FreeSurfaceLocator<dim>::close_gaps(const Mixture<dim> &mixture, CornerVector &pressure)
+  {
+    const auto may_be_in_gap = [&](const unsigned int corner) {
+      return kinds[corner] == CornerKind::dry && distances[corner] >= 0. && !is_free_water(corner);
+    };
+    sides.clear();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0)
+        {
+          sides.activate_cell(cell.cell);
+          const unsigned int *nodes = corners.nodes(cell.cell);
+          for (unsigned int v = 0; v < cell.n_corners; ++v)
+            if (may_be_in_gap(nodes[v]))
+              for (unsigned int a = 0; a < dim; ++a)
+                if (kinds[nodes[v ^ (1u << a)]] == CornerKind::unknown)
+                  sides[nodes[v]][2 * a + (v >> a & 1u)] += 1.;
+        }
+    sides.add_contributions();
+    sides.update_ghosts();
+    for_all_wet_corners(mixture, [&](const unsigned int corner) {
+      if (!may_be_in_gap(corner))
+        return;
+      const double *of_corner = sides[corner];
+      for (unsigned int a = 0; a < dim; ++a)
+        if (of_corner[2 * a] > 0. && of_corner[2 * a + 1] > 0.)
+          {
+            kinds[corner]                  = CornerKind::unknown;
+            pressure.local_element(corner) = pressure_of_points(corner);
+          }
+    });
   }
 
 
