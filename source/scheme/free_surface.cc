@@ -219,7 +219,7 @@ namespace scree
   void FreeSurfaceLocator<dim>::close_gaps(const Mixture<dim> &mixture, CornerVector &pressure)
   {
     const auto may_be_in_gap = [&](const unsigned int corner) {
-      return kinds[corner] == CornerKind::dry && distances[corner] >= 0. && !is_free_water(corner);
+      return kinds[corner] == CornerKind::dry && distances[corner] >= -1e-9 && !is_free_water(corner);
     };
     sides.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())

@@ -76,8 +76,9 @@ def main():
     if len(sys.argv) > 4:
         second = per_metre(second, float(sys.argv[4]))
         counts = [column for column in COUNTS if column in first]
+        points = "Points" if first["Points"][0] else "Water points"
+        ratio = second[points][0] / first[points][0]
         for column in counts:
-            ratio = second[column][0] / first[column][0] if first[column][0] else 1
             if [ratio * value for value in first[column]] != second[column]:
                 sys.exit(column + ": not the same in every layer")
     difference, column = largest_difference(first, second, counts)
