@@ -218,8 +218,14 @@ namespace scree
   template <int dim>
   void FreeSurfaceLocator<dim>::close_gaps(const Mixture<dim> &mixture, CornerVector &pressure)
   {
-    const auto may_be_in_gap = [&](const unsigned int corner) {
-      return kinds[corner] == CornerKind::dry && distances[corner] >= -1e-9 && !is_free_water(corner);
+    constexpr double least_grains = 0.2; // of what is filled: the face of soil, not scraps of it in a jet
+    const auto may_be_in_gap      = [&](const unsigned int corner) {
+      const double *sums = filling[corner];
+      return kinds[corner] == CornerKind::dry && distances[corner] >= -1e-9 && sums[water] > 0. &&
+             sums[filled] - sums[water] >= least_grains * sums[filled];
+    };
+    const auto presses = [&](const unsigned int corner) { // A gap holds no body.
+      return kinds[corner] == CornerKind::unknown && pressure_of_points(corner) >= 0.;
     };
     sides.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -230,7 +236,7 @@ namespace scree
           for (unsigned int v = 0; v < cell.n_corners; ++v)
             if (may_be_in_gap(nodes[v]))
               for (unsigned int a = 0; a < dim; ++a)
-                if (kinds[nodes[v ^ (1u << a)]] == CornerKind::unknown)
+                if (presses(nodes[v ^ (1u << a)]))
                   sides[nodes[v]][2 * a + (v >> a & 1u)] += 1.;
         }
     sides.add_contributions();

@@ -57,12 +57,12 @@ def verdict(rows):
     gaining = {pair: [row for row in of(pair, "default") if row["state"] == "energy gain"] for pair in PAIRS}
     faded, dropped = ([row for row in rows if row["old p"] == pressure] for pressure in ("fading", "dropped"))
     return [
-        Claim("Energy is gained by " + ", ".join(f"{pair} in {len(gaining[pair])} of {len(of(pair, 'default'))} (up to {gain(of(pair, 'default')):.2g} % of what is released)"
-                                                 for pair in PAIRS if gaining[pair])
-              + ". Water that falls on soil bounces: in a cell that holds the soil's surface and a gap, p builds up over several steps, as in a spring, and is carried from "
-              "step to step, so that it gives back what the impact had taken. Without the pressure of the previous step (Previous pressure = dropped) the gain is at most "
-              f"{gain(dropped):.2g} %, for all pairs. With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of {len(faded)} are stable, and the gain is at most "
-              f"{gain(faded):.2g} %.", len(gaining["water on soil"]) > 0 and gain(dropped) < 0.5),
+        Claim("By default energy is gained by " + (", ".join(
+            f"{pair} in {len(gaining[pair])} of {len(of(pair, 'default'))} (up to {gain(of(pair, 'default')):.2g} % of what is released)"
+            for pair in PAIRS if gaining[pair]) or "none")
+              + f"; without the pressure of the previous step at most {gain(dropped):.2g} %. With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of "
+              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Wanted: at most .5 % by default, soil on soil left out.",
+              all(gain(of(pair, "default")) <= 0.5 for pair in PAIRS if pair != "soil on soil")),
         Claim(f"Water on water gains no energy (at most {gain(water):.2g} %) and keeps {min(row['air left, cells'] for row in water):.2g} to "
               f"{max(row['air left, cells'] for row in water):.2g} of a cell of air: bodies feel each other before they touch, and nothing "
               "closes what is left.", gain(water) < 0.5 and max(row["air left, cells"] for row in water) < 0.5),

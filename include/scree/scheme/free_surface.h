@@ -27,9 +27,9 @@ namespace scree
   /// The fill F of a corner (volume of water and wet grains under its linear function) gives its signed distance d from
   /// a surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. Unknown are the corners at
   /// least a quarter of a cell inside. Those beside them hold p = d sum p_j / sum d_j of their unknown neighbours: p is
-  /// linear and vanishes at the surface, wherever that is in the cell. In soil, corners no less than half full between
-  /// two unknown ones are unknown, too: what closes there, a gap between two bodies, has a pressure, and it is that of
-  /// both.
+  /// linear and vanishes at the surface, wherever that is in the cell. At the face of soil, corners no less than half
+  /// full between two unknown ones where p is not negative are unknown, too: what closes there, a gap between two
+  /// bodies, has the pressure of both.
   template <int dim>
   class FreeSurfaceLocator
   {
@@ -171,7 +171,7 @@ namespace scree
       return filling[corner][weighted_pressure] / filling[corner][water];
     }
 
-    /// Makes corners in gaps unknown. Collective.
+    /// Makes the corners in gaps unknown. Collective.
     void close_gaps(const Mixture<dim> &mixture, CornerVector &pressure);
 
     /// Calls `act(corner)` for the owned corners that any rank's water may touch, and for the ghosts that this rank's
@@ -195,7 +195,7 @@ namespace scree
     const OpenCells<dim> *open_cells; // may be null
     NodeValues<dim, 5> filling;       // Filling
     NodeValues<dim, 3> neighbours;    // Neighbours
-    NodeValues<dim, 2 * dim> sides;   // number of unknown neighbours before and behind along each axis, cell by cell
+    NodeValues<dim, 2 * dim> sides;   // number of neighbours that press, on each side along each axis
     std::vector<CornerKind> kinds;
     std::vector<double> distances; // cells; positive in the water
 
