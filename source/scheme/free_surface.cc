@@ -14,6 +14,9 @@ namespace scree
     /// Of a cell: less of it that is open counts as so much.
     constexpr double least_open = 1e-6;
 
+    /// Of an unknown corner, cells.
+    constexpr double least_depth = 0.25;
+
     double distance_from_fill(const double fill)
     {
       return fill < 0.5 ? std::sqrt(2. * fill) - 1. : 1. - std::sqrt(2. * std::max(1. - fill, 0.));
@@ -117,11 +120,10 @@ namespace scree
   template <int dim>
   bool FreeSurfaceLocator<dim>::is_unknown(const unsigned int corner, const double fill) const
   {
-    constexpr double least_depth = 0.25 - 1e-9; // cells
     switch (rule)
       {
       case FreeSurface::distance:
-        return distances[corner] >= least_depth;
+        return distances[corner] >= least_depth - 1e-9;
       case FreeSurface::half_full:
         return fill >= 0.5 - 1e-9;
       default: // all cells around it hold water
@@ -249,6 +251,7 @@ namespace scree
         if (of_corner[2 * a] > 0. && of_corner[2 * a + 1] > 0.)
           {
             kinds[corner]                  = CornerKind::unknown;
+            distances[corner]              = std::max(distances[corner], least_depth);
             pressure.local_element(corner) = pressure_of_points(corner);
           }
     });
