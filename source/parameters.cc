@@ -437,11 +437,8 @@ namespace scree
   void Parameters::check_type_for_water(const BedParameters &surface) const
   {
     const auto require = [&](const bool possible, const std::string &remedy) {
-      require_entry(possible || surface.water_kind() == WaterBedType::impermeable,
-                    surface.subsection,
-                    "Type for water",
-                    surface.for_water,
-                    remedy);
+      require_entry(
+          possible || !surface.holds_water(), surface.subsection, "Type for water", surface.for_water, remedy);
     };
     require(has_water, "nothing reads it, as there is no subsection Water. Remove it.");
     require(water.viscosity > 0.,

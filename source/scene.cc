@@ -307,7 +307,7 @@ namespace scree
       surfaces.push_back({ bed.get(),
                            parameters.bed.friction_coefficient(),
                            bed_friction ? &*bed_friction : nullptr,
-                           parameters.bed.water_kind() == WaterBedType::no_slip });
+                           parameters.bed.holds_water() });
     for (const Obstacle<dim> &obstacle : obstacles)
       surfaces.push_back(
           { &obstacle.surface, obstacle.friction_coefficient, nullptr, obstacle.holds_water, &obstacle });

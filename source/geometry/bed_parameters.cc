@@ -75,12 +75,6 @@ namespace scree
   }
 
 
-  WaterBedType BedParameters::water_kind() const
-  {
-    return for_water == "no slip" ? WaterBedType::no_slip : WaterBedType::impermeable;
-  }
-
-
   double BedParameters::friction_coefficient() const
   {
     switch (type_kind())
@@ -133,7 +127,7 @@ namespace scree
             "write an angle above 0, in degrees, or \"Type = free slip\".");
     require(
         is_set() || n_given == 0, given, "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
-    require(is_set() || water_kind() == WaterBedType::impermeable,
+    require(is_set() || !holds_water(),
             std::make_pair(std::string("Type for water"), for_water),
             "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
     if (!is_set())

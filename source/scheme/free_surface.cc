@@ -226,15 +226,17 @@ namespace scree
       return kinds[corner] == CornerKind::dry && distances[corner] >= -1e-9 && sums[water] > 0. &&
              sums[filled] - sums[water] >= least_grains * sums[filled];
     };
-    const auto presses = [&](const unsigned int corner) { // A gap holds no body.
+    const auto presses = [&](const unsigned int corner) { // Across a gap nothing pulls.
       return kinds[corner] == CornerKind::unknown && pressure_of_points(corner) >= 0.;
     };
     sides.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0)
         {
-          sides.activate_cell(cell.cell);
           const unsigned int *nodes = corners.nodes(cell.cell);
+          if (std::none_of(nodes, nodes + cell.n_corners, may_be_in_gap))
+            continue;
+          sides.activate_cell(cell.cell);
           for (unsigned int v = 0; v < cell.n_corners; ++v)
             if (may_be_in_gap(nodes[v]))
               for (unsigned int a = 0; a < dim; ++a)
@@ -251,7 +253,7 @@ namespace scree
         if (of_corner[2 * a] > 0. && of_corner[2 * a + 1] > 0.)
           {
             kinds[corner]                  = CornerKind::unknown;
-            distances[corner]              = std::max(distances[corner], least_depth);
+            distances[corner]              = least_depth;
             pressure.local_element(corner) = pressure_of_points(corner);
           }
     });

@@ -36,7 +36,7 @@ namespace scree
                           const BackgroundGrid<dim> &grid)
       : name(parameters.name())
       , friction_coefficient(parameters.surface.friction_coefficient())
-      , holds_water(parameters.surface.water_kind() == WaterBedType::no_slip)
+      , holds_water(parameters.surface.holds_water())
       , is_moving(parameters.is_moving())
       , pivot(pivot_of<dim>(parameters, grid))
       , level_set(make_bed<dim>(parameters.surface, box.lower_corner, box.upper_corner, box.cell_size))

@@ -61,8 +61,12 @@ def verdict(rows):
             f"{pair} in {len(gaining[pair])} of {len(of(pair, 'default'))} (up to {gain(of(pair, 'default')):.2g} % of what is released)"
             for pair in PAIRS if gaining[pair]) or "none")
               + f"; without the pressure of the previous step at most {gain(dropped):.2g} %. With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of "
-              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Wanted: at most .5 % by default, soil on soil left out.",
-              gain([row for row in rows if row["old p"] == "default" and row["pair"] != "soil on soil"]) <= 0.5),
+              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Wanted: at most .5 % by default and without the previous pressure.",
+              gain([row for row in rows if row["old p"] == "default"]) <= 0.5 and gain(dropped) < 0.5),
+        Claim("The bodies do not touch: of a cell, air stays by default below " + ", ".join(
+            f"{pair.split()[0]} on soil {min(left):.2g} to {max(left):.2g}" for pair in PAIRS[2:]
+            if (left := [row["air left, cells"] for row in of(pair, "default")])) + ". Wanted: at most half a cell.",
+              max(row["air left, cells"] for row in rows if row["old p"] == "default") <= 0.5, quick=False),
         Claim(f"Water on water gains no energy (at most {gain(water):.2g} %) and keeps {min(row['air left, cells'] for row in water):.2g} to "
               f"{max(row['air left, cells'] for row in water):.2g} of a cell of air: bodies feel each other before they touch, and nothing "
               "closes what is left.", gain(water) < 0.5 and max(row["air left, cells"] for row in water) < 0.5),

@@ -23,13 +23,6 @@ namespace scree
     friction ///< Coulomb's
   };
 
-  /// What a rigid surface does to free water along it.
-  enum class WaterBedType
-  {
-    impermeable, ///< free slip
-    no_slip
-  };
-
   /// Subsection Bed: rigid ground that need not follow the mesh. Obstacles have its entries, too.
   struct BedParameters
   {
@@ -54,7 +47,11 @@ namespace scree
 
     BedType type_kind() const;
 
-    WaterBedType water_kind() const;
+    /// Whether free water does not slip along it.
+    bool holds_water() const
+    {
+      return for_water == "no slip";
+    }
 
     bool is_set() const
     {
