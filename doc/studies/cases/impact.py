@@ -48,8 +48,8 @@ def verdict(rows):
     changes = [abs(b - a) for a, b in pairs("impulse")]
     ratios = [b / a for a, b in pairs("peak p, kPa")]
     return [
-        Claim(f"By default the impact leaves p rough: by {mean(default):.2g} rho_w g 0.5 m in the mean, up to {max(row['oscillation of p'] for row in default):.2g}. p is carried from step "
-              "to step, and what an impact has put into it that the velocities do not feel stays. "
+        Claim(f"By default the impact leaves p rough: by {mean(default):.2g} rho_w g 0.5 m in the mean, up to {max(row['oscillation of p'] for row in default):.2g}. p bears what "
+              "the effective stress of the row that the impact has pressed together does not, and at small k this row cannot drain (doc/verification.md). "
               f"With Fading = 5 {sum(row['state'] == 'stable' for row in faded)} of {len(faded)} impacts are stable instead of "
               f"{sum(row['state'] == 'stable' for row in default)}, the roughness is {mean(faded):.2g} in the mean. "
               f"With Previous pressure = dropped it is {mean(dropped):.2g}, at most {max(row['oscillation of p'] for row in dropped):.2g}; but then soil that holds "
