@@ -50,7 +50,7 @@ namespace scree
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , open_cells(open_cells)
       , relative_tolerance(relative_tolerance)
-      , impulses(grid.numbering())
+      , ground_response(grid, open_cells)
       , any_holds_water(
             std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.holds_water; }))
   {
@@ -101,7 +101,7 @@ namespace scree
   template <int dim>
   void BedProjection<dim>::reinit()
   {
-    impulses.reinit();
+    ground_response.reinit();
     of_segments.assign(open_cells.segments().size(), Impulses()); // The next step begins its search from nothing.
     find_surfaces();
   }
@@ -143,19 +143,14 @@ namespace scree
 
 
   template <int dim>
-  template <typename Values>
-  double BedProjection<dim>::speed_of(const Row &row, const Values &values_of_node) const
+  Tensor<1, dim> BedProjection<dim>::mean_velocity(const GroundSegment<dim> &segment,
+                                                   const NodalField<dim> &field) const
   {
-    const GroundSegment<dim> &segment = open_cells.segments()[contacts[row.contact].segment];
-    const unsigned int *nodes         = grid.nodes(segment.cell);
-    double speed                      = 0.;
+    const unsigned int *nodes = grid.nodes(segment.cell);
+    Tensor<1, dim> velocity;
     for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-      {
-        const double *values = values_of_node(nodes[i]);
-        for (unsigned int c = 0; c < dim; ++c)
-          speed += segment.shapes[i] * row.direction[c] * values[c];
-      }
-    return speed;
+      velocity += segment.shapes[i] * vector_of<dim>(field[nodes[i]] + Field<dim>::velocity);
+    return velocity;
   }
 
 
@@ -187,8 +182,8 @@ namespace scree
                                        const MixtureNodes<dim> &nodes)
   {
     const GroundSegment<dim> &of_ground = open_cells.segments()[segment];
-    const Tensor<1, dim> velocity       = open_cells.velocity(of_ground);
-    impulses.activate_cell(of_ground.cell);
+    const NodalField<dim> &field        = phase == Phase::soil ? nodes.soil : nodes.water;
+    const Tensor<1, dim> beside_ground  = mean_velocity(of_ground, field) - open_cells.velocity(of_ground);
     Contact contact{};
     contact.segment       = segment;
     contact.phase         = phase;
@@ -203,13 +198,11 @@ namespace scree
     for (unsigned int r = 0; r < contact.n_rows; ++r)
       {
         Row row;
-        row.contact       = contacts.size() - 1;
-        row.area          = of_ground.area;
-        row.direction     = r == 0 ? of_ground.normal : along[r - 1];
-        row.mobility      = mobility;
-        const auto &field = phase == Phase::soil ? nodes.soil : nodes.water;
-        row.speed         = speed_of(row, [&](const unsigned int node) { return field[node] + Field<dim>::velocity; }) -
-                    row.direction * velocity;
+        row.contact   = contacts.size() - 1;
+        row.area      = of_ground.area;
+        row.direction = r == 0 ? of_ground.normal : along[r - 1];
+        row.mobility  = mobility;
+        row.speed     = row.direction * beside_ground;
         rows.push_back(row);
       }
     // Unilateral soil that neither presses nor comes near is left alone.
@@ -219,52 +212,33 @@ namespace scree
       {
         contacts.pop_back();
         rows.resize(contact.first_row);
+        return;
       }
+    ground_response.add(segment, phase);
   }
 
 
   template <int dim>
-  void BedProjection<dim>::sum_at_nodes(const std::vector<double> &of_rows)
+  const std::vector<Tensor<1, dim>> &BedProjection<dim>::by_contacts(const std::vector<double> &of_rows)
   {
-    for (const unsigned int node : impulses.active_nodes())
-      std::fill_n(impulses[node], 2 * dim, 0.);
-    impulses.clear_ghosts();
-    for (unsigned int k = 0; k < rows.size(); ++k)
-      if (of_rows[k] != 0.)
-        {
-          const Contact &contact   = contacts[rows[k].contact];
-          const auto &segment      = open_cells.segments()[contact.segment];
-          const unsigned int *ids  = grid.nodes(segment.cell);
-          const unsigned int first = contact.phase == Phase::soil ? 0 : dim;
-          for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-            for (unsigned int c = 0; c < dim; ++c)
-              impulses[ids[i]][first + c] += of_rows[k] * segment.shapes[i] * rows[k].direction[c];
-        }
-    impulses.add_contributions();
+    of_contacts.resize(contacts.size());
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      {
+        of_contacts[k] = Tensor<1, dim>();
+        for (unsigned int r = contacts[k].first_row; r < contacts[k].first_row + contacts[k].n_rows; ++r)
+          of_contacts[k] += of_rows[r] * rows[r].direction;
+      }
+    return of_contacts;
   }
 
 
   template <int dim>
   void BedProjection<dim>::respond(const std::vector<double> &of_rows)
   {
-    sum_at_nodes(of_rows);
-    for (const auto &[node, pair] : pairs)
-      {
-        double *values                   = impulses[node];
-        const SoilAndWater<dim> velocity = pair.solve({ vector_of<dim>(values), vector_of<dim>(values + dim) });
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            values[c]       = velocity.soil[c];
-            values[dim + c] = velocity.water[c];
-          }
-      }
-    impulses.update_ghosts();
+    ground_response.apply(by_contacts(of_rows), velocities);
     response.resize(rows.size());
     for (unsigned int k = 0; k < rows.size(); ++k)
-      {
-        const unsigned int first = contacts[rows[k].contact].phase == Phase::soil ? 0 : dim;
-        response[k]              = speed_of(rows[k], [&](const unsigned int node) { return impulses[node] + first; });
-      }
+      response[k] = rows[k].direction * velocities[rows[k].contact];
   }
 
 
@@ -373,10 +347,7 @@ namespace scree
     tolerance    = wanted * largest_flow;
     if (tolerance == 0.)
       return;
-    pairs.clear();
-    for (const unsigned int node : impulses.active_nodes())
-      if (nodes.soil[node][Field<dim>::mass] > 0. || nodes.water[node][Field<dim>::mass] > 0.)
-        pairs.emplace_back(node, step.pair_at(nodes, node));
+    ground_response.start(nodes, step);
 
     std::vector<double> of_rows(rows.size());
     for (unsigned int pass = 0; pass < most_passes; ++pass)
@@ -399,9 +370,7 @@ namespace scree
         Impulses &given        = of_segments[contact.segment];
         (contact.phase == Phase::soil ? given.soil : given.water) += rows[k].impulse * rows[k].direction;
       }
-    sum_at_nodes(of_rows);
-    for (const auto &[node, pair] : pairs)
-      step.push(nodes, node, { -vector_of<dim>(impulses[node]), -vector_of<dim>(impulses[node] + dim) }, balance);
+    ground_response.take(by_contacts(of_rows), nodes, step, balance);
   }
 
 
@@ -432,10 +401,7 @@ namespace scree
   {
     constexpr double slip_length      = 0.01; // cells
     const GroundSegment<dim> &segment = open_cells.segments()[s];
-    const unsigned int *nodes         = grid.nodes(segment.cell);
-    Tensor<1, dim> velocity           = -ground_share * open_cells.velocity(segment);
-    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-      velocity += segment.shapes[i] * vector_of<dim>(motion[nodes[i]] + Field<dim>::velocity);
+    const Tensor<1, dim> velocity     = mean_velocity(segment, motion) - ground_share * open_cells.velocity(segment);
     return -viscosity * segment.area / (slip_length * grid.cell_size()) * velocity;
   }
 
@@ -474,7 +440,7 @@ namespace scree
                                    const double time_step,
                                    StepBalance<dim> &balance)
   {
-    impulses.clear();
+    ground_response.clear();
     contacts.clear();
     rows.clear();
     largest_flow = 0.;
@@ -497,7 +463,7 @@ namespace scree
                                    const FreeSurfaceLocator<dim> &surface,
                                    StepBalance<dim> &balance)
   {
-    impulses.clear();
+    ground_response.clear();
     contacts.clear();
     rows.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())

@@ -3,7 +3,7 @@
 #define scree_scheme_bed_projection_h
 
 #include <scree/scheme/bed_contact.h>
-#include <scree/scheme/mixture_step.h>
+#include <scree/scheme/ground_response.h>
 
 #include <cmath>
 #include <vector>
@@ -90,12 +90,6 @@ namespace scree
     void put_back(PointSet<dim> &points) const;
 
   private:
-    enum class Phase : unsigned int
-    {
-      soil,
-      water
-    };
-
     /// What happens to a phase at a segment.
     struct Contact
     {
@@ -162,11 +156,11 @@ namespace scree
     /// Sets `response` to the rows' velocities for impulses `of_rows`. Collective.
     void respond(const std::vector<double> &of_rows);
 
-    /// Sums impulses of rows at the nodes, owned ones hold the whole. Collective.
-    void sum_at_nodes(const std::vector<double> &of_rows);
+    /// Impulses of rows as those of their contacts, in `of_contacts`.
+    const std::vector<dealii::Tensor<1, dim>> &by_contacts(const std::vector<double> &of_rows);
 
-    template <typename Values>
-    double speed_of(const Row &row, const Values &values_of_node) const;
+    /// The mean velocity over a segment, m/s.
+    dealii::Tensor<1, dim> mean_velocity(const GroundSegment<dim> &segment, const NodalField<dim> &field) const;
 
     double sum(const double value) const;
     double max(const double value) const;
@@ -198,7 +192,7 @@ namespace scree
     const unsigned int n_obstacles; // the last of the surfaces
     const OpenCells<dim> &open_cells;
     const double relative_tolerance;
-    NodeValues<dim, 2 * dim> impulses; // on soil and water, N s; then what they do, m/s
+    GroundResponse<dim> ground_response;
     const bool any_holds_water;
     std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
     std::vector<Impulses> of_segments;         // by segment
@@ -206,9 +200,9 @@ namespace scree
     std::vector<dealii::Point<dim>> middles;   // of the segments, m
     std::vector<Contact> contacts;
     std::vector<Row> rows;
-    std::vector<std::pair<unsigned int, DragPair<dim>>> pairs; // at owned nodes of contacts
-    std::vector<double> residual, direction, response;         // by row
-    double tolerance = 0, largest_flow = 0;                    // m/s
+    std::vector<double> residual, direction, response;           // by row
+    std::vector<dealii::Tensor<1, dim>> of_contacts, velocities; // of a search: impulses, N s, and what they do, m/s
+    double tolerance = 0, largest_flow = 0;                      // m/s
   };
 } // namespace scree
 

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_ground_response_h
+#define scree_scheme_ground_response_h
+
+#include <scree/scheme/mixture_step.h>
+#include <scree/transfer/node_rows.h>
+
+#include <array>
+#include <vector>
+
+namespace scree
+{
+  /// Soil or water, of which a node has both.
+  enum class Phase : unsigned int
+  {
+    soil,
+    water
+  };
+
+  /// What impulses on soil and water at segments of rigid ground do to their velocities there: N A^-1 N^T, with the
+  /// means N of the shape functions over the segments, and masses, drag and walls of the nodes in A. The nodes that
+  /// contacts act on lie together.
+  template <int dim>
+  class GroundResponse
+  {
+  public:
+    /// Both are kept by reference.
+    GroundResponse(const BackgroundGrid<dim> &grid, const OpenCells<dim> &open_cells);
+
+    /// Fits the nodes to the grid's current partition.
+    void reinit();
+
+    /// Begins anew, without contacts. Each rank must do so for each rank's contacts.
+    void clear();
+
+    /// Adds a contact of a phase with a segment, with the next number. Contacts with one segment come together.
+    void add(const unsigned int segment, const Phase phase);
+
+    /// Looks at the nodes, after all contacts have been added.
+    void start(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step);
+
+    /// Finds the `velocities`, m/s, at the contacts that `impulses`, N s, there give. Collective.
+    void apply(const std::vector<dealii::Tensor<1, dim>> &impulses, std::vector<dealii::Tensor<1, dim>> &velocities);
+
+    /// Takes `impulses`, N s, at the contacts from the nodes. Collective.
+    void take(const std::vector<dealii::Tensor<1, dim>> &impulses,
+              const MixtureNodes<dim> &nodes,
+              const MixtureStep<dim> &step,
+              StepBalance<dim> &balance);
+
+  private:
+    struct Contact
+    {
+      Phase phase;
+      unsigned int first; // of its nodes
+      const double *shapes;
+    };
+
+    struct Node
+    {
+      std::array<NodeRow, 2> values; // of soil and water: impulses, N s; then what they do, m/s
+      /// What an impulse of 1 N s does to soil and to water, and to the other phase, 1/kg; 0 at nodes of other ranks.
+      /// Where walls hold the node, these are left to DragPair.
+      double of_soil, of_water, of_other;
+      unsigned int node;
+    };
+
+    bool is_owned(const Node &node) const
+    {
+      return node.node < grid.n_owned_nodes();
+    }
+
+    /// A node's number in the list, to which it is added if it is not there.
+    unsigned int number_of(const unsigned int node)
+    {
+      unsigned int &number = numbers[node];
+      if (number == dealii::numbers::invalid_unsigned_int)
+        {
+          number = nodes.size();
+          nodes.push_back({ {}, 0., 0., 0., node });
+        }
+      return number;
+    }
+
+    /// Sums impulses at the nodes, owned ones hold the whole. Collective.
+    void sum(const std::vector<dealii::Tensor<1, dim>> &impulses);
+
+    /// The mean of the nodes' values over a contact's segment, with `n` nodes a cell and axis.
+    template <int n>
+    NodeRow mean(const Contact &contact) const;
+
+    /// Copies values of nodes to and from what is exchanged with other ranks.
+    void write_message(const Node &node);
+    void read_message(Node &node) const;
+
+    const BackgroundGrid<dim> &grid;
+    const OpenCells<dim> &open_cells;
+    const bool is_parallel;
+    NodeValues<dim, 2 * dim> messages;
+    std::vector<unsigned int> numbers; // by node
+    std::vector<Node> nodes;
+    std::vector<Contact> contacts;
+    std::vector<unsigned int> nodes_of_segments;              // a cell's nodes behind each other
+    std::vector<std::pair<unsigned int, DragPair<dim>>> held; // by walls, of this rank
+    unsigned int last_segment = dealii::numbers::invalid_unsigned_int;
+  };
+} // namespace scree
+
+#endif

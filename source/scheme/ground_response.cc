@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/ground_response.h>
+#include <scree/tensor/vector.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    bool has_mass(const MixtureNodes<dim> &nodes, const unsigned int node)
+    {
+      return nodes.soil[node][NodalField<dim>::mass] > 0. || nodes.water[node][NodalField<dim>::mass] > 0.;
+    }
+
+    template <int dim>
+    NodeRow to_row(const Tensor<1, dim> &vector)
+    {
+      NodeRow row{};
+      for (unsigned int c = 0; c < dim; ++c)
+        row[c] = vector[c];
+      return row;
+    }
+
+    template <int dim>
+    Tensor<1, dim> to_vector(const NodeRow &row)
+    {
+      Tensor<1, dim> vector;
+      for (unsigned int c = 0; c < dim; ++c)
+        vector[c] = row[c];
+      return vector;
+    }
+  } // namespace
+
+
+  template <int dim>
+  GroundResponse<dim>::GroundResponse(const BackgroundGrid<dim> &grid, const OpenCells<dim> &open_cells)
+      : grid(grid)
+      , open_cells(open_cells)
+      , is_parallel(Utilities::MPI::n_mpi_processes(grid.triangulation().get_communicator()) > 1)
+      , messages(grid.numbering())
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::reinit()
+  {
+    messages.reinit();
+    nodes.clear();
+    numbers.assign(grid.numbering().n_local(), numbers::invalid_unsigned_int);
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::clear()
+  {
+    for (const Node &node : nodes)
+      numbers[node.node] = numbers::invalid_unsigned_int;
+    nodes.clear();
+    contacts.clear();
+    nodes_of_segments.clear();
+    last_segment = numbers::invalid_unsigned_int;
+    if (!is_parallel)
+      return;
+    messages.clear();
+    for (const unsigned int node : messages.active_nodes()) // Other ranks' contacts may act on them.
+      number_of(node);
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::add(const unsigned int segment, const Phase phase)
+  {
+    const GroundSegment<dim> &of_ground = open_cells.segments()[segment];
+    const unsigned int n_nodes          = of_ground.shapes.size();
+    if (segment != last_segment)
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        nodes_of_segments.push_back(number_of(grid.nodes(of_ground.cell)[i]));
+    last_segment = segment;
+    contacts.push_back({ phase, unsigned(nodes_of_segments.size()) - n_nodes, of_ground.shapes.data() });
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::start(const MixtureNodes<dim> &of_mixture, const MixtureStep<dim> &step)
+  {
+    held.clear();
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      {
+        Node &node = nodes[k];
+        if (!is_owned(node))
+          continue;
+        const DragPair<dim> pair = step.pair_at(of_mixture, node.node);
+        if (pair.is_held())
+          {
+            held.emplace_back(k, pair);
+            node.of_soil = node.of_water = 1.; // keeps the impulses
+          }
+        else if (const double soil = pair.soil_mass, water = pair.water_mass, drag = pair.drag; soil > 0. && water > 0.)
+          {
+            const double determinant = soil * water + drag * (soil + water); // as DragPair::solve()
+            node.of_soil             = (water + drag) / determinant;
+            node.of_water            = (soil + drag) / determinant;
+            node.of_other            = drag / determinant;
+          }
+        else if (soil > 0.)
+          node.of_soil = 1. / (soil + drag);
+        else if (water > 0.)
+          node.of_water = 1. / (water + drag);
+      }
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::write_message(const Node &node)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        messages[node.node][c]       = node.values[0][c];
+        messages[node.node][dim + c] = node.values[1][c];
+      }
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::read_message(Node &node) const
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        node.values[0][c] = messages[node.node][c];
+        node.values[1][c] = messages[node.node][dim + c];
+      }
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::sum(const std::vector<Tensor<1, dim>> &impulses)
+  {
+    for (Node &node : nodes)
+      node.values = {};
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      {
+        const Contact &contact         = contacts[k];
+        const unsigned int *of_segment = &nodes_of_segments[contact.first];
+        const NodeRow impulse          = to_row(impulses[k]);
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          nodes[of_segment[i]].values[unsigned(contact.phase)] += contact.shapes[i] * impulse;
+      }
+    if (!is_parallel)
+      return;
+    messages.clear_ghosts();
+    for (const Node &node : nodes)
+      write_message(node);
+    messages.add_contributions();
+    for (Node &node : nodes)
+      if (is_owned(node))
+        read_message(node);
+  }
+
+
+  template <int dim>
+  template <int n>
+  NodeRow GroundResponse<dim>::mean(const Contact &contact) const
+  {
+    // Several sums, as each addition would wait for the one before.
+    const unsigned int *of_segment = &nodes_of_segments[contact.first];
+    NodeRow sums[n]                = {};
+    for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; i += n)
+      for (unsigned int j = 0; j < n; ++j)
+        sums[j] += contact.shapes[i + j] * nodes[of_segment[i + j]].values[unsigned(contact.phase)];
+    NodeRow result = sums[0];
+    for (unsigned int j = 1; j < n; ++j)
+      result += sums[j];
+    return result;
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::apply(const std::vector<Tensor<1, dim>> &impulses, std::vector<Tensor<1, dim>> &velocities)
+  {
+    sum(impulses);
+    for (Node &node : nodes)
+      {
+        const NodeRow soil = node.values[0], water = node.values[1];
+        node.values[0] = node.of_soil * soil + node.of_other * water;
+        node.values[1] = node.of_other * soil + node.of_water * water;
+      }
+    for (const auto &[number, pair] : held)
+      {
+        auto &values                     = nodes[number].values;
+        const SoilAndWater<dim> velocity = pair.solve({ to_vector<dim>(values[0]), to_vector<dim>(values[1]) });
+        values                           = { { to_row(velocity.soil), to_row(velocity.water) } };
+      }
+    if (is_parallel)
+      {
+        for (const Node &node : nodes)
+          if (is_owned(node))
+            write_message(node);
+        messages.update_ghosts();
+        for (Node &node : nodes)
+          if (!is_owned(node))
+            read_message(node);
+      }
+    velocities.resize(contacts.size());
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      velocities[k] = to_vector<dim>(grid.n_nodes_1d() == 2 ? mean<2>(contacts[k]) : mean<3>(contacts[k]));
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::take(const std::vector<Tensor<1, dim>> &impulses,
+                                 const MixtureNodes<dim> &of_mixture,
+                                 const MixtureStep<dim> &step,
+                                 StepBalance<dim> &balance)
+  {
+    sum(impulses);
+    for (const Node &node : nodes)
+      if (is_owned(node) && has_mass(of_mixture, node.node))
+        step.push(of_mixture, node.node, { -to_vector<dim>(node.values[0]), -to_vector<dim>(node.values[1]) }, balance);
+  }
+
+  template class GroundResponse<2>;
+  template class GroundResponse<3>;
+} // namespace scree
