@@ -100,9 +100,9 @@ namespace scree
     std::vector<unsigned int> numbers; // by node
     std::vector<Node> nodes;
     std::vector<Contact> contacts;
-    std::vector<unsigned int> nodes_of_segments;              // a cell's nodes behind each other
-    std::vector<std::pair<unsigned int, DragPair<dim>>> held; // by walls, of this rank
-    unsigned int last_segment = dealii::numbers::invalid_unsigned_int;
+    std::vector<unsigned int> nodes_of_segments;                       // a cell's nodes behind each other
+    std::vector<std::pair<unsigned int, DragPair<dim>>> held;          // by walls, of this rank
+    unsigned int last_segment = dealii::numbers::invalid_unsigned_int; // that has been added
   };
 } // namespace scree
 
