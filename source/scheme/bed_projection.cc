@@ -163,13 +163,11 @@ namespace scree
     double mobility = 0.;
     for (unsigned int i = 0; i < segment.shapes.size(); ++i)
       {
-        const unsigned int node = grid.nodes(segment.cell)[i];
-        const double soil = nodes.soil[node][Field<dim>::mass], water = nodes.water[node][Field<dim>::mass];
-        const double own = phase == Phase::soil ? soil : water, other = phase == Phase::soil ? water : soil;
-        const double drag = nodes.pores[node][PoreField<dim>::drag];
-        if (own > 0.)
-          mobility += segment.shapes[i] * segment.shapes[i] *
-                      (other > 0. ? (other + drag) / (own * other + drag * (own + other)) : 1. / own);
+        const unsigned int node    = grid.nodes(segment.cell)[i];
+        const DragMobility of_node = drag_mobility(nodes.soil[node][Field<dim>::mass],
+                                                   nodes.water[node][Field<dim>::mass],
+                                                   nodes.pores[node][PoreField<dim>::drag]);
+        mobility += segment.shapes[i] * segment.shapes[i] * (phase == Phase::soil ? of_node.soil : of_node.water);
       }
     return mobility;
   }

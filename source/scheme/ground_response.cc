@@ -99,19 +99,10 @@ namespace scree
         if (pair.is_held())
           {
             held.emplace_back(k, pair);
-            node.of_soil = node.of_water = 1.; // keeps the impulses
+            node.mobility = { 1., 1., 0. }; // keeps the impulses
           }
-        else if (const double soil = pair.soil_mass, water = pair.water_mass, drag = pair.drag; soil > 0. && water > 0.)
-          {
-            const double determinant = soil * water + drag * (soil + water); // as DragPair::solve()
-            node.of_soil             = (water + drag) / determinant;
-            node.of_water            = (soil + drag) / determinant;
-            node.of_other            = drag / determinant;
-          }
-        else if (soil > 0.)
-          node.of_soil = 1. / (soil + drag);
-        else if (water > 0.)
-          node.of_water = 1. / (water + drag);
+        else
+          node.mobility = drag_mobility(pair.soil_mass, pair.water_mass, pair.drag);
       }
   }
 
@@ -188,8 +179,8 @@ namespace scree
     for (Node &node : nodes)
       {
         const NodeRow soil = node.values[0], water = node.values[1];
-        node.values[0] = node.of_soil * soil + node.of_other * water;
-        node.values[1] = node.of_other * soil + node.of_water * water;
+        node.values[0] = node.mobility.soil * soil + node.mobility.other * water;
+        node.values[1] = node.mobility.other * soil + node.mobility.water * water;
       }
     for (const auto &[number, pair] : held)
       {

@@ -15,6 +15,23 @@ namespace scree
     dealii::Tensor<1, dim> soil, water;
   };
 
+  /// What an impulse of 1 N s on a phase does to it, and to the other phase, 1/kg.
+  struct DragMobility
+  {
+    double soil = 0., water = 0., other = 0.;
+  };
+
+  /// The same of two masses and their drag, kg, that no wall holds; the drag is 0 where a phase is absent.
+  inline DragMobility drag_mobility(const double soil_mass, const double water_mass, const double drag)
+  {
+    if (soil_mass > 0. && water_mass > 0.)
+      {
+        const double determinant = soil_mass * water_mass + drag * (soil_mass + water_mass);
+        return { (water_mass + drag) / determinant, (soil_mass + drag) / determinant, drag / determinant };
+      }
+    return { soil_mass > 0. ? 1. / soil_mass : 0., water_mass > 0. ? 1. / water_mass : 0., 0. };
+  }
+
   /// Soil and water at a node, tied by drag: [[m_s + C, -C], [-C, m_w + C]] v = r, where walls leave them free to move;
   /// a phase that is absent takes no part. What walls hold of the two phases is taken to be along or across each other.
   template <int dim>

@@ -59,9 +59,7 @@ namespace scree
     struct Node
     {
       std::array<NodeRow, 2> values; // of soil and water: impulses, N s; then what they do, m/s
-      /// What an impulse of 1 N s does to soil and to water, and to the other phase, 1/kg; 0 at nodes of other ranks.
-      /// Where walls hold the node, these are left to DragPair.
-      double of_soil, of_water, of_other;
+      DragMobility mobility;         // 0 at nodes of other ranks; where walls hold the node, DragPair finds the motion
       unsigned int node;
     };
 
@@ -77,7 +75,7 @@ namespace scree
       if (number == dealii::numbers::invalid_unsigned_int)
         {
           number = nodes.size();
-          nodes.push_back({ {}, 0., 0., 0., node });
+          nodes.push_back({ {}, {}, node });
         }
       return number;
     }
