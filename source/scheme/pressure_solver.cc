@@ -33,7 +33,10 @@ namespace scree
     TrilinosWrappers::SparseMatrix matrix; // The others refer to it.
     TrilinosWrappers::PreconditionAMG multigrid;
     TrilinosWrappers::PreconditionBlockwiseDirect blocks;
-    TrilinosWrappers::PreconditionBase *chosen = nullptr;
+    TrilinosWrappers::PreconditionBase *chosen = nullptr; // null: there was no unknown
+
+    std::vector<unsigned int> unknowns; // owned numbers of the rows
+    CornerVector source, result;        // by row
 
     void choose();
     void make_multigrid(const unsigned int most_on_coarsest);
@@ -218,8 +221,15 @@ namespace scree
         take(corner);
     for_corners_of_cells(take);
 
-    for (CornerVector *vector :
-         { &source, &solution, &scratch, &remainder, &preconditioned, &product, &direction, &direction_product })
+    for (CornerVector *vector : { &source,
+                                  &solution,
+                                  &scratch,
+                                  &whole_diagonal,
+                                  &remainder,
+                                  &preconditioned,
+                                  &product,
+                                  &direction,
+                                  &direction_product })
       vector->reinit(partitioner);
     is_worn = true;
   }
@@ -247,6 +257,7 @@ namespace scree
     bool is_anchored         = false; // something beside differences of pressure matters
     double largest_mobility  = 0;
     scratch                  = 0.;
+    whole_diagonal           = 0.;
     cells.clear();
     for (const MixtureCell<dim> &mixed : mixture.cells())
       if (mixed.water_volume > 0)
@@ -265,6 +276,7 @@ namespace scree
               if (surface.kind(all[v]) != CornerKind::unknown)
                 continue;
               is_unknown[cell.numbers[v]] = true;
+              whole_diagonal.local_element(cell.numbers[v]) += own[v][v];
               // A corner beside the surface follows the unknown one; this keeps the matrix symmetric.
               for (unsigned int w = 0; w < n_corners; ++w)
                 if (surface.kind(all[w]) == CornerKind::surface)
@@ -272,12 +284,15 @@ namespace scree
             }
         }
     scratch.compress(VectorOperation::add);
+    whole_diagonal.compress(VectorOperation::add);
     for (unsigned int i = 0; i < diagonal.size(); ++i)
-      diagonal[i] += scratch.local_element(i);
+      {
+        diagonal[i] += scratch.local_element(i);
+        whole_diagonal.local_element(i) += diagonal[i];
+      }
     const std::vector<double> own{ largest_mobility, double(is_anchored) };
     std::vector<double> all_ranks(2);
     Utilities::MPI::max(own, grid.triangulation().get_communicator(), all_ranks);
-    unit = all_ranks[0] > 0. ? all_ranks[0] * n_corners * laplacian[0][0] : 1.;
     AssertThrow(all_ranks[0] == 0. || all_ranks[1] == 1.,
                 ExcMessage("Water fills the box, and all its walls are closed: nothing sets the level of its pressure. "
                            "Remedies: a drained wall in subsection Boundaries/Water, a 'Bulk modulus' in subsection "
@@ -321,7 +336,7 @@ namespace scree
     target.compress(VectorOperation::add);
     source.zero_out_ghost_values();
     for (unsigned int i = 0; i < solver.diagonal.size(); ++i)
-      target.local_element(i) += (solver.is_unknown[i] ? solver.diagonal[i] : solver.unit) * source.local_element(i);
+      target.local_element(i) += solver.diagonal[i] * source.local_element(i);
   }
 
 
@@ -329,42 +344,51 @@ namespace scree
   void PressureSolver<dim>::make_preconditioner()
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const IndexSet owned        = partitioner->locally_owned_range();
-    TrilinosWrappers::SparsityPattern pattern(owned, communicator, Utilities::pow(3, dim));
-    for (const auto i : owned)
-      pattern.add(i, i);
-    std::array<types::global_dof_index, n_corners> global;
-    const auto globalise = [&](const Cell &cell) {
+    preconditioner              = std::make_unique<Preconditioner>();
+    auto &unknowns              = preconditioner->unknowns;
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      if (is_unknown[i])
+        unknowns.push_back(i);
+    const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
+        communicator, unknowns.size())[Utilities::MPI::this_mpi_process(communicator)];
+    if (owned.size() == 0)
+      return;                       // all corners are held for now
+    CornerVector rows(partitioner); // of the matrix, by number; doubles hold them exactly
+    for (unsigned int k = 0; k < unknowns.size(); ++k)
+      rows.local_element(unknowns[k]) = owned.nth_index_in_set(k);
+    rows.update_ghost_values();
+
+    // Calls visit(v, row of v) for the unknown corners of a cell.
+    const auto for_unknowns = [&](const Cell &cell, const auto &visit) {
       for (unsigned int v = 0; v < n_corners; ++v)
-        global[v] = partitioner->local_to_global(cell.numbers[v]);
+        if (is_unknown[cell.numbers[v]])
+          visit(v, types::global_dof_index(rows.local_element(cell.numbers[v])));
     };
+    TrilinosWrappers::SparsityPattern pattern(owned, communicator, Utilities::pow(3, dim));
+    for (const auto row : owned)
+      pattern.add(row, row);
     for (const Cell &cell : cells)
-      {
-        globalise(cell);
-        for (unsigned int v = 0; v < n_corners; ++v)
-          pattern.add_entries(global[v], global.begin(), global.end());
-      }
+      for_unknowns(cell, [&](const unsigned int, const auto row) {
+        for_unknowns(cell, [&](const unsigned int, const auto column) { pattern.add(row, column); });
+      });
     pattern.compress();
 
-    preconditioner      = std::make_unique<Preconditioner>();
     auto &matrix_of_all = preconditioner->matrix;
     matrix_of_all.reinit(pattern);
     for (const Cell &cell : cells)
       {
-        globalise(cell);
         const CellMatrix own = matrix(cell);
-        for (unsigned int v = 0; v < n_corners; ++v)
-          for (unsigned int w = 0; w < n_corners; ++w)
-            if (is_unknown[cell.numbers[v]] && is_unknown[cell.numbers[w]])
-              matrix_of_all.add(global[v], global[w], own[v][w]);
+        for_unknowns(cell, [&](const unsigned int v, const auto row) {
+          for_unknowns(cell,
+                       [&](const unsigned int w, const auto column) { matrix_of_all.add(row, column, own[v][w]); });
+        });
       }
-    for (unsigned int i = 0; i < diagonal.size(); ++i)
-      {
-        const auto row = partitioner->local_to_global(i);
-        matrix_of_all.add(row, row, is_unknown[i] ? diagonal[i] : unit);
-      }
+    for (unsigned int k = 0; k < unknowns.size(); ++k)
+      matrix_of_all.add(owned.nth_index_in_set(k), owned.nth_index_in_set(k), diagonal[unknowns[k]]);
     matrix_of_all.compress(VectorOperation::add);
 
+    preconditioner->source.reinit(owned, communicator);
+    preconditioner->result.reinit(owned, communicator);
     preconditioner->choose();
   }
 
@@ -376,6 +400,23 @@ namespace scree
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       if (is_unknown[i])
         to.local_element(i) = from.local_element(corner_of_number[i]);
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::precondition()
+  {
+    const auto &unknowns = preconditioner->unknowns;
+    for (unsigned int k = 0; k < unknowns.size(); ++k)
+      preconditioner->source.local_element(k) = is_unknown[unknowns[k]] ? remainder.local_element(unknowns[k]) : 0.;
+    if (preconditioner->chosen != nullptr)
+      preconditioner->chosen->vmult(preconditioner->result, preconditioner->source);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      preconditioned.local_element(i) =
+          is_unknown[i] ? remainder.local_element(i) / whole_diagonal.local_element(i) : 0.;
+    for (unsigned int k = 0; k < unknowns.size(); ++k)
+      if (is_unknown[unknowns[k]])
+        preconditioned.local_element(unknowns[k]) = preconditioner->result.local_element(k);
   }
 
 
@@ -392,7 +433,7 @@ namespace scree
     double last_projection = 1., last_length = 1.;
     while (result.residual > tolerance && result.n < most)
       {
-        preconditioner->chosen->vmult(preconditioned, remainder);
+        precondition();
         system.vmult(product, preconditioned);
         const double *r = remainder.begin(), *z = preconditioned.begin(), *w = product.begin();
         const double *s = direction_product.begin();

@@ -104,6 +104,10 @@ namespace scree
       double residual; ///< m^3/s
     };
 
+    /// Sets `preconditioned` to what the preconditioner makes of `remainder`: corners that have become unknown since it
+    /// was made get that over their own diagonal, the others that are not unknown 0.
+    void precondition();
+
     /// At most this many steps of conjugate gradients on `solution`, until the residual is below the tolerance. The
     /// sums over all ranks are taken together, once a step (Chronopoulos & Gear 1989); they also tell the residual at
     /// the step's end.
@@ -129,14 +133,14 @@ namespace scree
     std::vector<Cell> cells;
     std::vector<char> is_unknown; // by number
     std::vector<double> diagonal; // what surface corners and storage add, by owned number
-    double unit = 1.;             // diagonal of the other numbers, m^3/(Pa s): of the size of the unknowns', for a
-                                  // preconditioner that is kept while corners turn from one to the other
     CornerVector source, solution, scratch;
+    CornerVector whole_diagonal; // of the owned unknown numbers, m^3/(Pa s)
     // Of iterate(): what is left of the source, that preconditioned, that times L; the step's direction, that times L.
     CornerVector remainder, preconditioned, product, direction, direction_product;
     double tolerance = 0; // of the last solve's residual, m^3/s
 
-    struct Preconditioner; // Multigrid, or of small systems on few ranks a direct solver of each rank's block
+    struct Preconditioner; // of the corners that were unknown: multigrid, or of small systems on few ranks a direct
+                           // solver of each rank's block
     std::unique_ptr<Preconditioner> preconditioner;
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
     unsigned int iterations_when_new = 0, surplus_iterations = 0;
