@@ -3,9 +3,13 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
 
 namespace scree
 {
@@ -50,6 +54,44 @@ namespace scree
     }
 
 
+    /// Seeds that fill less of a cube are slivers.
+    constexpr double least_filled = 0.25;
+
+
+    /// Gives the seed the volume and moves it to the common centroid.
+    template <int dim>
+    void take_in(Seed<dim> &seed, const Point<dim> &location, const double volume)
+    {
+      seed.volume += volume;
+      seed.location += volume / seed.volume * (location - seed.location);
+    }
+
+
+    /// A sliver and the seed of another cell that it joins.
+    template <int dim>
+    struct Joining
+    {
+      Point<dim> target;   ///< where that seed stands, m
+      Point<dim> location; ///< of the sliver, m
+      double volume;       ///< m^3
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &target &location &volume;
+      }
+    };
+
+
+    template <int dim, typename Visit>
+    void for_face_neighbours(const typename Triangulation<dim>::active_cell_iterator &cell, const Visit &visit)
+    {
+      for (const unsigned int face : cell->face_indices())
+        if (!cell->at_boundary(face) && cell->neighbor(face)->is_active())
+          visit(cell->neighbor(face));
+    }
+
+
     /// Appends the seeds of one cell.
     template <int dim>
     void add_seeds_of_cell(const typename Triangulation<dim>::active_cell_iterator &cell,
@@ -61,6 +103,7 @@ namespace scree
       const unsigned int n    = lattice.n;
       const double width      = cell_size / n;
       const std::size_t first = seeds.size();
+      const double cube       = Utilities::fixed_power<dim>(width);
       std::vector<Seed<dim>> slivers;
       for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
         {
@@ -69,8 +112,8 @@ namespace scree
             corner[a] += width * (rest % n);
           const CubePart<dim> part = part_of_cube(corner, width);
           if (part.volume > 0)
-            (part.filled < 0.25 * Utilities::fixed_power<dim>(width) ? slivers : seeds)
-                .push_back({ cell, part.location, part.volume });
+            (part.filled < least_filled * cube ? slivers : seeds)
+                .push_back({ cell, part.location, part.volume, part.filled / cube, part.stays });
         }
       for (const Seed<dim> &sliver : slivers)
         {
@@ -82,9 +125,9 @@ namespace scree
               seeds.push_back(sliver);
               continue;
             }
-          const double sum = nearest->volume + sliver.volume;
-          nearest->location += sliver.volume / sum * (sliver.location - nearest->location);
-          nearest->volume = sum;
+          nearest->filled += sliver.filled;
+          nearest->stays |= sliver.stays;
+          take_in(*nearest, sliver.location, sliver.volume);
         }
       if (lattice.jitter > 0)
         jitter_seeds<dim>(seeds.begin() + first, seeds.end(), cell_size, lattice);
@@ -103,6 +146,92 @@ namespace scree
       if (cell->is_locally_owned() && holds_nodes(cell))
         add_seeds_of_cell(cell, cell_size, lattice, part_of_cube, seeds);
     return seeds;
+  }
+
+
+  template <int dim>
+  void join_slivers(const Triangulation<dim> &triangulation, const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
+  {
+    using Cell   = typename Triangulation<dim>::active_cell_iterator;
+    using Places = std::vector<Point<dim>>;
+
+    // The seeds stand in the order of the cells.
+    const auto first_of = [&](const unsigned int cell) {
+      return std::partition_point(
+          seeds.begin(), seeds.end(), [&](const Seed<dim> &seed) { return seed.cell->active_cell_index() < cell; });
+    };
+    const auto full_places = [&](const Cell &cell) {
+      Places places;
+      const auto end = first_of(cell->active_cell_index() + 1);
+      for (auto seed = first_of(cell->active_cell_index()); seed != end; ++seed)
+        if (seed->filled >= least_filled)
+          places.push_back(seed->location);
+      return places;
+    };
+    std::map<unsigned int, Places> places_of_ghosts; // by active cell
+    GridTools::exchange_cell_data_to_ghosts<Places, Triangulation<dim>>(
+        triangulation,
+        [&](const Cell &cell) { return std_cxx17::optional<Places>(full_places(cell)); },
+        [&](const Cell &cell, const Places &places) { places_of_ghosts[cell->active_cell_index()] = places; });
+
+    std::map<Cell, Joining<dim>> joinings; // by the sliver's cell
+    const auto is_beside_ground = [&](const Seed<dim> &seed) {
+      const double reach = seed.cell->diameter();
+      return ground != nullptr && ground->view(seed.location, reach).distance < reach;
+    };
+    for (Seed<dim> &seed : seeds)
+      if (seed.filled < least_filled && !seed.stays && !is_beside_ground(seed))
+        {
+          Joining<dim> joining{ Point<dim>(), seed.location, seed.volume };
+          double nearest = std::numeric_limits<double>::max(); // square of the distance, m^2
+          for_face_neighbours<dim>(seed.cell, [&](const Cell &neighbour) {
+            for (const Point<dim> &place : neighbour->is_locally_owned()
+                                               ? full_places(neighbour)
+                                               : places_of_ghosts[neighbour->active_cell_index()])
+              if (const double square = place.distance_square(seed.location); square < nearest)
+                {
+                  nearest        = square;
+                  joining.target = place;
+                }
+          });
+          if (nearest < std::numeric_limits<double>::max())
+            {
+              joinings[seed.cell] = joining;
+              seed.volume         = 0;
+            }
+        }
+    GridTools::exchange_cell_data_to_ghosts<Joining<dim>, Triangulation<dim>>(
+        triangulation,
+        [&](const Cell &cell) {
+          const auto joining = joinings.find(cell);
+          return joining == joinings.end() ? std_cxx17::optional<Joining<dim>>() : joining->second;
+        },
+        [&](const Cell &cell, const Joining<dim> &joining) { joinings[cell] = joining; });
+
+    std::vector<std::pair<Joining<dim>, Seed<dim> *>> due; // with the seed that each joins
+    for (const auto &[cell, joining] : joinings)
+      for_face_neighbours<dim>(cell, [&, &joining = joining](const Cell &neighbour) {
+        for (auto seed = first_of(neighbour->active_cell_index()); seed != seeds.end() && seed->cell == neighbour;
+             ++seed)
+          if (seed->location == joining.target)
+            due.emplace_back(joining, &*seed);
+      });
+    std::sort(due.begin(), due.end(), [](const auto &a, const auto &b) { // the same on any number of ranks
+      return std::lexicographical_compare(a.first.location.begin_raw(),
+                                          a.first.location.end_raw(),
+                                          b.first.location.begin_raw(),
+                                          b.first.location.end_raw());
+    });
+    for (const auto &[joining, seed] : due)
+      {
+        const Point<dim> before = seed->location, lower = seed->cell->vertex(0);
+        const Point<dim> upper = seed->cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1);
+        take_in(*seed, joining.location, joining.volume);
+        for (unsigned int a = 0; a < dim; ++a)
+          seed->location[a] = std::clamp(seed->location[a], (before[a] + lower[a]) / 2, (before[a] + upper[a]) / 2);
+      }
+    seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [](const Seed<dim> &seed) { return seed.volume == 0; }),
+                seeds.end());
   }
 
 
@@ -136,6 +265,8 @@ namespace scree
   lattice_seeds(const Triangulation<2> &, const double, const Lattice &, const PartOfCube<2> &);
   template std::vector<Seed<3>>
   lattice_seeds(const Triangulation<3> &, const double, const Lattice &, const PartOfCube<3> &);
+  template void join_slivers(const Triangulation<2> &, const LevelSet<2> *, std::vector<Seed<2>> &);
+  template void join_slivers(const Triangulation<3> &, const LevelSet<3> *, std::vector<Seed<3>> &);
   template void
   insert_points(PointSet<2> &, const std::vector<Seed<2>> &, const double, const MPI_Comm, const FillProperties<2> &);
   template void

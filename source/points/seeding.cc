@@ -150,6 +150,7 @@ namespace scree
                                  });
       require_velocities(velocity.get(), seeds);
     });
+    join_slivers(triangulation, ground, seeds);
     double volume = 0;
     for (const Seed<dim> &one : seeds)
       volume += one.volume;

@@ -68,6 +68,7 @@ namespace scree
             const auto [volume, centroid] = regions[i].part_of_cube(lower, width, ground);
             filled[i] += volume;
             sum.filled += volume;
+            sum.stays |= volume > 0 && parts[i].soil == nullptr;
             sum.volume += parts[i].porosity * volume;
             moment += parts[i].porosity * volume * (centroid - lower);
           }
@@ -82,6 +83,7 @@ namespace scree
             triangulation, cell_size, { parameters.points_per_cell, parameters.jitter, 1 }, part_of_cube);
         require_velocities(velocity.get(), seeds);
       });
+      join_slivers(triangulation, ground, seeds);
 
       Utilities::MPI::sum(filled, communicator, filled);
       require_entry(parameters.is_fed ||

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Seeding: a body has the mass of its region, within 0.1 % where its surface is oblique to the lattice and exactly
-// where it is not; all points lie where their cell says; 1 and 2 ranks make the same points.
+// where it is not; no point has less than a quarter of a cube's volume; all points lie where their cell says; 1 and 2
+// ranks make the same points.
 
 #include <scree/grid/background_grid.h>
 #include <scree/material/table.h>
@@ -56,8 +57,9 @@ void test(const std::string &name,
                          grid.mapping());
       seed(soil, seeding, grid.triangulation(), grid.cell_size());
 
-      double mass    = 0;
-      unsigned int n = 0;
+      double mass       = 0;
+      unsigned int n    = 0;
+      const double cube = std::pow(grid.cell_size() / points_per_cell, dim); // m^3
       for_each_point(soil.points, [&](const auto &point) {
         ++n;
         const double *properties = point.properties;
@@ -65,6 +67,7 @@ void test(const std::string &name,
         AssertThrow(properties[soil.layout.volume] > 0 &&
                         std::abs(properties[soil.layout.mass] / properties[soil.layout.volume] / density - 1.) < 1e-14,
                     ExcMessage("A point's mass is not its volume times the density."));
+        AssertThrow(properties[soil.layout.volume] > 0.2499 * cube, ExcMessage("A sliver stands by itself."));
         for (unsigned int a = 0; a < dim; ++a)
           AssertThrow(point.reference_location[a] >= 0. && point.reference_location[a] <= 1. &&
                           point.location[a] > 0. && point.location[a] < upper_corner[a],

@@ -278,7 +278,9 @@ double test(const std::string &basis,
   else
     one_by_one = std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(material.linear_elastic));
   SeedingParameters seeding;
-  seeding.region          = "x + 0.7 * y < 0.55";
+  seeding.region = "x + 0.7 * y < 0.55";
+  if (dim == 3) // and a point in a cell by itself
+    seeding.region += " || max(max(abs(x - 0.4167), abs(y - 0.4167)), abs(z - 0.4167)) < 0.0166";
   seeding.points_per_cell = 3;
   SoilBody<dim> body(
       "Soil",

@@ -2,6 +2,7 @@
 #ifndef scree_points_lattice_h
 #define scree_points_lattice_h
 
+#include <scree/geometry/level_set.h>
 #include <scree/points/point_set.h>
 
 #include <deal.II/base/function.h>
@@ -20,6 +21,7 @@ namespace scree
     double filled;               ///< part of the cube that its region covers, m^3 (2D: m^2)
     double volume;               ///< of the material itself there: less than `filled` in pores
     dealii::Point<dim> location; ///< centroid of the volume, m
+    bool stays = false;          ///< in its cell, however little it is: free water bears pressure there
   };
 
   /// A point to be.
@@ -29,6 +31,8 @@ namespace scree
     typename dealii::Triangulation<dim>::active_cell_iterator cell;
     dealii::Point<dim> location; ///< m
     double volume;               ///< m^3 (2D: per m)
+    double filled = 1.;          ///< part of a cube of the lattice that its region covers, of several the sum
+    bool stays    = false;       ///< see CubePart
   };
 
   /// The lattice of a set of points.
@@ -52,6 +56,16 @@ namespace scree
                                        const double cell_size,
                                        const Lattice &lattice,
                                        const PartOfCube<dim> &part_of_cube);
+
+  /// Seeds that fill less than a quarter of a cube, alone in their cells, join the nearest fuller one of the cells that
+  /// share a face with theirs, if there is one; that moves towards the common centroid, at most half of its way to a face
+  /// of its cell. Those that need not stay and are not beside the ground, which has to feel them. The same on any number
+  /// of ranks. Collective.
+  /// @param ground null: none
+  template <int dim>
+  void join_slivers(const dealii::Triangulation<dim> &triangulation,
+                    const LevelSet<dim> *ground,
+                    std::vector<Seed<dim>> &seeds);
 
   /// Throws ValueError if the velocity of a seed is no number.
   /// @param velocity null: at rest
