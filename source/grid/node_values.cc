@@ -87,11 +87,12 @@ namespace scree
   template class NodeValues<3, 2>;
   template class NodeValues<2, 3>; // surroundings of a corner beside the water's surface
   template class NodeValues<3, 3>;
-  template class NodeValues<2, 4>; // fill of the corners; pressure forces on soil and water
+  template class NodeValues<2, 4>; // pressure forces on soil and water
   template class NodeValues<3, 4>;
-  template class NodeValues<3, 6>;
-  template class NodeValues<2, 5>; // NodalField in 2D; pores
+  template class NodeValues<2, 5>; // NodalField in 2D; fill of the corners
   template class NodeValues<3, 5>;
+  template class NodeValues<2, 6>; // pores
+  template class NodeValues<3, 6>;
   template class NodeValues<3, 7>;
   template class NodeValues<2, 8>; // normals to choose from, between bodies
   template class NodeValues<3, 11>;

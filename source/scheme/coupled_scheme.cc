@@ -111,12 +111,14 @@ namespace scree
         const unsigned int n      = grid.n_nodes_1d();
         const NodeRow *moments    = mixture.grain_moments(record);
         const double inertial     = cell.inertial / cell.grain_volume;
+        const double wet_pores    = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
           {
             const double grains = moments[(i / n) * Mixture<dim>::n_moments][i % n];
             double *pore        = pores[nodes[i]];
             pore[PoreField<dim>::grain_volume] += cell.effective_saturation * grains;
             pore[PoreField<dim>::inertial_drag] += inertial * grains;
+            pore[PoreField<dim>::wet_pores] += wet_pores * grains;
           }
       }
   }

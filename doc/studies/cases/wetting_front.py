@@ -13,7 +13,7 @@ import functools
 import numpy as np
 
 from charts import StabilityMap
-from measures import cause, classify, roughness
+from measures import BOUNDS, cause, classify, roughness
 from study import Claim, Study, axis, product
 
 POND, DEPTH, POROSITY, TOP = 0.2, 0.3, 0.4, 0.5  # m, m, -, m: the pond's height, the front at the end, the soil's surface
@@ -123,6 +123,9 @@ def verdict(rows):
     def gain(chosen):
         return 100 * sum(row["gain"] for row in chosen) / len(chosen)
 
+    def most(chosen):
+        return 100 * max(row["gain"] for row in chosen)
+
     def off(name):
         return max(abs(row[name] - 1) for row in of("4 x 4"))
     ended = [row for row in rows if row["ended"]]
@@ -135,21 +138,19 @@ def verdict(rows):
     return [
         Claim(f"With 4 x 4 points a cell the water's fall is off from the reference's by up to {max(map(max, errors.values())):.1%}: "
               + ", ".join(f"{max(error):.1%} at h = {h:g} m" for h, error in reversed(errors.items()))
-              + f"; from that in rigid soil by up to {off('fall/rigid'):.1%}, from Green & Ampt's by up to {off('fall/Green & Ampt'):.1%}.", max(errors[fine]) < 0.1),
+              + f"; from that in rigid soil by up to {off('fall/rigid'):.1%}, from Green & Ampt's by up to {off('fall/Green & Ampt'):.1%}.", max(errors[fine]) < 0.03),
         Claim("At the end the reference's fall is " + ", ".join(f"{elastic_front(k)[1] / fall_of(DEPTH):.4f}" for k in conductivities) + " times Green & Ampt's at k = "
               + ", ".join(f"{k:g}" for k in conductivities) + " m/s; in rigid soil " + ", ".join(f"{fall_of(rigid_front(k)) / fall_of(DEPTH):.4f}" for k in conductivities)
               + f" times (inertia alone; {abs(fall_of(rigid_front(1e-3, 200000)) / fall_of(DEPTH) - 1):.1g} is left of it at k = 1e-3 m/s). In sand a hundred times as stiff it is within "
               f"{abs(elastic_front(max(conductivities), 100 * MODULUS)[1] / fall_of(rigid_front(max(conductivities))) - 1):.2%} of that in rigid soil.",
               abs(fall_of(rigid_front(1e-3, 200000)) / fall_of(DEPTH) - 1) < 1e-5
               and abs(elastic_front(max(conductivities), 100 * MODULUS)[1] / fall_of(rigid_front(max(conductivities))) - 1) < 1e-3),
-        Claim(f"The front is not sharp: at h = {fine:g} m its tip (99 % of the water is above it) is at {min(fronts):.2f} to {max(fronts):.2f} of the sharp "
-              "front's depth. In cells that begin to fill the mixture's porosity is that of the few points of water there, so that they move too fast, and leave pores behind them that stay partly empty.",
-              1 < max(fronts) < 1.3),
-        Claim(f"Energy comes from nothing where water enters dry soil: {gain(of('2 x 2')):.2g} % of what its fall releases with 2 x 2 points a cell, "
-              f"{gain(alike):.2g} % with 4 x 4, {gain(of('4 x 4, flux')):.2g} % with Divergence = flux (means). By default p does work on the moving surface, as its gradient is not the "
-              "adjoint of the divergence, which is not integrated by parts; some of the gain remains with flux, which holds free water back: the fall is then off by up to "
+        Claim(f"At h = {fine:g} m the front's tip (99 % of the water is above it) is at {min(fronts):.2f} to {max(fronts):.2f} of the sharp front's depth.",
+              0.95 < min(fronts) and max(fronts) < 1.05),
+        Claim(f"Energy comes from nothing where water enters dry soil: {gain(of('2 x 2')):.2g} % of what its fall releases with 2 x 2 points a cell (up to {most(of('2 x 2')):.2g} %), "
+              f"{gain(alike):.2g} % with 4 x 4 (up to {most(of('4 x 4')):.2g} %), {gain(of('4 x 4, flux')):.2g} % with Divergence = flux (means), which holds free water back: the fall is then off by up to "
               f"{max(abs(row['fall/exact'] - 1) for row in of('4 x 4, flux')):.0%}, against {max(abs(row['fall/exact'] - 1) for row in alike):.0%}.",
-              gain(of("4 x 4, flux")) < gain(alike) < gain(of("2 x 2"))),
+              gain(alike) < gain(of("2 x 2")) and most(of("4 x 4")) < 100 * BOUNDS["gain"]),
         Claim(f"{len(ended)} of {len(rows)} runs come to their end.", len(ended) == len(rows)),
         Claim(f"At h = {coarse:g} m two points a cell and axis are off by up to {max(few):.0%}, four by {max(errors[coarse]):.0%}.", max(few) > max(errors[coarse])),
     ]

@@ -7,10 +7,13 @@
 
 namespace scree
 {
-  /// Velocity of a cell's nodes as points of water take it: v_s + (n_i/n_p) (v_w - v_s), n_p the porosity about the
+  /// Velocity of a cell's nodes as points of water take it: v_g + (n_i/n_p) (v_w - v_g), n_p the porosity about the
   /// point, 1/n_i the mean of 1/n_p over the water of a node. A flux U that does not change where soil begins moves the
   /// points by U/n_p on either side, instead of by the mean over the node's surroundings; and since
-  /// sum m_p phi_i n_i/n_p is the node's mass, their momentum is that of the nodes, whatever n_p is.
+  /// sum m_p phi_i n_i/n_p is the node's mass, their momentum is that of the nodes, whatever n_p and v_g are.
+  ///
+  /// v_g = v_w + s_i (v_s - v_w) is the velocity of the grains that the water passes, s_i of soil_share(): the soil's,
+  /// but where the node has next to nothing of the grains that n_p tells of.
   template <int dim, int n>
   class PoreVelocity
   {
@@ -33,8 +36,8 @@ namespace scree
                  const MixtureNodes<dim> &nodes,
                  const double water_density,
                  const double width)
-        : soil(ids, nodes.soil, width)
-        , flux(water.weighted_difference(porosities(ids, nodes, water_density), soil))
+        : grains(water.moved(shares(ids, nodes.pores), CellVelocity<dim, n>(ids, nodes.soil, width)))
+        , flux(water.weighted_difference(porosities(ids, nodes, water_density), grains))
     {
     }
 
@@ -42,7 +45,7 @@ namespace scree
     template <TransferMethod method>
     NodesAtPoints<dim> at(const BatchShape<dim, n> &shape, const Batch &inverse_porosity) const
     {
-      NodesAtPoints<dim> result = soil.template at<method, false>(shape);
+      NodesAtPoints<dim> result = grains.template at<method, false>(shape);
       result.template add<method>(inverse_porosity, flux.template at<method, false>(shape));
       return result;
     }
@@ -64,8 +67,17 @@ namespace scree
       return result;
     }
 
-    const CellVelocity<dim, n> soil; // v_s
-    const CellVelocity<dim, n> flux; // n_i (v_w - v_s)
+    /// s_i
+    static std::array<double, n_nodes> shares(const unsigned int *ids, const PoreField<dim> &pores)
+    {
+      std::array<double, n_nodes> result;
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        result[i] = pores[ids[i]][PoreField<dim>::soil_share];
+      return result;
+    }
+
+    const CellVelocity<dim, n> grains; // v_g
+    const CellVelocity<dim, n> flux;   // n_i (v_w - v_g)
   };
 } // namespace scree
 

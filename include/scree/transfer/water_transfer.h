@@ -7,13 +7,14 @@
 #include <scree/transfer/mixture.h>
 #include <scree/transfer/transfer.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
   template <int dim>
-  class PoreField : public NodeValues<dim, 5>
+  class PoreField : public NodeValues<dim, 6>
   {
   public:
     static constexpr unsigned int pore_volume    = 0; ///< sum n V phi_i of the soil, m^3
@@ -25,11 +26,25 @@ namespace scree
     /// sum V_w (1/n_p - 1) phi_i, n_p the porosity about a point of water, m^3
     static constexpr unsigned int grains_about_water = 3;
 
+    static constexpr unsigned int wet_pores  = 5; ///< sum S n V phi_i of the soil in cells with water, m^3
+    static constexpr unsigned int soil_share = 5; ///< then: soil_share(), -
+
     explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 5>(grid.numbering())
+        : NodeValues<dim, 6>(grid.numbering())
     {
     }
   };
+
+  /// Share of the soil's velocity in that of the grains that water passes at a node (PoreVelocity), -: 1, but where the
+  /// node has less than a quarter of the grains that are about its water, more than crowded water explains. Points that
+  /// have just entered a cell tell the water of their part of it, and not the nodes beyond; there a stress moves soil
+  /// of next to no mass at any speed.
+  ///
+  /// @param grains of the node, as PoreField has them, m^3
+  inline double soil_share(const double grains, const double grains_about_water)
+  {
+    return grains_about_water > 0. ? std::min(1., 4. * grains / grains_about_water) : 1.;
+  }
 
   /// Soil, water and pores at the nodes of the velocity, of one step.
   template <int dim>
