@@ -174,19 +174,16 @@ namespace scree
       report();
     const double updates_before = point_updates;
     const double first_step     = stable_step();
-    while (!output_times.is_end(clock.time()) && stop_reason == StopReason::none)
+    while (!is_at_end() && stop_reason == StopReason::none)
       {
         const double largest_step = stable_step();
         check_step(largest_step, first_step);
         progress.count(clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points));
-        const double due = output_times.next(largest_step);
-        last_time_step   = clock.next_step(largest_step, due);
-        advance(last_time_step);
-        clock.advance(last_time_step, due);
+        step(output_times.next(largest_step));
         report();
         progress.report(clock.time(), clock.step(), last_time_step);
       }
-    const End end = output_times.is_end(clock.time()) ? End::complete : End::stopped;
+    const End end = is_at_end() ? End::complete : End::stopped;
     if (end == End::stopped)
       write_last();
     summarise(progress, updates_before);
@@ -250,6 +247,16 @@ namespace scree
     if (folder.is_writer() && !rows.is_complete())
       rows.append(""); // throws if the disk still refuses them
     probes.complete();
+  }
+
+
+  template <int dim>
+  double Simulation<dim>::step(const double due)
+  {
+    last_time_step = clock.next_step(stable_step(), due);
+    advance(last_time_step);
+    clock.advance(last_time_step, due);
+    return last_time_step;
   }
 
 
@@ -366,10 +373,18 @@ namespace scree
 
 
   template <int dim>
-  double Simulation<dim>::stable_step() const
+  Speeds Simulation<dim>::limiting_speeds() const
   {
     Speeds all = speeds;
     scene.include_obstacles(all, clock.time());
+    return all;
+  }
+
+
+  template <int dim>
+  double Simulation<dim>::stable_step() const
+  {
+    const Speeds all = limiting_speeds();
     return clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
   }
 

@@ -44,8 +44,12 @@ namespace scree
     /// unless the soil was still settling.
     End run();
 
-    /// One step of `time_step` s.
+    /// Moves all by `time_step` s.
     void advance(const double time_step);
+
+    /// One step of the run, as long as the points allow, and to the time `due`, s, at most.
+    /// @return its length, s
+    double step(const double due);
 
     /// Output of the state as it is. Collective.
     void write_row();
@@ -64,8 +68,8 @@ namespace scree
       return scene.grid;
     }
 
-    /// Largest step, s, of the points as they are.
-    double stable_step() const;
+    /// What limits the next step: of the points as they are, and of obstacles.
+    Speeds limiting_speeds() const;
 
     /// Wall time of the parts of the steps so far.
     const dealii::TimerOutput &times_of_parts() const
@@ -76,6 +80,14 @@ namespace scree
     {
       return clock.time();
     }
+    double end_time() const
+    {
+      return parameters.end_time;
+    }
+    bool is_at_end() const
+    {
+      return output_times.is_end(clock.time());
+    }
 
     /// All sets of points, in a fixed order.
     std::vector<PointSet<dim> *> point_sets()
@@ -84,6 +96,9 @@ namespace scree
     }
 
   private:
+    /// Largest step, s, of the points as they are.
+    double stable_step() const;
+
     void initialise();
     void resume();
     void settle();

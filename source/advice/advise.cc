@@ -10,7 +10,9 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numeric>
 
 namespace scree
 {
@@ -61,16 +63,51 @@ namespace scree
       return std::max(1., std::ceil(std::pow(n / most, 1. / dim)));
     }
 
-    /// Widens the cells; the box grows by less than one of them an axis.
-    void coarsen(GridParameters &grid, const unsigned int factor)
+    /// Cells along the axes of the box.
+    std::vector<unsigned int> cells_of(const GridParameters &grid)
     {
-      if (factor == 1)
-        return;
-      grid.cell_size *= factor;
+      std::vector<unsigned int> cells;
       for (unsigned int a = 0; a < grid.lower_corner.size(); ++a)
+        cells.push_back(std::lround((grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size));
+      return cells;
+    }
+
+    /// Makes the cells `factor` times as wide, and the longest step. Where they do not fill the box, it is cut: beyond
+    /// it there may be no ground.
+    void coarsen(Parameters &parameters, const double factor)
+    {
+      GridParameters &grid    = parameters.grid;
+      const auto cells        = cells_of(grid);
+      constexpr double one_up = 1 + 1e-9;
+      parameters.time_step.maximum_time_step *= factor;
+      grid.cell_size *= factor;
+      for (unsigned int a = 0; a < cells.size(); ++a)
         grid.upper_corner[a] =
-            grid.lower_corner[a] +
-            grid.cell_size * std::ceil((grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size - 1e-6);
+            grid.lower_corner[a] + grid.cell_size * std::max(1., std::floor(cells[a] / factor * one_up));
+    }
+
+
+    /// Core-seconds that a pilot may take: a part of the run, but some seconds are nothing.
+    double seconds_of_pilot(const Advice &advice)
+    {
+      const double run = cost_of_run(advice.scene, advice.seen, advice.schedule).step_seconds;
+      return std::clamp(0.05 * run, 1., 15.);
+    }
+
+    /// How many times as wide the cells of a pilot are: as few as its time allows, and not so many that no height is
+    /// left; somewhat more if cells then fill the box.
+    double coarsening_of_pilot(const Advice &advice)
+    {
+      constexpr double least_cells = 3; // over the height
+      const double run             = cost_of_run(advice.scene, advice.seen, advice.schedule).step_seconds;
+      const double wanted          = std::pow(run / seconds_of_pilot(advice), 1. / (advice.scene.dim + 1));
+      const double allowed         = advice.scene.height / advice.scene.cell_size / least_cells;
+      const double factor          = std::max({ 2., double(advice.coarser), std::min(wanted, allowed) });
+      unsigned int common          = 0; // divisor of the cells along all axes
+      for (const unsigned int n : cells_of(advice.grid))
+        common = std::gcd(common, n);
+      const double exact = common / std::max(1., std::floor(common / factor));
+      return exact >= factor && exact < 1.5 * factor ? exact : std::ceil(factor);
     }
   } // namespace
 
@@ -98,16 +135,40 @@ namespace scree
     advice.n_ranks            = Utilities::MPI::n_mpi_processes(communicator);
     advice.coarser            = coarsening<dim>(parameters, communicator);
 
-    parameters.output_directory      = folder.path();
-    parameters.output.screen         = "nothing";
-    parameters.settling.maximum_time = 0;
-    coarsen(parameters.grid, advice.coarser);
-    Simulation<dim> simulation(parameters, Start::fresh, communicator);
-    const SceneNumbers seeded = survey(simulation, parameters, communicator);
-    const StepCost steps      = measure_steps(simulation, seconds_of_steps, communicator);
-
-    advice.scene       = with_cell_size(seeded, advice.grid.cell_size);
-    advice.first_steps = with_cell_size(steps, seeded, advice.grid.cell_size);
+    parameters.output.screen              = "nothing";
+    parameters.output.interval            = 0; // what is written is looked at by itself
+    parameters.output.statistics_interval = 0;
+    parameters.output.checkpoint_interval = 0;
+    parameters.settling.maximum_time      = 0;
+    parameters.output_directory           = folder.path() + "/first_steps";
+    coarsen(parameters, advice.coarser);
+    {
+      Simulation<dim> simulation(parameters, Start::fresh, communicator);
+      const SceneNumbers seeded = survey(simulation, parameters, communicator);
+      advice.seen               = measure_first_steps(simulation, seconds_of_steps, communicator);
+      advice.scene              = with_cell_size(seeded, advice.grid.cell_size);
+      advice.seen               = with_cell_size(advice.seen, seeded, advice.grid.cell_size);
+    }
+    double seen = 0;
+    for (const Passage &passage : advice.seen.passages)
+      seen += passage.duration;
+    if (seen < (1. - 1e-9) * advice.scene.end_time)
+      try
+        {
+          advice.pilot_coarser        = coarsening_of_pilot(advice);
+          parameters.output_directory = folder.path() + "/pilot";
+          parameters.grid             = advice.grid;
+          parameters.time_step        = advice.schedule.time_step;
+          coarsen(parameters, advice.pilot_coarser);
+          Simulation<dim> pilot(parameters, Start::fresh, communicator);
+          advice.seen = with_pilot(advice.seen, measure_run(pilot, seen, 2. * seconds_of_pilot(advice), communicator));
+        }
+      catch (const std::exception &fault)
+        {
+          if (advice.n_ranks > 1) // The others may know nothing of it.
+            throw;
+          advice.pilot_fault = fault.what();
+        }
     write_report(advice, out);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/cost.h>
-#include <scree/points/point_set.h>
+
+#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,116 +10,158 @@ namespace scree
 {
   namespace
   {
-    // Measured over the cases of prm/, doc/studies/pages/advice.md.
-
-    /// What falls from rest moves at first with this part of gravity.
-    constexpr double part_of_gravity = 0.5;
-
-    /// How long dry soil moves, over sqrt(H/g); water keeps it moving.
-    constexpr double motion_lasts = 5.;
-
-    /// Largest speed of the points in motion over that of a free fall by SceneNumbers::fall.
-    constexpr double part_of_fall_speed = 0.8;
-
-    /// Mean speed over the largest one.
-    constexpr double mean_speed = 0.5;
-
-    /// Bulk modulus of soil in motion over that at the start, where it grows with the pressure: bodies that fall by d
-    /// press on what is below with about rho g d more.
-    double stiffening(const SceneNumbers &scene, const double fall)
-    {
-      if (!scene.stiffens || scene.fastest.pressure <= 0)
-        return 1.;
-      return 1. + scene.fastest.density * scene.gravity * fall / scene.fastest.pressure;
-    }
-
-    /// Cost of the stress update over that of the first steps: in motion 1 + this times the strain of a step at the
-    /// rate sqrt(g/H), over the strain at which the law divides it; at rest.
-    constexpr double substeps_of_strain = 0.33, resting_update = 0.65;
-
-    /// Cost of the pressure's solves, where soil or water falls, over that of the first steps; with volume correction,
-    /// which begins as the water crowds, and of the water's points then.
-    constexpr double solve_in_motion = 2., solve_with_correction = 2.5, water_with_correction = 1.7;
-
-    /// Core-seconds of a checkpoint: by itself, and a point.
+    /// Core-seconds of a checkpoint: by itself, and a point; measured over the cases of prm/.
     constexpr double checkpoint_seconds = 1.5e-3, checkpoint_seconds_per_point = 8e-7;
 
-    /// Steps of at most `step` s from `begin` to `end`, s, if they are shortened to meet the output times.
-    double count_steps(const OutputParameters &output, const double begin, const double end, const double step)
+    /// Steps of a run, if nothing is to be written on the way, from its start to any time that is asked for; the times
+    /// must not decrease.
+    class StepsSoFar
     {
-      double n = 0, time = begin;
+    public:
+      StepsSoFar(const std::vector<Passage> &passages, const Clock &clock, const double cell_size)
+          : passages(passages)
+          , clock(clock)
+          , cell_size(cell_size)
+      {
+        Assert(!passages.empty(), dealii::ExcMessage("Nothing was seen of the run."));
+      }
+
+      double operator()(const double time)
+      {
+        while (time > begin + current().duration && index + 1 < passages.size())
+          {
+            n += current().duration / step();
+            begin += current().duration;
+            ++index;
+          }
+        return n + (time - begin) / step(); // The last passage goes on.
+      }
+
+      /// Length of the steps at the time that was asked for last, s.
+      double step() const
+      {
+        return clock.stable_step(cell_size, current().wave, current().speed);
+      }
+
+    private:
+      const Passage &current() const
+      {
+        return passages[index];
+      }
+
+      const std::vector<Passage> &passages;
+      const Clock &clock;
+      const double cell_size;
+      std::size_t index = 0;
+      double begin = 0, n = 0; // of the current passage
+    };
+
+    /// Steps to `end` s, if they are shortened to meet the output times.
+    double count_steps(const OutputParameters &output, const double end, StepsSoFar &so_far)
+    {
+      double n = 0, time = 0;
       while (time < end * (1. - 1e-12))
         {
           double next = end;
           for (const double interval : { output.interval, output.interval_of_statistics(), output.checkpoint_interval })
             if (interval > 0)
               next = std::min(next, (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval);
-          n += std::max(1., std::ceil((next - time) / step * (1. - 1e-12)));
+          const double before = so_far(time);
+          n += std::max(1., std::ceil(so_far(next) - before - 1e-6));
           time = next;
         }
       return n;
     }
 
-    double seconds_of_output(const SceneNumbers &scene, const StepCost &steps, const OutputParameters &output)
+    double seconds_of_output(const SceneNumbers &scene, const Observation &seen, const OutputParameters &output)
     {
       const auto count = [&](const double interval) {
         return interval > 0 ? std::floor(scene.end_time / interval) + 1. : 0.;
       };
-      return count(output.interval) * steps.picture + count(output.interval_of_statistics()) * steps.row +
+      return count(output.interval) * seen.picture + count(output.interval_of_statistics()) * seen.row +
              count(output.checkpoint_interval) * (checkpoint_seconds + checkpoint_seconds_per_point * scene.n_points());
     }
 
-    /// Core-seconds of a part of a step; 0 if it was not met.
-    double seconds_of(const StepCost &steps, const StepPart part)
+    /// Calls `act` with the seconds of every cost of a step in `seen`.
+    template <class Act>
+    void for_each_part(Observation &seen, const Act &act)
     {
-      const auto found = steps.parts.find(part);
-      return found == steps.parts.end() ? 0. : found->second;
+      for (StepCost *steps : { &seen.first, &seen.later })
+        {
+          const double rest = steps->rest();
+          steps->seconds    = act(StepPart::output, rest);
+          for (auto &[part, seconds] : steps->parts)
+            {
+              seconds = act(part, seconds);
+              steps->seconds += seconds;
+            }
+        }
     }
   } // namespace
 
 
-  RunCost cost_of_run(const SceneNumbers &scene, const StepCost &first_steps, const Schedule &schedule)
+  double StepCost::seconds_of(const StepPart part) const
+  {
+    const auto found = parts.find(part);
+    return found == parts.end() ? 0. : found->second;
+  }
+
+
+  double StepCost::rest() const
+  {
+    double sum = seconds;
+    for (const auto &[part, of_part] : parts)
+      sum -= of_part;
+    return std::max(0., sum);
+  }
+
+
+  RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule)
   {
     const Clock clock(schedule.time_step);
-    const auto step_at = [&](const double stiffness, const double speed) {
-      return clock.stable_step(scene.cell_size, scene.fastest.speed(stiffness), speed);
-    };
-    const double update = seconds_of(first_steps, StepPart::stress);
-
+    StepsSoFar so_far(seen.passages, clock, scene.cell_size);
     RunCost cost;
-    // Core-seconds that a step takes more than the first ones, which are known.
-    const auto add = [&](const double begin, const double end, const double step, const double more) {
-      const double n     = count_steps(schedule.output, begin, end, step);
-      const double known = std::clamp(first_steps.n_steps - cost.n_steps, 0., n);
-      cost.n_steps += n;
-      cost.step_seconds += n * first_steps.seconds + (n - known) * more;
-    };
-    const bool flows    = scene.has_soil && !scene.is_elastic && scene.gravity > 0;
-    const double rate   = std::sqrt(scene.gravity / scene.height); // 1/s
-    const double motion = flows && !scene.has_water ? std::min(scene.end_time, motion_lasts / rate) : scene.end_time;
-    const bool falls    = scene.falls() && (flows || !scene.has_soil);
-    // How far motion comes until the end of the run.
-    const double fall = std::min(scene.fall, 0.5 * part_of_gravity * scene.gravity * scene.end_time * scene.end_time);
-    const double strain_rate = rate * std::min(1., part_of_gravity * scene.end_time * rate);
-    const double speed       = std::max(scene.initial_speed, part_of_fall_speed * std::sqrt(2. * scene.gravity * fall));
-    const double in_motion   = step_at(stiffening(scene, fall), speed);
-    const double leave_cell  = mean_speed * speed * in_motion / scene.cell_size; // part of the points, in a step
-    double more              = first_steps.sorting * std::min(1., leave_cell / PointSet<2>::most_moved);
-    if (flows)
-      more += substeps_of_strain * in_motion * strain_rate / scene.substep_strain * update;
-    if (falls)
-      more += ((scene.corrects_volume ? solve_with_correction : solve_in_motion) - 1.) *
-              seconds_of(first_steps, StepPart::pressure_solve);
-    if (falls && scene.corrects_volume)
-      more += (water_with_correction - 1.) * seconds_of(first_steps, StepPart::water_points);
-    add(0, motion, in_motion, more);
-    add(motion, scene.end_time, step_at(1., 0.), (resting_update - 1.) * update);
-    cost.first_step = step_at(1., scene.initial_speed);
-    cost.mean_step  = scene.end_time / cost.n_steps;
-    cost.step_seconds += first_steps.first_seconds;
-    cost.output_seconds = seconds_of_output(scene, first_steps, schedule.output);
-    cost.memory         = first_steps.memory;
+    cost.first_step     = so_far.step();
+    cost.n_steps        = count_steps(schedule.output, scene.end_time, so_far);
+    cost.mean_step      = scene.end_time / cost.n_steps;
+    const double n_seen = std::min(seen.n_first, cost.n_steps);
+    cost.step_seconds   = seen.setup + n_seen * seen.first.seconds + (cost.n_steps - n_seen) * seen.later.seconds;
+    cost.output_seconds = seconds_of_output(scene, seen, schedule.output);
+    cost.memory         = seen.memory;
     return cost;
+  }
+
+
+  Observation with_pilot(Observation first_steps, const Observation &pilot)
+  {
+    constexpr double hardly = 0.02; // of a step
+    const double points     = first_steps.n_points / pilot.n_points;
+    StepCost &later         = first_steps.later;
+    later                   = {};
+    later.seconds           = first_steps.first.rest();
+    for (const auto &[part, in_pilot] : pilot.later.parts)
+      {
+        const double first = pilot.first.seconds_of(part);
+        const bool is_event =
+            part == StepPart::sort || part == StepPart::repartition; // which first steps need not meet
+        const double seconds = is_event || first < hardly * pilot.first.seconds
+                                   ? in_pilot * points
+                                   : in_pilot / first * first_steps.first.seconds_of(part);
+        later.parts[part]    = seconds;
+        later.seconds += seconds;
+      }
+    double time = 0;
+    for (const Passage &passage : first_steps.passages)
+      time += passage.duration;
+    double begin = 0;
+    for (const Passage &passage : pilot.passages)
+      {
+        const double end = begin + passage.duration;
+        if (end > time)
+          first_steps.passages.push_back({ end - std::max(begin, time), passage.wave, passage.speed });
+        begin = end;
+      }
+    return first_steps;
   }
 
 
@@ -132,42 +175,36 @@ namespace scree
   }
 
 
-  StepCost with_cell_size(StepCost steps, const SceneNumbers &scene, const double cell_size)
+  Observation with_cell_size(Observation seen, const SceneNumbers &scene, const double cell_size)
   {
     const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
-    for (double *seconds : { &steps.seconds, &steps.first_seconds, &steps.sorting, &steps.picture, &steps.row })
-      *seconds *= factor;
-    for (auto &part : steps.parts)
-      part.second *= factor;
-    steps.memory = steps.program_memory + std::max(0., steps.memory - steps.program_memory) * factor;
-    return steps;
+    for_each_part(seen, [&](const StepPart, const double seconds) { return factor * seconds; });
+    for (double *number : { &seen.n_points, &seen.setup, &seen.picture, &seen.row })
+      *number *= factor;
+    seen.memory = seen.program_memory + std::max(0., seen.memory - seen.program_memory) * factor;
+    return seen;
   }
 
 
-  StepCost without_water(StepCost steps, const SceneNumbers &scene)
+  Observation without_water(Observation seen, const SceneNumbers &scene)
   {
     const double soil = scene.n_soil_points / scene.n_points();
-    double seconds    = 0;
-    for (auto &[part, of_part] : steps.parts)
-      {
-        switch (part)
-          {
-          case StepPart::nodes:
-          case StepPart::pressure_system:
-          case StepPart::pressure_solve:
-          case StepPart::water_points:
-            of_part = 0;
-            break;
-          case StepPart::stress:
-            break;
-          default:
-            of_part *= soil;
-          }
-        seconds += of_part;
-      }
-    steps.seconds = seconds;
-    for (double *seconds : { &steps.first_seconds, &steps.sorting, &steps.picture, &steps.row })
+    for_each_part(seen, [&](const StepPart part, const double seconds) {
+      switch (part)
+        {
+        case StepPart::nodes:
+        case StepPart::pressure_system:
+        case StepPart::pressure_solve:
+        case StepPart::water_points:
+          return 0.;
+        case StepPart::stress:
+          return seconds;
+        default:
+          return soil * seconds;
+        }
+    });
+    for (double *seconds : { &seen.setup, &seen.picture, &seen.row })
       *seconds *= soil;
-    return steps;
+    return seen;
   }
 } // namespace scree

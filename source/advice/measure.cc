@@ -2,9 +2,10 @@
 #include <scree/advice/measure.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
 
 #include <algorithm>
-#include <ctime>
+#include <chrono>
 
 #include <sys/resource.h>
 
@@ -14,10 +15,10 @@ namespace scree
 
   namespace
   {
-    /// Of this process so far, s.
+    /// Of this process so far, s, by the clock that a run's own account goes by.
     double processor_time()
     {
-      return double(std::clock()) / CLOCKS_PER_SEC;
+      return std::chrono::duration<double>(CPUClock::now().time_since_epoch()).count();
     }
 
     /// Largest memory of this process so far, bytes.
@@ -27,58 +28,142 @@ namespace scree
       getrusage(RUSAGE_SELF, &usage);
       return 1024. * usage.ru_maxrss;
     }
+
+
+    /// Watches a run step by step.
+    template <int dim>
+    class Watch
+    {
+    public:
+      Watch(Simulation<dim> &simulation, const MPI_Comm communicator)
+          : simulation(simulation)
+          , communicator(communicator)
+      {
+        for (const PointSet<dim> *points : simulation.point_sets())
+          seen.n_points += points->handler().n_global_particles();
+      }
+
+      /// Of all ranks.
+      template <class Act>
+      double core_seconds_of(const Act &act) const
+      {
+        const double start = processor_time();
+        act();
+        return Utilities::MPI::sum(processor_time() - start, communicator);
+      }
+
+      /// Core-seconds of `act`, a mean, as once may be too short to be timed, of as many as fit into `seconds`. The
+      /// first one makes files and starts libraries: it only counts if it alone takes as long.
+      template <class Act>
+      double mean_of_several(const double seconds, const Act &act) const
+      {
+        constexpr unsigned int most = 20;
+        const double first          = core_seconds_of(act);
+        if (first > seconds)
+          return first;
+        double sum     = 0;
+        unsigned int n = 0;
+        for (; n == 0 || (n < most && sum < 0.2 * seconds); ++n)
+          sum += core_seconds_of(act);
+        return sum / n;
+      }
+
+      void step()
+      {
+        const Speeds speeds   = simulation.limiting_speeds();
+        const double duration = simulation.step(simulation.end_time());
+        seen.passages.push_back({ duration, speeds.wave, speeds.points });
+      }
+
+      /// Steps while `more`, which is told how many were taken, the core-seconds that rank 0 spent on them and the time
+      /// of the run, s, and until the run's end. Adds them to n_steps.
+      template <class More>
+      StepCost steps_while(const More &more, double &n_steps)
+      {
+        const auto before       = times_of_parts();
+        const double wall_start = MPI_Wtime(), start = processor_time();
+        double n         = 0;
+        double of_rank_0 = 0; // which decides for all
+        while (!simulation.is_at_end() && more(n, of_rank_0, simulation.time()))
+          {
+            step();
+            ++n;
+            of_rank_0 = Utilities::MPI::broadcast(communicator, processor_time() - start, 0);
+          }
+        StepCost cost;
+        if (n == 0)
+          return cost;
+        const double wall = MPI_Wtime() - wall_start;
+        cost.seconds      = Utilities::MPI::sum(processor_time() - start, communicator) / n;
+        for (const auto &[part, seconds] : times_of_parts())
+          {
+            const auto found = before.find(part);
+            cost.parts[part] = cost.seconds * (seconds - (found == before.end() ? 0. : found->second)) / wall;
+          }
+        n_steps += n;
+        return cost;
+      }
+
+      Observation seen;
+
+    private:
+      std::map<StepPart, double> times_of_parts() const
+      {
+        std::map<StepPart, double> seconds;
+        for (const StepPart part : step_parts)
+          if (const double of_part = scree::seconds_of(simulation.times_of_parts(), part); of_part > 0.)
+            seconds[part] = of_part;
+        return seconds;
+      }
+
+      Simulation<dim> &simulation;
+      const MPI_Comm communicator;
+    };
   } // namespace
 
 
   template <int dim>
-  StepCost measure_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator)
+  Observation measure_first_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator)
   {
-    const auto core_seconds_of = [&](const auto &act) {
-      const double start = processor_time();
-      act();
-      return Utilities::MPI::sum(processor_time() - start, communicator);
-    };
-    const double first  = core_seconds_of([&] { simulation.advance(simulation.stable_step()); });
-    const auto parts_of = [&] {
-      std::map<StepPart, double> seconds;
-      for (const StepPart part : step_parts)
-        if (const double of_part = seconds_of(simulation.times_of_parts(), part); of_part > 0.)
-          seconds[part] = of_part;
-      return seconds;
-    };
-    auto before = parts_of();
-
     constexpr unsigned int most_steps = 2000;
-    StepCost cost;
-    const double wall_start = MPI_Wtime(), processor_start = processor_time();
-    double rank_0 = 0; // core-seconds of rank 0, which decides for all
-    while (rank_0 < seconds && cost.n_steps < most_steps)
-      {
-        simulation.advance(simulation.stable_step());
-        ++cost.n_steps;
-        rank_0 = Utilities::MPI::broadcast(communicator, processor_time() - processor_start, 0);
-      }
-    const double wall = MPI_Wtime() - wall_start;
-
-    cost.seconds       = Utilities::MPI::sum(processor_time() - processor_start, communicator) / cost.n_steps;
-    cost.first_seconds = std::max(0., first - cost.seconds);
-    for (const auto &[part, of_part] : parts_of())
-      cost.parts[part] = cost.seconds * (of_part - before[part]) / wall;
-    // A body that has hardly moved yet is not sorted.
-    for (PointSet<dim> *points : simulation.point_sets())
-      cost.sorting += core_seconds_of([&] { points->sort(); });
-    // The first of them make files and start libraries.
-    simulation.write_row();
-    cost.row           = core_seconds_of([&] { simulation.write_row(); });
-    const auto picture = [&] { simulation.write_picture(); };
-    cost.picture       = core_seconds_of(picture);
-    if (cost.picture < seconds)
-      cost.picture = core_seconds_of(picture);
-    cost.memory = Utilities::MPI::sum(peak_memory(), communicator);
-    cost.program_memory *= Utilities::MPI::n_mpi_processes(communicator);
-    return cost;
+    Watch<dim> watch(simulation, communicator);
+    Observation &seen  = watch.seen;
+    const double first = watch.core_seconds_of([&] { watch.step(); });
+    seen.first         = watch.steps_while(
+        [&](const double n, const double spent, const double) { return spent < seconds && n < most_steps; },
+        seen.n_first);
+    if (seen.n_first == 0) // The run is one step long.
+      seen.first.seconds = first;
+    seen.later   = seen.first;
+    seen.setup   = std::max(0., first - seen.first.seconds);
+    seen.row     = watch.mean_of_several(seconds, [&] { simulation.write_row(); });
+    seen.picture = watch.mean_of_several(seconds, [&] { simulation.write_picture(); });
+    seen.memory  = Utilities::MPI::sum(peak_memory(), communicator);
+    seen.program_memory *= Utilities::MPI::n_mpi_processes(communicator);
+    return seen;
   }
 
-  template StepCost measure_steps(Simulation<2> &, const double, const MPI_Comm);
-  template StepCost measure_steps(Simulation<3> &, const double, const MPI_Comm);
+
+  template <int dim>
+  Observation
+  measure_run(Simulation<dim> &simulation, const double begin, const double seconds, const MPI_Comm communicator)
+  {
+    constexpr unsigned int least_steps = 10; // to take their time
+    Watch<dim> watch(simulation, communicator);
+    Observation &seen = watch.seen;
+    watch.step();
+    seen.first = watch.steps_while(
+        [&](const double n, const double, const double time) { return time < begin || n < least_steps; }, seen.n_first);
+    double n_later = 0;
+    seen.later =
+        watch.steps_while([&](const double, const double spent, const double) { return spent < seconds; }, n_later);
+    if (n_later == 0)
+      seen.later = seen.first;
+    return seen;
+  }
+
+  template Observation measure_first_steps(Simulation<2> &, const double, const MPI_Comm);
+  template Observation measure_first_steps(Simulation<3> &, const double, const MPI_Comm);
+  template Observation measure_run(Simulation<2> &, const double, const double, const MPI_Comm);
+  template Observation measure_run(Simulation<3> &, const double, const double, const MPI_Comm);
 } // namespace scree

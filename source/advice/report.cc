@@ -112,12 +112,24 @@ namespace scree
       writer.title("Cost of the case as it stands");
       writer.line("step at the start; mean expected", rounded(cost.first_step) + "; " + rounded(cost.mean_step) + " s");
       writer.line("steps to " + rounded(scene.end_time) + " s", cost.n_steps, "");
-      writer.line("a step here (" + rounded(advice.first_steps.n_steps) + " steps taken)",
-                  rounded(1e9 * advice.first_steps.seconds / scene.n_points()) + " ns a point" +
+      const Observation &seen = advice.seen;
+      const auto of_steps     = [&](const std::string &name, const double first, const double later) {
+        const double to_ns = 1e9 / scene.n_points();
+        writer.line(name, rounded(to_ns * first) + "; " + rounded(to_ns * later) + " ns a point");
+      };
+      of_steps("a step at the start; later", seen.first.seconds, seen.later.seconds);
+      for (const StepPart part : step_parts)
+        if (seen.first.seconds_of(part) >= 0.02 * seen.first.seconds ||
+            seen.later.seconds_of(part) >= 0.02 * seen.later.seconds)
+          of_steps("  " + name_of(part), seen.first.seconds_of(part), seen.later.seconds_of(part));
+      of_steps("  everything else", seen.first.rest(), seen.later.rest());
+      writer.line("at the start: steps that were taken",
+                  rounded(seen.n_first) +
                       (advice.coarser > 1 ? ", with cells " + std::to_string(advice.coarser) + " times as wide" : ""));
-      for (const auto &[part, seconds] : advice.first_steps.parts)
-        if (seconds >= 0.02 * advice.first_steps.seconds)
-          writer.line("  " + name_of(part), 1e9 * seconds / scene.n_points(), "ns a point");
+      if (!advice.pilot_fault.empty())
+        writer.line("later", "not known, the run of the case with wider cells failed: " + advice.pilot_fault);
+      else if (advice.pilot_coarser > 0)
+        writer.line("later: the case was run with cells", rounded(advice.pilot_coarser) + " times as wide");
       writer.line("output", cost.output_seconds, "core-seconds");
       writer.line("run", core_time(cost.seconds()));
       if (advice.n_ranks > 1)
@@ -151,10 +163,10 @@ namespace scree
       if (!law.gap.empty())
         writer.line("error", "not known: " + law.gap + ". Halve the cells and the step, and compare");
       const SceneNumbers wanted = with_cell_size(scene, size);
-      const StepCost steps      = with_cell_size(advice.first_steps, scene, size);
+      const Observation seen    = with_cell_size(advice.seen, scene, size);
       Schedule schedule         = advice.schedule;
       schedule.time_step        = time_step_for(wanted, schedule.time_step);
-      const RunCost cost        = cost_of_run(wanted, steps, schedule);
+      const RunCost cost        = cost_of_run(wanted, seen, schedule);
       writer.line("step",
                   "about " + rounded(cost.mean_step) +
                       " s, with Courant number = " + rounded(schedule.time_step.courant_number) +
@@ -167,7 +179,7 @@ namespace scree
           SceneNumbers soil   = wanted;
           soil.n_water_points = 0;
           writer.line("run of the soil alone",
-                      core_time(cost_of_run(soil, without_water(steps, wanted), schedule).seconds()));
+                      core_time(cost_of_run(soil, without_water(seen, wanted), schedule).seconds()));
         }
     }
   } // namespace
@@ -177,7 +189,7 @@ namespace scree
   {
     Writer writer(out);
     const SceneNumbers &scene = advice.scene;
-    const RunCost cost        = cost_of_run(scene, advice.first_steps, advice.schedule);
+    const RunCost cost        = cost_of_run(scene, advice.seen, advice.schedule);
     out << scene.dim << "D, " << name_of(regime_of(scene)) << '\n';
     write_groups(scene, writer);
     if (scene.has_soil && scene.has_water)

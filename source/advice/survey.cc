@@ -100,7 +100,6 @@ namespace scree
           return;
         scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;
         scene.water_fills_soil = parameters.water.is_where_soil_is();
-        scene.corrects_volume  = parameters.water.volume_correction_rate > 0.;
         scene.water_density    = parameters.water.density;
       }
 
@@ -130,8 +129,6 @@ namespace scree
       {
         const Material<dim> &law = *body.material;
         scene.is_elastic         = scene.is_elastic && law.is_elastic();
-        scene.stiffens           = scene.stiffens || law.has_pressure_dependent_stiffness();
-        scene.substep_strain     = std::min(scene.substep_strain, law.substep_strain());
         // Soil without stress gets its first one from its weight.
         const double first_pressure = 2. / 3. * body.density * scene.gravity * scene.height;
         for_each_point(body.points, [&](const auto &point) {
@@ -142,7 +139,6 @@ namespace scree
           const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus(), body.density, pressure };
           if (medium.speed() > scene.fastest.speed())
             scene.fastest = medium;
-          keep_speed(properties + body.layout.velocity);
           ++soil_points;
           soil_mass += mass;
           soil_volume += volume;
@@ -159,7 +155,6 @@ namespace scree
       {
         for_each_point(part.points(), [&](const auto &point) {
           const double *properties = point.properties;
-          keep_speed(properties + part.layout.velocity);
           water_points += part.carrier() == nullptr;
           water_mass += properties[part.layout.mass];
           water_volume += properties[part.layout.volume];
@@ -177,12 +172,6 @@ namespace scree
             smallest = std::min(smallest,
                                 DragLaw(body.seepage.in_place_of(parameters.water), porosity).conductivity(porosity));
         return std::isfinite(smallest) ? smallest : parameters.water.conductivity;
-      }
-
-      void keep_speed(const double *velocity)
-      {
-        scene.initial_speed =
-            std::max(scene.initial_speed, Tensor<1, dim>(make_array_view(velocity, velocity + dim)).norm());
       }
 
       void occupy(const PointSet<dim> &points)
@@ -207,7 +196,6 @@ namespace scree
                              &height_moment,
                              &n_occupied })
           *sum = Utilities::MPI::sum(*sum, communicator);
-        scene.initial_speed  = Utilities::MPI::max(scene.initial_speed, communicator);
         scene.n_soil_points  = soil_points;
         scene.n_water_points = water_points;
         scene.n_occupied     = n_occupied;

@@ -61,20 +61,6 @@ namespace scree
 
 
   template <int dim>
-  bool Rigid<dim>::has_pressure_dependent_stiffness() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  double Rigid<dim>::substep_strain() const
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
   std::vector<Quantity> Rigid<dim>::internal_quantities() const
   {
     return {};

@@ -10,7 +10,14 @@ mkdir advice
 cp -r "$prm" . # cases include each other from where scree is started
 export TMPDIR="$PWD/advice"
 
-for case in prm/*.prm prm/bed/*.prm prm/benchmarks/*.prm prm/terrain/*.prm; do
+# Whole runs with wider cells, of which later steps are told, for six cases; the others end in their first steps.
+whole="column_dense column_saturated_3d dam_break_wet bed/slit_dam terrain/kot_dry benchmarks/elastic_2d"
+find prm -name '*.prm' | while read -r file; do
+  case " $whole " in *" $(expr "$file" : 'prm/\(.*\).prm') "*) continue ;; esac
+  sed -i 's/^set End time  *= [^ ]*/set End time = 0.02/' "$file"
+done
+
+for case in prm/*.prm prm/bed/*.prm prm/benchmarks/*.prm prm/contact/*.prm prm/terrain/*.prm; do
   "$scree" --advise "$case" >text
   for part in Scales Size "Cost of the case as it stands" "Recommendation for a relative error of 0.05"; do
     grep -q "^$part" text || { echo "$case: no part \"$part\""; exit 1; }
@@ -21,12 +28,15 @@ for case in prm/*.prm prm/bed/*.prm prm/benchmarks/*.prm prm/terrain/*.prm; do
       value = line ~ /steps to/ ? $NF : $(line ~ /cell size/ ? 3 : 2); if (!(value > 0)) bad = 1 } END { exit bad || !found }' text ||
       { echo "$case: line \"$line\" has no number"; cat text; exit 1; }
   done
+  case " $whole " in *" $(expr "$case" : 'prm/\(.*\).prm') "*)
+    grep -q "^  later: the case was run with cells  *[2-9]" text || { echo "$case: later steps are not known"; cat text; exit 1; } ;;
+  esac
   wet=0
   grep -q "^Soil and water" text && wet=1
   # Rigid bodies only are no soil whose drainage could matter.
   awk '/^subsection Water/ || /^include/ { water = 1 } /^set Bodies *= none/ { none = 1 }
     $2 == "Material" { if ($4 == "rigid") rigid = 1; else moves = 1 } END { exit !(water && !none && !(rigid && !moves)) }' "$case" && wanted=1 || wanted=0
-  [ $wet -eq $wanted ] || { echo "$case: a part of soil and water: $wet, wanted $wanted"; exit 1; }
+  [ "$wet" -eq "$wanted" ] || { echo "$case: a part of soil and water: $wet, wanted $wanted"; exit 1; }
 done
 
 count="^  (soil points|water points|cells of|steps to|cell size)"

@@ -8,20 +8,41 @@
 #include <scree/scheme/time_step.h>
 
 #include <map>
+#include <vector>
 
 namespace scree
 {
-  /// What the first steps of a case took on this machine.
+  /// What steps of a case take on this machine, core-seconds of all ranks together.
   struct StepCost
   {
-    double n_steps = 0;               ///< looked at
-    double seconds = 0;               ///< a step, of all ranks together
+    double seconds = 0;               ///< a step
     std::map<StepPart, double> parts; ///< of `seconds`
-    double first_seconds = 0;         ///< what the first step takes beyond `seconds`: to make room, start libraries
-    double sorting       = 0;         ///< all points in memory, core-seconds
-    double picture = 0, row = 0;      ///< writing one, core-seconds
-    double memory         = 0;        ///< of all ranks, bytes
-    double program_memory = 1.2e8;    ///< of `memory`, what does not grow with points and cells, bytes
+
+    /// 0 if the part was not met.
+    double seconds_of(const StepPart part) const;
+
+    /// What is in no part.
+    double rest() const;
+  };
+
+  /// What limits the steps for a while.
+  struct Passage
+  {
+    double duration = 0;        ///< s
+    double wave = 0, speed = 0; ///< largest of a pressure wave and of a point, m/s
+  };
+
+  /// What was seen of a run.
+  struct Observation
+  {
+    std::vector<Passage> passages; ///< from the start on
+    double n_first  = 0;           ///< steps whose cost is `first`
+    double n_points = 0;           ///< of soil and water
+    StepCost first, later;         ///< steps
+    double setup   = 0;            ///< what the very first step takes beyond `first`: to make room, start libraries
+    double picture = 0, row = 0;   ///< writing one, core-seconds
+    double memory         = 0;     ///< of all ranks, bytes
+    double program_memory = 1.2e8; ///< of `memory`, what does not grow with points and cells, bytes
   };
 
   /// What a whole run will take.
@@ -46,16 +67,21 @@ namespace scree
     OutputParameters output;
   };
 
-  /// The cost of a run of `scene` whose first steps cost `first_steps`. In motion, steps of soil that flows are shorter
-  /// and dearer than the first ones, at rest cheaper: measured factors.
-  RunCost cost_of_run(const SceneNumbers &scene, const StepCost &first_steps, const Schedule &schedule);
+  /// The cost of a run of `scene` that goes as was seen: the steps by the speeds that limit them, their cost by the
+  /// first and the later ones. What was not seen of the run goes on as the last of what was.
+  RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule);
 
-  /// The same scene and steps with other cells: points and cells in proportion, and the cost with them.
+  /// First steps that were seen in full, and what came later in a pilot, a run of the whole case with wider cells. A
+  /// part of the later steps takes that many times as long as in the first ones as it does in the pilot; what the first
+  /// ones hardly know takes as much a point as there.
+  Observation with_pilot(Observation first_steps, const Observation &pilot);
+
+  /// The same scene and run with other cells: points and cells in proportion, and the cost with them.
   SceneNumbers with_cell_size(SceneNumbers scene, const double cell_size);
-  StepCost with_cell_size(StepCost steps, const SceneNumbers &scene, const double cell_size);
+  Observation with_cell_size(Observation seen, const SceneNumbers &scene, const double cell_size);
 
-  /// The cost of a step of the scene's soil without its water.
-  StepCost without_water(StepCost steps, const SceneNumbers &scene);
+  /// The run of the scene's soil without its water.
+  Observation without_water(Observation seen, const SceneNumbers &scene);
 } // namespace scree
 
 #endif

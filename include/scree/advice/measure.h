@@ -7,10 +7,16 @@
 
 namespace scree
 {
-  /// Takes the time of the first steps of a run, until rank 0 has spent `seconds` core-seconds, and of what is written
-  /// then. Collective.
+  /// Takes the time of the first steps of a run, until rank 0 has spent `seconds` core-seconds or the run is at its
+  /// end, and of what is written then; later steps count as the first. Collective.
   template <int dim>
-  StepCost measure_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator);
+  Observation measure_first_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator);
+
+  /// Takes the time of a whole run, of its first steps until `begin` s and of those that come later; or of less, once
+  /// rank 0 has spent `seconds` core-seconds. Nothing is written. Collective.
+  template <int dim>
+  Observation
+  measure_run(Simulation<dim> &simulation, const double begin, const double seconds, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

@@ -13,13 +13,15 @@ namespace scree
   struct Advice
   {
     SceneNumbers scene;
-    StepCost first_steps;
+    Observation seen;
     Schedule schedule;
     GridParameters grid;
     double accuracy      = 0;
     double settling_time = 0; ///< s, at most
     unsigned int n_ranks = 1;
-    unsigned int coarser = 1; ///< how many times as wide the cells were in the steps that were taken
+    unsigned int coarser = 1; ///< how many times as wide the cells were in the first steps that were taken
+    double pilot_coarser = 0; ///< and in the pilot; 0: there was none
+    std::string pilot_fault;  ///< what kept it from its end
   };
 
   /// Writes groups, size, cost and recommendation, a line a number with its unit.

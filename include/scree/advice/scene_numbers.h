@@ -3,7 +3,6 @@
 #define scree_advice_scene_numbers_h
 
 #include <cmath>
-#include <limits>
 
 namespace scree
 {
@@ -14,10 +13,10 @@ namespace scree
     double density  = 0;                        ///< dry, kg/m^3
     double pressure = 0;                        ///< mean effective stress, Pa
 
-    /// m/s, if the bulk modulus were `factor` times as large; 0 without soil.
-    double speed(const double factor = 1.) const
+    /// m/s; 0 without soil.
+    double speed() const
     {
-      return density > 0 ? std::sqrt((factor * bulk_modulus + 4. / 3. * shear_modulus) / density) : 0.;
+      return density > 0 ? std::sqrt((bulk_modulus + 4. / 3. * shear_modulus) / density) : 0.;
     }
   };
 
@@ -34,21 +33,16 @@ namespace scree
 
     bool has_changing_forces = false; ///< a load that depends on time, or a body force
 
-    double initial_speed = 0; ///< largest of a point, m/s
-
-    bool has_soil         = false;
-    bool is_elastic       = false;                                   ///< all bodies are linear elastic
-    bool stiffens         = false;                                   ///< a body's bulk modulus grows with its pressure
-    double substep_strain = std::numeric_limits<double>::infinity(); ///< at which a law divides a step, the smallest
-    WaveMedium mean;                                                 ///< means over the volume of the soil
-    WaveMedium fastest;                                              ///< the point with the fastest pressure wave
-    double grain_density = 0;                                        ///< kg/m^3, mean
-    double porosity      = 0;                                        ///< mean
+    bool has_soil   = false;
+    bool is_elastic = false;  ///< all bodies are linear elastic
+    WaveMedium mean;          ///< means over the volume of the soil
+    WaveMedium fastest;       ///< the point with the fastest pressure wave
+    double grain_density = 0; ///< kg/m^3, mean
+    double porosity      = 0; ///< mean
 
     bool has_water        = false;
     bool is_single_point  = false;
     bool water_fills_soil = false; ///< in all the soil's pores and nowhere else
-    bool corrects_volume  = false; ///< free water moves from where it crowds
     double water_density  = 1000;  ///< kg/m^3
     double conductivity   = 0;     ///< m/s, at Earth's gravity
 

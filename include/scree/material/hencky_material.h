@@ -33,8 +33,6 @@ namespace scree
                     double *internal_variables) const override;
     double initial_porosity() const override;
     bool is_elastic() const override;
-    bool has_pressure_dependent_stiffness() const override;
-    double substep_strain() const override;
     std::vector<Quantity> internal_quantities() const override;
     std::vector<Quantity> output_quantities() const override;
     void output(const double *left_cauchy_green,
@@ -262,20 +260,6 @@ namespace scree
   bool HenckyMaterial<dim, Law>::is_elastic() const
   {
     return Law::is_elastic;
-  }
-
-
-  template <int dim, typename Law>
-  bool HenckyMaterial<dim, Law>::has_pressure_dependent_stiffness() const
-  {
-    return Law::has_pressure_dependent_stiffness;
-  }
-
-
-  template <int dim, typename Law>
-  double HenckyMaterial<dim, Law>::substep_strain() const
-  {
-    return law.substep_strain();
   }
 
 

@@ -31,7 +31,6 @@ namespace scree
   public:
     static constexpr unsigned int n_internal_variables     = 0;
     static constexpr bool is_elastic                       = true;
-    static constexpr bool has_pressure_dependent_stiffness = false;
 
     explicit LinearElastic(const LinearElasticParameters &parameters);
 

@@ -127,12 +127,6 @@ namespace scree
     /// Whether the law has no plastic strain.
     virtual bool is_elastic() const = 0;
 
-    /// Whether the bulk modulus follows the pressure.
-    virtual bool has_pressure_dependent_stiffness() const = 0;
-
-    /// Largest strain of one return map, beyond which update() cuts a step; infinity: no limit.
-    virtual double substep_strain() const = 0;
-
     /// A point's internal variables in storage order.
     virtual std::vector<Quantity> internal_quantities() const = 0;
 

@@ -38,7 +38,6 @@ namespace scree
   public:
     static constexpr unsigned int n_internal_variables     = 1;
     static constexpr bool is_elastic                       = false;
-    static constexpr bool has_pressure_dependent_stiffness = false;
 
     explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 

@@ -57,7 +57,6 @@ namespace scree
   public:
     static constexpr unsigned int n_internal_variables     = 2;
     static constexpr bool is_elastic                       = false;
-    static constexpr bool has_pressure_dependent_stiffness = true;
 
     explicit NorSand(const NorSandParameters &parameters);
 

@@ -24,8 +24,6 @@ namespace scree
                     double *internal_variables) const override;
     double initial_porosity() const override;
     bool is_elastic() const override;
-    bool has_pressure_dependent_stiffness() const override;
-    double substep_strain() const override;
     std::vector<Quantity> internal_quantities() const override;
     std::vector<Quantity> output_quantities() const override;
     void output(const double *left_cauchy_green,
