@@ -38,7 +38,7 @@ namespace scree
       , mixture(grid, soil_points, open_cells)
       , pores(grid)
       , water_field(grid)
-      , pressure(grid, water_walls, pressure_parameters, water_parameters, open_cells, timer)
+      , pressure(grid, water_walls, pressure_parameters, water_parameters, forcing.gravity(), open_cells, timer)
       , step(grid, constraints, forcing, water_density, pressure_parameters.splitting_kind())
       , bed(std::move(bed))
   {

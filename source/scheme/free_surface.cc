@@ -29,11 +29,13 @@ namespace scree
                                               const NodeNumbering<dim> &corners,
                                               const WaterBoundaryConditions<dim> &walls,
                                               const FreeSurface rule,
+                                              const Tensor<1, dim> &gravity,
                                               const OpenCells<dim> *open_cells)
       : grid(grid)
       , corners(corners)
       , walls(walls)
       , rule(rule)
+      , down(gravity.norm() > 0. ? gravity / gravity.norm() : gravity)
       , open_cells(open_cells)
       , filling(corners)
       , neighbours(corners)
@@ -78,16 +80,58 @@ namespace scree
     };
     take(volume, closed_volume);
     take(cells, closed_cells);
+
+    std::array<std::vector<double>, dim> areas; // of the ground, m^(dim-1), along its outer normal
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        CornerVector area(corners.partitioner());
+        for (const GroundSegment<dim> &segment : open_cells->segments())
+          for (unsigned int v = 0; v < CutCell<dim>::n_corners; ++v)
+            area.local_element(corners.nodes(segment.cell)[v]) +=
+                segment.ground_hats[v] * segment.area * segment.normal[a];
+        take(area, areas[a]);
+      }
+    // Level water that ends at the corner, on ground of inclination a, has (pi - 2 a)/(pi - a) of it below: near cos^2
+    // a.
+    full_ground.assign(kinds.size(), 0.);
+    for (unsigned int corner = 0; corner < full_ground.size(); ++corner)
+      {
+        Tensor<1, dim> area;
+        for (unsigned int a = 0; a < dim; ++a)
+          area[a] = areas[a][corner];
+        if (const double below = area * down; below > 0.)
+          full_ground[corner] = (1. - volume_under(corner) / whole_volume(corner)) * below * below / area.norm_square();
+      }
+  }
+
+
+  template <int dim>
+  double FreeSurfaceLocator<dim>::fill_with_ground(const unsigned int corner, const double fill) const
+  {
+    // With the toe of a collapsing slope taken to be as deep it runs too far.
+    constexpr double least_fill = 0.25, most_grains = 0.2;
+    const double *sums = filling[corner];
+    if (full_ground.empty() || full_ground[corner] == 0. || sums[filled] <= 0.)
+      return fill;
+    const double free = std::max(1. - (sums[filled] - sums[water]) / (most_grains * sums[filled]), 0.);
+    return 1. - (1. - fill) * (1. - full_ground[corner] * free * std::min(fill / least_fill, 1.));
+  }
+
+
+  template <int dim>
+  double FreeSurfaceLocator<dim>::whole_volume(const unsigned int corner) const
+  {
+    return Utilities::fixed_power<dim>(grid.cell_size()) * cells_in_box(corner) / (1 << dim);
   }
 
 
   template <int dim>
   double FreeSurfaceLocator<dim>::volume_under(const unsigned int corner) const
   {
-    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
-    const double whole       = cell_volume * cells_in_box(corner) / (1 << dim);
+    const double whole = whole_volume(corner);
     return closed_volume.empty() ? whole
-                                 : std::max(whole - closed_volume[corner], OpenCells<dim>::smallest * cell_volume);
+                                 : std::max(whole - closed_volume[corner],
+                                            OpenCells<dim>::smallest * Utilities::fixed_power<dim>(grid.cell_size()));
   }
 
 
@@ -174,7 +218,7 @@ namespace scree
       // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
       const double fill = std::min(sums[filled] / volume_under(corner), sums[wet_cells] / open_cells_around(corner));
       CornerKind &kind  = kinds[corner];
-      distances[corner] = distance_from_fill(fill);
+      distances[corner] = distance_from_fill(fill_with_ground(corner, fill));
       kind              = CornerKind::dry;
       double value      = 0.;
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(corners.faces(corner)))

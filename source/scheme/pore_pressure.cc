@@ -77,6 +77,7 @@ namespace scree
                                   const WaterBoundaryConditions<dim> &walls,
                                   const PressureParameters &parameters,
                                   const WaterParameters &water,
+                                  const Tensor<1, dim> &gravity,
                                   const OpenCells<dim> *open_cells,
                                   TimerOutput &timer)
       : grid(grid)
@@ -88,7 +89,7 @@ namespace scree
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
       , corners(numbered(grid))
-      , surface(grid, corners, walls, parameters.free_surface_kind(), open_cells)
+      , surface(grid, corners, walls, parameters.free_surface_kind(), gravity, open_cells)
       , divergence(grid, corners, surface, parameters.divergence_kind(), open_cells)
       , solver(grid, corners, parameters)
       , memory(corners,

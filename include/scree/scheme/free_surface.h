@@ -25,21 +25,24 @@ namespace scree
   /// Where the water ends: kinds of the corners, and the pressure at those beside the surface.
   ///
   /// The fill F of a corner (volume of water and wet grains under its linear function) gives its signed distance d from
-  /// a surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. Unknown are the corners at
-  /// least a quarter of a cell inside. Those beside them hold p = d sum p_j / sum d_j of their unknown neighbours: p is
-  /// linear and vanishes at the surface, wherever that is in the cell. At the face of soil, corners no less than half
-  /// full between two unknown ones where p is not negative are unknown, too: what closes there, a gap between two
+  /// a surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. What gently inclined ground
+  /// takes of the surroundings of free water counts as full, as it lies below its surface. Unknown are the corners at
+  /// least a quarter of a cell inside. Those beside them hold p = d sum p_j / sum d_j of their unknown neighbours: p
+  /// is linear and vanishes at the surface, wherever that is in the cell. At the face of soil, corners no less than
+  /// half full between two unknown ones where p is not negative are unknown, too: what closes there, a gap between two
   /// bodies, has the pressure of both.
   template <int dim>
   class FreeSurfaceLocator
   {
   public:
     /// @param corners the numbering of linear functions on the grid
+    /// @param gravity m/s^2
     /// @param open_cells what rigid ground leaves of the cells; null: all
     FreeSurfaceLocator(const BackgroundGrid<dim> &grid,
                        const NodeNumbering<dim> &corners,
                        const WaterBoundaryConditions<dim> &walls,
                        const FreeSurface rule,
+                       const dealii::Tensor<1, dim> &gravity,
                        const OpenCells<dim> *open_cells);
 
     /// Fits the surface to the grid's current corners. Collective.
@@ -154,6 +157,9 @@ namespace scree
                    const CornerKind kind_of_neighbour,
                    const Function &act) const;
 
+    /// Integral of a corner's linear function over the box, m^3.
+    double whole_volume(const unsigned int corner) const;
+
     /// Cells around a corner.
     unsigned int cells_in_box(const unsigned int corner) const;
 
@@ -162,6 +168,10 @@ namespace scree
 
     /// Finds what rigid ground takes from the corners' surroundings. Collective.
     void find_closed();
+
+    /// The fill of a corner's linear function with what ground below free water takes of it, from that of the open
+    /// part.
+    double fill_with_ground(const unsigned int corner, const double fill) const;
     bool is_unknown(const unsigned int corner, const double fill) const;
     void sum_filling(const Mixture<dim> &mixture);
 
@@ -192,16 +202,18 @@ namespace scree
     const NodeNumbering<dim> &corners;
     const WaterBoundaryConditions<dim> &walls;
     const FreeSurface rule;
-    const OpenCells<dim> *open_cells; // may be null
-    NodeValues<dim, 5> filling;       // Filling
-    NodeValues<dim, 3> neighbours;    // Neighbours
-    NodeValues<dim, 2 * dim> sides;   // number of neighbours that press, on each side along each axis
+    const dealii::Tensor<1, dim> down; // unit, or 0
+    const OpenCells<dim> *open_cells;  // may be null
+    NodeValues<dim, 5> filling;        // Filling
+    NodeValues<dim, 3> neighbours;     // Neighbours
+    NodeValues<dim, 2 * dim> sides;    // number of neighbours that press, on each side along each axis
     std::vector<CornerKind> kinds;
     std::vector<double> distances; // cells; positive in the water
 
     // Without ground they are empty.
     std::vector<double> closed_volume; // under a corner's linear function, m^3
     std::vector<double> closed_cells;  // around a corner, each as far as it is closed
+    std::vector<double> full_ground;   // part of a corner's linear function that lies in ground below level water
   };
 } // namespace scree
 

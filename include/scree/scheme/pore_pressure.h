@@ -20,11 +20,13 @@ namespace scree
   public:
     using AtCorners = std::array<double, (1 << dim)>;
 
+    /// @param gravity m/s^2
     /// @param open_cells what rigid ground leaves of the cells; null: all
     PorePressure(const BackgroundGrid<dim> &grid,
                  const WaterBoundaryConditions<dim> &walls,
                  const PressureParameters &parameters,
                  const WaterParameters &water,
+                 const dealii::Tensor<1, dim> &gravity,
                  const OpenCells<dim> *open_cells,
                  dealii::TimerOutput &timer);
 
