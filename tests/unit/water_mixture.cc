@@ -165,7 +165,7 @@ void test(const std::string &basis, std::ostream &out)
   WaterBoundaryParameters wall_parameters;
   wall_parameters.top = "impermeable";
   const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
-  FreeSurfaceLocator<dim> surface(grid, corners, walls, FreeSurface::distance, nullptr);
+  FreeSurfaceLocator<dim> surface(grid, corners, walls, FreeSurface::distance, Tensor<1, dim>(), nullptr);
   CornerVector pressure(corners.partitioner());
   surface.locate(mixture, pressure);
   double error = 0, unknowns = 0;
