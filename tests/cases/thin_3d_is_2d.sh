@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # thin_3d_is_2d.sh SCREE LAUNCHER CASE TOLERANCE: a slice of the column in 3D, one cell thick between smooth walls (CASE_3d.prm), is
-# the plane strain run (CASE_2d.prm) after 100 steps, per metre of thickness. In the plane the points are the same; cell averages are, too.
+# the plane strain run (CASE_2d.prm) at the end, per metre of thickness. In the plane the points are the same; cell averages are, too.
 set -e
 cases=$(dirname -- "$0")
 scree=$1
