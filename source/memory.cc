@@ -220,7 +220,7 @@ namespace scree
     const double n_cells    = grid.n_cells();
     unsigned int n_halvings = 31;
     for (unsigned int a = 0; a < dim; ++a)
-      while (std::lround((grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size) % (1l << n_halvings) != 0)
+      while (grid.n_cells_along(a) % (1l << n_halvings) != 0)
         --n_halvings;
     const double n_coarse_cells = grid.is_adaptive() ? 0. : n_cells / std::pow(1l << n_halvings, dim);
 

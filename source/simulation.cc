@@ -179,7 +179,7 @@ namespace scree
         const double largest_step = stable_step();
         check_step(largest_step, first_step);
         progress.count(clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points));
-        step(output_times.next(largest_step));
+        step(largest_step, output_times.next(largest_step));
         report();
         progress.report(clock.time(), clock.step(), last_time_step);
       }
@@ -251,9 +251,9 @@ namespace scree
 
 
   template <int dim>
-  double Simulation<dim>::step(const double due)
+  double Simulation<dim>::step(const double largest_step, const double due)
   {
-    last_time_step = clock.next_step(stable_step(), due);
+    last_time_step = clock.next_step(largest_step, due);
     advance(last_time_step);
     clock.advance(last_time_step, due);
     return last_time_step;

@@ -47,9 +47,12 @@ namespace scree
     /// Moves all by `time_step` s.
     void advance(const double time_step);
 
-    /// One step of the run, as long as the points allow, and to the time `due`, s, at most.
+    /// Largest step, s, of the points as they are.
+    double stable_step() const;
+
+    /// One step of the run, of `largest_step` s and to the time `due`, s, at most.
     /// @return its length, s
-    double step(const double due);
+    double step(const double largest_step, const double due);
 
     /// Output of the state as it is. Collective.
     void write_row();
@@ -96,9 +99,6 @@ namespace scree
     }
 
   private:
-    /// Largest step, s, of the points as they are.
-    double stable_step() const;
-
     void initialise();
     void resume();
     void settle();

@@ -63,49 +63,39 @@ namespace scree
       return std::max(1., std::ceil(std::pow(n / most, 1. / dim)));
     }
 
-    /// Cells along the axes of the box.
-    std::vector<unsigned int> cells_of(const GridParameters &grid)
-    {
-      std::vector<unsigned int> cells;
-      for (unsigned int a = 0; a < grid.lower_corner.size(); ++a)
-        cells.push_back(std::lround((grid.upper_corner[a] - grid.lower_corner[a]) / grid.cell_size));
-      return cells;
-    }
 
     /// Makes the cells `factor` times as wide, and the longest step. Where they do not fill the box, it is cut: beyond
     /// it there may be no ground.
     void coarsen(Parameters &parameters, const double factor)
     {
       GridParameters &grid    = parameters.grid;
-      const auto cells        = cells_of(grid);
+      const double width      = factor * grid.cell_size;
       constexpr double one_up = 1 + 1e-9;
       parameters.time_step.maximum_time_step *= factor;
-      grid.cell_size *= factor;
-      for (unsigned int a = 0; a < cells.size(); ++a)
+      for (unsigned int a = 0; a < grid.upper_corner.size(); ++a)
         grid.upper_corner[a] =
-            grid.lower_corner[a] + grid.cell_size * std::max(1., std::floor(cells[a] / factor * one_up));
+            grid.lower_corner[a] + width * std::max(1., std::floor(grid.n_cells_along(a) / factor * one_up));
+      grid.cell_size = width;
     }
 
 
-    /// Core-seconds that a pilot may take: a part of the run, but some seconds are nothing.
-    double seconds_of_pilot(const Advice &advice)
+    /// Core-seconds that a pilot may take: a part of those of the run's steps, but some seconds are nothing.
+    double seconds_of_pilot(const double of_run)
     {
-      const double run = cost_of_run(advice.scene, advice.seen, advice.schedule).step_seconds;
-      return std::clamp(0.05 * run, 1., 15.);
+      return std::clamp(0.05 * of_run, 1., 15.);
     }
 
     /// How many times as wide the cells of a pilot are: as few as its time allows, and not so many that no height is
     /// left; somewhat more if cells then fill the box.
-    double coarsening_of_pilot(const Advice &advice)
+    double coarsening_of_pilot(const Advice &advice, const double of_run)
     {
       constexpr double least_cells = 3; // over the height
-      const double run             = cost_of_run(advice.scene, advice.seen, advice.schedule).step_seconds;
-      const double wanted          = std::pow(run / seconds_of_pilot(advice), 1. / (advice.scene.dim + 1));
+      const double wanted          = std::pow(of_run / seconds_of_pilot(of_run), 1. / (advice.scene.dim + 1));
       const double allowed         = advice.scene.height / advice.scene.cell_size / least_cells;
       const double factor          = std::max({ 2., double(advice.coarser), std::min(wanted, allowed) });
-      unsigned int common          = 0; // divisor of the cells along all axes
-      for (const unsigned int n : cells_of(advice.grid))
-        common = std::gcd(common, n);
+      long common                  = 0; // divisor of the cells along all axes
+      for (unsigned int a = 0; a < advice.scene.dim; ++a)
+        common = std::gcd(common, advice.grid.n_cells_along(a));
       const double exact = common / std::max(1., std::floor(common / factor));
       return exact >= factor && exact < 1.5 * factor ? exact : std::ceil(factor);
     }
@@ -149,19 +139,18 @@ namespace scree
       advice.scene              = with_cell_size(seeded, advice.grid.cell_size);
       advice.seen               = with_cell_size(advice.seen, seeded, advice.grid.cell_size);
     }
-    double seen = 0;
-    for (const Passage &passage : advice.seen.passages)
-      seen += passage.duration;
+    const double seen = advice.seen.duration();
     if (seen < (1. - 1e-9) * advice.scene.end_time)
       try
         {
-          advice.pilot_coarser        = coarsening_of_pilot(advice);
+          const double of_run         = cost_of_run(advice.scene, advice.seen, advice.schedule).step_seconds;
+          advice.pilot_coarser        = coarsening_of_pilot(advice, of_run);
           parameters.output_directory = folder.path() + "/pilot";
           parameters.grid             = advice.grid;
           parameters.time_step        = advice.schedule.time_step;
           coarsen(parameters, advice.pilot_coarser);
           Simulation<dim> pilot(parameters, Start::fresh, communicator);
-          advice.seen = with_pilot(advice.seen, measure_run(pilot, seen, 2. * seconds_of_pilot(advice), communicator));
+          advice.seen = with_pilot(advice.seen, measure_run(pilot, seen, 2. * seconds_of_pilot(of_run), communicator));
         }
       catch (const std::exception &fault)
         {

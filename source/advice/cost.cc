@@ -116,6 +116,15 @@ namespace scree
   }
 
 
+  double Observation::duration() const
+  {
+    double sum = 0;
+    for (const Passage &passage : passages)
+      sum += passage.duration;
+    return sum;
+  }
+
+
   RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule)
   {
     const Clock clock(schedule.time_step);
@@ -150,10 +159,8 @@ namespace scree
         later.parts[part]    = seconds;
         later.seconds += seconds;
       }
-    double time = 0;
-    for (const Passage &passage : first_steps.passages)
-      time += passage.duration;
-    double begin = 0;
+    const double time = first_steps.duration();
+    double begin      = 0;
     for (const Passage &passage : pilot.passages)
       {
         const double end = begin + passage.duration;

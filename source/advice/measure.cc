@@ -71,7 +71,7 @@ namespace scree
       void step()
       {
         const Speeds speeds   = simulation.limiting_speeds();
-        const double duration = simulation.step(simulation.end_time());
+        const double duration = simulation.step(simulation.stable_step(), simulation.end_time());
         seen.passages.push_back({ duration, speeds.wave, speeds.points });
       }
 

@@ -30,8 +30,7 @@ namespace scree
     {
       CellsOfBox<dim> box{ point_from_list<dim>(parameters.lower_corner), parameters.cell_size, {} };
       for (unsigned int a = 0; a < dim; ++a)
-        box.n[a] = static_cast<int>(
-            std::lround((parameters.upper_corner[a] - parameters.lower_corner[a]) / parameters.cell_size));
+        box.n[a] = static_cast<int>(parameters.n_cells_along(a));
       return box;
     }
 
@@ -169,11 +168,17 @@ namespace scree
   }
 
 
+  long GridParameters::n_cells_along(const unsigned int axis) const
+  {
+    return std::lround((upper_corner[axis] - lower_corner[axis]) / cell_size);
+  }
+
+
   double GridParameters::n_cells() const
   {
     double n = 1;
     for (unsigned int a = 0; a < upper_corner.size(); ++a)
-      n *= std::round((upper_corner[a] - lower_corner[a]) / cell_size);
+      n *= n_cells_along(a);
     return n;
   }
 

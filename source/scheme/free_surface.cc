@@ -17,6 +17,9 @@ namespace scree
     /// Of an unknown corner, cells.
     constexpr double least_depth = 0.25;
 
+    /// Of what is filled at a corner in soil: not scraps of it in a jet.
+    constexpr double least_grains = 0.2;
+
     double distance_from_fill(const double fill)
     {
       return fill < 0.5 ? std::sqrt(2. * fill) - 1. : 1. - std::sqrt(2. * std::max(1. - fill, 0.));
@@ -91,8 +94,8 @@ namespace scree
                 segment.ground_hats[v] * segment.area * segment.normal[a];
         take(area, areas[a]);
       }
-    // Level water that ends at the corner, on ground of inclination a, has (pi - 2 a)/(pi - a) of it below: near cos^2
-    // a.
+    // Level water that ends at the corner has (pi - 2 a)/(pi - a) of the ground below it, which falls by an angle a:
+    // near the square of its cosine.
     full_ground.assign(kinds.size(), 0.);
     for (unsigned int corner = 0; corner < full_ground.size(); ++corner)
       {
@@ -108,12 +111,12 @@ namespace scree
   template <int dim>
   double FreeSurfaceLocator<dim>::fill_with_ground(const unsigned int corner, const double fill) const
   {
-    // With the toe of a collapsing slope taken to be as deep it runs too far.
-    constexpr double least_fill = 0.25, most_grains = 0.2;
-    const double *sums = filling[corner];
+    constexpr double least_fill = 0.25; // less is no depth of water
+    const double *sums          = filling[corner];
     if (full_ground.empty() || full_ground[corner] == 0. || sums[filled] <= 0.)
       return fill;
-    const double free = std::max(1. - (sums[filled] - sums[water]) / (most_grains * sums[filled]), 0.);
+    // Soil that collapses would run too far.
+    const double free = std::max(1. - (sums[filled] - sums[water]) / (least_grains * sums[filled]), 0.);
     return 1. - (1. - fill) * (1. - full_ground[corner] * free * std::min(fill / least_fill, 1.));
   }
 
@@ -264,8 +267,7 @@ namespace scree
   template <int dim>
   void FreeSurfaceLocator<dim>::close_gaps(const Mixture<dim> &mixture, CornerVector &pressure)
   {
-    constexpr double least_grains = 0.2; // of what is filled: the face of soil, not scraps of it in a jet
-    const auto may_be_in_gap      = [&](const unsigned int corner) {
+    const auto may_be_in_gap = [&](const unsigned int corner) {
       const double *sums = filling[corner];
       return kinds[corner] == CornerKind::dry && distances[corner] >= -1e-9 && sums[water] > 0. &&
              sums[filled] - sums[water] >= least_grains * sums[filled];

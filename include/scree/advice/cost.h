@@ -43,6 +43,9 @@ namespace scree
     double picture = 0, row = 0;   ///< writing one, core-seconds
     double memory         = 0;     ///< of all ranks, bytes
     double program_memory = 1.2e8; ///< of `memory`, what does not grow with points and cells, bytes
+
+    /// Of all passages, s.
+    double duration() const;
   };
 
   /// What a whole run will take.

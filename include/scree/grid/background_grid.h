@@ -28,6 +28,9 @@ namespace scree
 
     Basis basis_kind() const;
 
+    /// Cells of this size along an axis of the box.
+    long n_cells_along(const unsigned int axis) const;
+
     /// Cells of this size that fill the box.
     double n_cells() const;
 

@@ -29,8 +29,8 @@ namespace scree
   class LinearElastic
   {
   public:
-    static constexpr unsigned int n_internal_variables     = 0;
-    static constexpr bool is_elastic                       = true;
+    static constexpr unsigned int n_internal_variables = 0;
+    static constexpr bool is_elastic                   = true;
 
     explicit LinearElastic(const LinearElasticParameters &parameters);
 

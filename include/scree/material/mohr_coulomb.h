@@ -36,8 +36,8 @@ namespace scree
   class MohrCoulomb
   {
   public:
-    static constexpr unsigned int n_internal_variables     = 1;
-    static constexpr bool is_elastic                       = false;
+    static constexpr unsigned int n_internal_variables = 1;
+    static constexpr bool is_elastic                   = false;
 
     explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 

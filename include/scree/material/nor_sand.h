@@ -55,8 +55,8 @@ namespace scree
   class NorSand
   {
   public:
-    static constexpr unsigned int n_internal_variables     = 2;
-    static constexpr bool is_elastic                       = false;
+    static constexpr unsigned int n_internal_variables = 2;
+    static constexpr bool is_elastic                   = false;
 
     explicit NorSand(const NorSandParameters &parameters);
 

@@ -58,9 +58,9 @@ namespace scree
                                        const PartOfCube<dim> &part_of_cube);
 
   /// Seeds that fill less than a quarter of a cube, alone in their cells, join the nearest fuller one of the cells that
-  /// share a face with theirs, if there is one; that moves towards the common centroid, at most half of its way to a face
-  /// of its cell. Those that need not stay and are not beside the ground, which has to feel them. The same on any number
-  /// of ranks. Collective.
+  /// share a face with theirs, if there is one; that moves towards the common centroid, at most half of its way to a
+  /// face of its cell. Those that need not stay and are not beside the ground, which has to feel them. The same on any
+  /// number of ranks. Collective.
   /// @param ground null: none
   template <int dim>
   void join_slivers(const dealii::Triangulation<dim> &triangulation,
