@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/measure.h>
+#include <scree/output/progress.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include <sys/resource.h>
 
@@ -15,12 +14,6 @@ namespace scree
 
   namespace
   {
-    /// Of this process so far, s, by the clock that a run's own account goes by.
-    double processor_time()
-    {
-      return std::chrono::duration<double>(CPUClock::now().time_since_epoch()).count();
-    }
-
     /// Largest memory of this process so far, bytes.
     double peak_memory()
     {

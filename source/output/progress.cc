@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <numeric>
 
 namespace scree
@@ -34,6 +35,12 @@ namespace scree
       return line;
     }
   } // namespace
+
+
+  double processor_time()
+  {
+    return double(std::clock()) / CLOCKS_PER_SEC;
+  }
 
 
   Progress::Progress(RunFolder &folder, const double start_time, const double end_time)
@@ -85,8 +92,8 @@ namespace scree
   {
     if (point_updates <= 0)
       return;
-    const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
-    const double processor_time = Utilities::MPI::sum(clock.cpu_time(), communicator);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const double core_seconds  = Utilities::MPI::sum(processor_time() - processor_time_before, communicator);
     summarise_steps(time);
     const double total            = clock.wall_time();
     const double to_ns            = 1e9 * n_ranks / point_updates;
@@ -108,7 +115,7 @@ namespace scree
     folder.log(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates; processor time %.4g s)",
                       n_ranks,
                       point_updates,
-                      processor_time));
+                      core_seconds));
   }
 
 

@@ -432,6 +432,7 @@ namespace scree
   {
     cell_list.clear();
     const_cell_list.clear();
+    slots.insert(slots.end(), points_ahead, 0);
     if (filled.empty())
       return;
 

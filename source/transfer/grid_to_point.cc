@@ -38,7 +38,8 @@ namespace scree
     LargestSquare largest;
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
       const BatchPointers<dim> points(cell, indices);
-      points.prefetch_properties(Layout::internal_variables);
+      for (const unsigned int p : indices)
+        cell.prefetch_after(p);
       const BatchShape<dim, n> shape(points.places, open);
       const NodesAtPoints<dim> at_points = nodes.template at<method, true>(shape);
 

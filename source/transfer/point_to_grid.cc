@@ -16,7 +16,7 @@ namespace scree
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         CellSums<dim, n> sums(grid.cell_size());
-        for_each_point(cell, [&](const auto &point) {
+        for_each_record(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
           const double *properties = point.properties;
           sums.template add<method>(shape,

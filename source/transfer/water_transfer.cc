@@ -183,7 +183,7 @@ namespace scree
         const double grains_of_others = sums.grain_volume;
         NodeRow pore_sums[n_rows] = {}, drag_sums[n_rows] = {};
 
-        for_each_point(cell, [&](const auto &point) {
+        for_each_record(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
           const double *properties    = point.properties;
           const double mass           = properties[layout.mass];
@@ -240,7 +240,7 @@ namespace scree
         CellSums<dim, n> sums(width);
         NodeRow grains_about[n_rows] = {};
 
-        for_each_point(cell, [&](const auto &point) {
+        for_each_record(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
@@ -320,6 +320,8 @@ namespace scree
     LargestSquare largest;
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
       const BatchPointers<dim> points(cell, indices);
+      for (const unsigned int p : indices)
+        cell.prefetch_after(p);
       const BatchShape<dim, n> shape(points.places, open);
       const NodesAtPoints<dim> at_points =
           by_place ? by_place->template at<method>(shape, inverse_porosity_at<dim>(porosity, shape.x))

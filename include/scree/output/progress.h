@@ -9,6 +9,10 @@
 
 namespace scree
 {
+  /// Processor time that this process has taken so far, its own and the system's for it, s. (deal.II's CPUClock counts
+  /// its own alone, which the system guesses from ticks: of short runs that is nothing or twice as much.)
+  double processor_time();
+
   /// Tells how far a run is, how long it will take, and in the end where its time went.
   class Progress
   {
@@ -52,8 +56,9 @@ namespace scree
     RunFolder &folder;
     const double start_time, end_time;
     dealii::Timer clock;
-    double last_line  = 0; // wall time, s
-    StepCounts counts = {};
+    const double processor_time_before = processor_time();
+    double last_line                   = 0; // wall time, s
+    StepCounts counts                  = {};
   };
 } // namespace scree
 

@@ -24,15 +24,6 @@ namespace scree
         }
     }
 
-    /// Asks for the first `n` properties, which are needed a while later: points are more than the caches hold.
-    void prefetch_properties(const unsigned int n) const
-    {
-      constexpr unsigned int cache_line = 64 / sizeof(double);
-      for (const double *pointer : properties)
-        for (unsigned int first = 0; first < n; first += cache_line)
-          __builtin_prefetch(pointer + first, 1);
-    }
-
     /// Properties from a slot on.
     RecordPointers<double> slots_at(const unsigned int slot) const
     {

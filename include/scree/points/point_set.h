@@ -19,6 +19,9 @@
 
 namespace scree
 {
+  /// How many points before their turn kernels ask the memory for records, which lie in no order there.
+  constexpr unsigned int points_ahead = 12;
+
   /// The points of one cell: which slots of the rank's records they fill.
   ///
   /// @tparam Number double, or const double for points that must not change
@@ -29,7 +32,7 @@ namespace scree
 
     unsigned int cell; ///< active cell index
     unsigned int n_points;
-    const unsigned int *slots; ///< of the points; those of the cell that follows in cells() lie behind them
+    const unsigned int *slots; ///< of the points; those of the cells that follow in cells() lie behind them
     unsigned int stride;       ///< doubles from one slot's properties to the next one's
     Number *properties;        ///< of slot 0
     Location *locations;       ///< of slot 0, m
@@ -51,6 +54,17 @@ namespace scree
     const dealii::Point<dim> &reference_location_of(const unsigned int p) const
     {
       return reference_locations[slots[p]];
+    }
+
+    /// Asks the memory for the properties and the place of the point that comes `points_ahead` after point `p`, here or
+    /// in the cells that follow.
+    void prefetch_after(const unsigned int p) const
+    {
+      constexpr unsigned int cache_line = 64 / sizeof(double);
+      const Number *record              = properties_of(p + points_ahead);
+      for (unsigned int first = 0; first < stride; first += cache_line)
+        __builtin_prefetch(record + first);
+      __builtin_prefetch(&reference_location_of(p + points_ahead));
     }
   };
 
@@ -163,7 +177,7 @@ namespace scree
     /// Number of this rank's points.
     unsigned int n_points() const
     {
-      return slots.size();
+      return slots.size() - points_ahead;
     }
 
     /// This rank's points that left the mesh since the list was last cleared.
@@ -283,7 +297,8 @@ namespace scree
 
     // The same points in the same order as in the handler's lists.
     std::vector<FilledCell> filled, new_filled;
-    std::vector<unsigned int> slots, new_slots; // of all points, cell by cell
+    /// Of all points, cell by cell; behind them so many that kernels may look ahead.
+    std::vector<unsigned int> slots = std::vector<unsigned int>(points_ahead), new_slots;
     std::vector<CellPoints<dim>> cell_list;
     std::vector<ConstCellPoints<dim>> const_cell_list; // the same cells
 
@@ -307,6 +322,19 @@ namespace scree
     for (unsigned int p = 0; p < cell.n_points; ++p)
       act(PointView<dim, Number>{
           cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) });
+  }
+
+
+  /// The same for kernels that need most of a record, for all of a set's cells in turn.
+  template <int dim, typename Number, typename Act>
+  DEAL_II_ALWAYS_INLINE inline void for_each_record(const CellPoints<dim, Number> &cell, const Act &act)
+  {
+    for (unsigned int p = 0; p < cell.n_points; ++p)
+      {
+        cell.prefetch_after(p);
+        act(PointView<dim, Number>{
+            cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) });
+      }
   }
 
 
