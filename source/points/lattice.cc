@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace scree
 {
@@ -92,6 +93,98 @@ namespace scree
     }
 
 
+    template <int dim>
+    using CellOf = typename Triangulation<dim>::active_cell_iterator;
+
+
+    /// The first seed of a cell, among seeds in the order of the cells.
+    template <typename Seeds>
+    auto first_of(Seeds &seeds, const unsigned int cell)
+    {
+      return std::partition_point(
+          seeds.begin(), seeds.end(), [&](const auto &seed) { return seed.cell->active_cell_index() < cell; });
+    }
+
+
+    /// Where seeds stand that are no slivers, in this rank's cells and the ghosts. Collective.
+    template <int dim>
+    class FullPlaces
+    {
+    public:
+      FullPlaces(const Triangulation<dim> &triangulation, const std::vector<Seed<dim>> &seeds)
+          : seeds(seeds)
+      {
+        GridTools::exchange_cell_data_to_ghosts<Places, Triangulation<dim>>(
+            triangulation,
+            [&](const CellOf<dim> &cell) { return std_cxx17::optional<Places>(own_places(cell)); },
+            [&](const CellOf<dim> &cell, const Places &places) { of_ghosts[cell->active_cell_index()] = places; });
+      }
+
+      /// The one that is nearest to a seed in the cells that share a face with its own, if there is any.
+      std::optional<Point<dim>> nearest(const Seed<dim> &seed) const
+      {
+        std::optional<Point<dim>> result;
+        const auto look = [&](const Places &places) {
+          for (const Point<dim> &place : places)
+            if (!result || place.distance_square(seed.location) < result->distance_square(seed.location))
+              result = place;
+        };
+        for_face_neighbours<dim>(seed.cell, [&](const CellOf<dim> &neighbour) {
+          if (neighbour->is_locally_owned())
+            look(own_places(neighbour));
+          else if (const auto found = of_ghosts.find(neighbour->active_cell_index()); found != of_ghosts.end())
+            look(found->second);
+        });
+        return result;
+      }
+
+    private:
+      using Places = std::vector<Point<dim>>;
+
+      Places own_places(const CellOf<dim> &cell) const
+      {
+        Places places;
+        const auto end = first_of(seeds, cell->active_cell_index() + 1);
+        for (auto seed = first_of(seeds, cell->active_cell_index()); seed != end; ++seed)
+          if (seed->filled >= least_filled)
+            places.push_back(seed->location);
+        return places;
+      }
+
+      const std::vector<Seed<dim>> &seeds;
+      std::map<unsigned int, Places> of_ghosts; // by active cell
+    };
+
+
+    /// Gives slivers to the seeds that they join, in an order that is the same on any number of ranks.
+    template <int dim>
+    void take_in(const std::map<CellOf<dim>, Joining<dim>> &joinings, std::vector<Seed<dim>> &seeds)
+    {
+      std::vector<std::pair<Joining<dim>, Seed<dim> *>> due;
+      for (const auto &[cell, joining] : joinings)
+        for_face_neighbours<dim>(cell, [&, &joining = joining](const CellOf<dim> &neighbour) {
+          const auto end = first_of(seeds, neighbour->active_cell_index() + 1);
+          for (auto seed = first_of(seeds, neighbour->active_cell_index()); seed != end; ++seed)
+            if (seed->location == joining.target)
+              due.emplace_back(joining, &*seed);
+        });
+      std::sort(due.begin(), due.end(), [](const auto &a, const auto &b) {
+        return std::lexicographical_compare(a.first.location.begin_raw(),
+                                            a.first.location.end_raw(),
+                                            b.first.location.begin_raw(),
+                                            b.first.location.end_raw());
+      });
+      for (const auto &[joining, seed] : due)
+        {
+          const Point<dim> before = seed->location, lower = seed->cell->vertex(0);
+          const Point<dim> upper = seed->cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1);
+          take_in(*seed, joining.location, joining.volume);
+          for (unsigned int a = 0; a < dim; ++a)
+            seed->location[a] = std::clamp(seed->location[a], (before[a] + lower[a]) / 2, (before[a] + upper[a]) / 2);
+        }
+    }
+
+
     /// Appends the seeds of one cell.
     template <int dim>
     void add_seeds_of_cell(const typename Triangulation<dim>::active_cell_iterator &cell,
@@ -152,84 +245,27 @@ namespace scree
   template <int dim>
   void join_slivers(const Triangulation<dim> &triangulation, const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
   {
-    using Cell   = typename Triangulation<dim>::active_cell_iterator;
-    using Places = std::vector<Point<dim>>;
-
-    // The seeds stand in the order of the cells.
-    const auto first_of = [&](const unsigned int cell) {
-      return std::partition_point(
-          seeds.begin(), seeds.end(), [&](const Seed<dim> &seed) { return seed.cell->active_cell_index() < cell; });
-    };
-    const auto full_places = [&](const Cell &cell) {
-      Places places;
-      const auto end = first_of(cell->active_cell_index() + 1);
-      for (auto seed = first_of(cell->active_cell_index()); seed != end; ++seed)
-        if (seed->filled >= least_filled)
-          places.push_back(seed->location);
-      return places;
-    };
-    std::map<unsigned int, Places> places_of_ghosts; // by active cell
-    GridTools::exchange_cell_data_to_ghosts<Places, Triangulation<dim>>(
-        triangulation,
-        [&](const Cell &cell) { return std_cxx17::optional<Places>(full_places(cell)); },
-        [&](const Cell &cell, const Places &places) { places_of_ghosts[cell->active_cell_index()] = places; });
-
-    std::map<Cell, Joining<dim>> joinings; // by the sliver's cell
     const auto is_beside_ground = [&](const Seed<dim> &seed) {
       const double reach = seed.cell->diameter();
       return ground != nullptr && ground->view(seed.location, reach).distance < reach;
     };
+    const FullPlaces<dim> full_places(triangulation, seeds);
+    std::map<CellOf<dim>, Joining<dim>> joinings; // by the sliver's cell
     for (Seed<dim> &seed : seeds)
       if (seed.filled < least_filled && !seed.stays && !is_beside_ground(seed))
-        {
-          Joining<dim> joining{ Point<dim>(), seed.location, seed.volume };
-          double nearest = std::numeric_limits<double>::max(); // square of the distance, m^2
-          for_face_neighbours<dim>(seed.cell, [&](const Cell &neighbour) {
-            for (const Point<dim> &place : neighbour->is_locally_owned()
-                                               ? full_places(neighbour)
-                                               : places_of_ghosts[neighbour->active_cell_index()])
-              if (const double square = place.distance_square(seed.location); square < nearest)
-                {
-                  nearest        = square;
-                  joining.target = place;
-                }
-          });
-          if (nearest < std::numeric_limits<double>::max())
-            {
-              joinings[seed.cell] = joining;
-              seed.volume         = 0;
-            }
-        }
+        if (const auto target = full_places.nearest(seed))
+          {
+            joinings[seed.cell] = { *target, seed.location, seed.volume };
+            seed.volume         = 0;
+          }
     GridTools::exchange_cell_data_to_ghosts<Joining<dim>, Triangulation<dim>>(
         triangulation,
-        [&](const Cell &cell) {
+        [&](const CellOf<dim> &cell) {
           const auto joining = joinings.find(cell);
           return joining == joinings.end() ? std_cxx17::optional<Joining<dim>>() : joining->second;
         },
-        [&](const Cell &cell, const Joining<dim> &joining) { joinings[cell] = joining; });
-
-    std::vector<std::pair<Joining<dim>, Seed<dim> *>> due; // with the seed that each joins
-    for (const auto &[cell, joining] : joinings)
-      for_face_neighbours<dim>(cell, [&, &joining = joining](const Cell &neighbour) {
-        for (auto seed = first_of(neighbour->active_cell_index()); seed != seeds.end() && seed->cell == neighbour;
-             ++seed)
-          if (seed->location == joining.target)
-            due.emplace_back(joining, &*seed);
-      });
-    std::sort(due.begin(), due.end(), [](const auto &a, const auto &b) { // the same on any number of ranks
-      return std::lexicographical_compare(a.first.location.begin_raw(),
-                                          a.first.location.end_raw(),
-                                          b.first.location.begin_raw(),
-                                          b.first.location.end_raw());
-    });
-    for (const auto &[joining, seed] : due)
-      {
-        const Point<dim> before = seed->location, lower = seed->cell->vertex(0);
-        const Point<dim> upper = seed->cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1);
-        take_in(*seed, joining.location, joining.volume);
-        for (unsigned int a = 0; a < dim; ++a)
-          seed->location[a] = std::clamp(seed->location[a], (before[a] + lower[a]) / 2, (before[a] + upper[a]) / 2);
-      }
+        [&](const CellOf<dim> &cell, const Joining<dim> &joining) { joinings[cell] = joining; });
+    take_in(joinings, seeds);
     seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [](const Seed<dim> &seed) { return seed.volume == 0; }),
                 seeds.end());
   }

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What `scree --advise` says a case will cost, against what it costs: every case of `prm/`, `prm/benchmarks`, `prm/bed`, `prm/contact` and `prm/terrain`, as it
 stands or, where it runs for many minutes, its first part (column "simulated", s), and, in column "kind" called new, ten variants of them that were written after the
-advice had been, each run whole. Cost is processor time of the steps and the output, without the start-up. The advice is asked for
-the same case, right after its run, on the same machine, which other programs kept busy: a core-second of it then does now more, now less, by a
-factor of two within minutes. What it says comes from half a core-second of the case's first steps, a row and a picture, and from a run of the whole case with cells
+advice had been, each run whole. Cost is processor time of the steps and the output, without the start-up. Run and advice are made three times in turn, and their medians
+are compared, as a core-second of a machine that others share does now more, now less: of single pairs 76, 78 and 81 of the 82 were within the factor, mostly not the same ones.
+What the advice says comes from half a core-second of the case's first steps, a row and a picture, and from a run of the whole case with cells
 at least twice as wide, which tells how many steps there will be and how much dearer they get; nothing in it is set on these cases but what a checkpoint costs.
 
 Factors that had been set on cases (solves twice as dear in motion, with volume correction 2.5 times, ...) stood in place of that run before: all cases of `prm/` and `prm/benchmarks` were within
@@ -11,12 +11,15 @@ Factors that had been set on cases (solves twice as dear in motion, with volume 
 
 import math
 import re
+import statistics
 import subprocess
 
+import variants as prm_files
 from charts import Curves
-from study import ROOT, Claim, Study, Variant
+from study import ROOT, Claim, Run, Study, Variant
 
 FACTOR = 1.5
+TURNS = 3
 
 # End times, s, of the cases that are not run to their end.
 PARTS = {"column_loose": 1.5, "column_saturated_3d": 0.75, "porous_dam": 1, "submerged_column": 0.8, "quickstart": 0.6, "slope_dense": 0.3,
@@ -48,19 +51,39 @@ def cases():
     return old + [Variant({"case": case, "kind": "new"}, entries, f"prm/{base}.prm") for case, (base, entries) in NEW.items()]
 
 
+def again(run, turn):
+    """The folder of a further run of the case."""
+    return run.folder / f"again_{turn}"
+
+
+def advice(run, turn):
+    return run.folder / f"advice_{turn}.txt"
+
+
 def ask(run, program):
-    with open(run.folder / "advice.txt", "w", encoding="utf-8") as answer:
-        subprocess.run([program, "--advise", run.folder / "case.prm"], cwd=ROOT, stdout=answer, check=True)
+    case = (run.folder / "case.prm").read_text(encoding="utf-8")
+    for turn in range(TURNS):
+        if turn > 0:
+            prm = run.folder / f"again_{turn}.prm"
+            prm.write_text(prm_files.set_entry(case, "Output directory", again(run, turn)), encoding="utf-8")
+            subprocess.run([program, prm], cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
+        with open(advice(run, turn), "w", encoding="utf-8") as answer:
+            subprocess.run([program, "--advise", run.folder / "case.prm"], cwd=ROOT, stdout=answer, check=True)
+
+
+def predicted(run, turn):
+    """Core-seconds of the run and its steps, as the advice says."""
+    text = advice(run, turn).read_text(encoding="utf-8")
+    cost = text[text.index("Cost of the case"):text.index("Recommendation")]
+    return [float(re.search(pattern, cost, re.MULTILINE).group(1)) for pattern in (r"^  run +([\d.e+-]+)", r"^  steps to .* ([\d.e+-]+)$")]
 
 
 def measure(run):
-    text = (run.folder / "advice.txt").read_text(encoding="utf-8")
-    cost = text[text.index("Cost of the case"):text.index("Recommendation")]
-
-    predicted = float(re.search(r"^  run +([\d.e+-]+)", cost, re.MULTILINE).group(1))
-    steps = float(re.search(r"^  steps to .* ([\d.e+-]+)$", cost, re.MULTILINE).group(1))
-    return {"simulated": run.time[-1], "whole": run.labels["case"] not in PARTS, "predicted core-seconds": predicted, "predicted steps": steps,
-            "cost ratio": predicted / run.cost["core-seconds"], "steps ratio": steps / run.cost["steps"]}
+    runs = [run, *(Run(again(run, turn), run.labels, run.exit_code, math.nan) for turn in range(1, TURNS))]
+    cost = sorted((one.cost for one in runs), key=lambda one: one["core-seconds"])[TURNS // 2]
+    seconds, steps = map(statistics.median, zip(*(predicted(run, turn) for turn in range(TURNS))))
+    return {**cost, "simulated": run.time[-1], "whole": run.labels["case"] not in PARTS, "predicted core-seconds": seconds, "predicted steps": steps,
+            "cost ratio": seconds / cost["core-seconds"], "steps ratio": steps / cost["steps"]}
 
 
 def off(ratio):
