@@ -349,10 +349,12 @@ namespace scree
     for (unsigned int i = 0; i < diagonal.size(); ++i)
       if (is_unknown[i])
         unknowns.push_back(i);
+    if (Utilities::MPI::sum(unknowns.size(), communicator) == 0)
+      return; // all corners are held for now
+    // A rank without a row would be refused: it has one that nothing depends on.
+    const bool has_none  = unknowns.empty();
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
-        communicator, unknowns.size())[Utilities::MPI::this_mpi_process(communicator)];
-    if (owned.size() == 0)
-      return;                       // all corners are held for now
+        communicator, has_none ? 1 : unknowns.size())[Utilities::MPI::this_mpi_process(communicator)];
     CornerVector rows(partitioner); // of the matrix, by number; doubles hold them exactly
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       rows.local_element(unknowns[k]) = owned.nth_index_in_set(k);
@@ -385,6 +387,8 @@ namespace scree
       }
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       matrix_of_all.add(owned.nth_index_in_set(k), owned.nth_index_in_set(k), diagonal[unknowns[k]]);
+    if (has_none)
+      matrix_of_all.add(owned.nth_index_in_set(0), owned.nth_index_in_set(0), 1.);
     matrix_of_all.compress(VectorOperation::add);
 
     preconditioner->source.reinit(owned, communicator);
