@@ -8,11 +8,6 @@ namespace scree
   namespace
   {
     constexpr double standard_gravity = 9.81; // m/s^2
-
-    double kozeny_carman(const double n)
-    {
-      return n * n * n / ((1. - n) * (1. - n));
-    }
   } // namespace
 
 
@@ -28,15 +23,4 @@ namespace scree
                            : water.conductivity / kozeny_carman(std::max(initial_porosity, smallest_porosity));
   }
 
-
-  double DragLaw::conductivity(const double porosity) const
-  {
-    return is_constant ? factor : factor * kozeny_carman(porosity);
-  }
-
-
-  double DragLaw::linear(const double porosity) const
-  {
-    return porosity * porosity * unit_weight / conductivity(porosity);
-  }
 } // namespace scree

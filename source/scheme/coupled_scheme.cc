@@ -107,19 +107,20 @@ namespace scree
         water_field.activate_cell(cell.cell);
         if (cell.effective_saturation == 0 || cell.grain_volume == 0)
           continue;
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        const unsigned int n      = grid.n_nodes_1d();
-        const NodeRow *moments    = mixture.grain_moments(record);
-        const double inertial     = cell.inertial / cell.grain_volume;
-        const double wet_pores    = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
-        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          {
-            const double grains = moments[(i / n) * Mixture<dim>::n_moments][i % n];
-            double *pore        = pores[nodes[i]];
-            pore[PoreField<dim>::grain_volume] += cell.effective_saturation * grains;
-            pore[PoreField<dim>::inertial_drag] += inertial * grains;
-            pore[PoreField<dim>::wet_pores] += wet_pores * grains;
-          }
+        const unsigned int *nodes  = grid.nodes(cell.cell);
+        const unsigned int n       = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
+        const NodeRow *grain_rows  = mixture.grain_moments(record);
+        const double inertial      = cell.inertial / cell.grain_volume;
+        const double wet_pores     = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
+        for (unsigned int r = 0; r < n_rows; ++r)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              const double grains = grain_rows[r][i];
+              double *pore        = pores[nodes[r * n + i]];
+              pore[PoreField<dim>::grain_volume] += cell.effective_saturation * grains;
+              pore[PoreField<dim>::inertial_drag] += inertial * grains;
+              pore[PoreField<dim>::wet_pores] += wet_pores * grains;
+            }
       }
   }
 

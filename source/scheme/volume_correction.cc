@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/grid/shape_functions.h>
 #include <scree/scheme/volume_correction.h>
+#include <scree/transfer/node_rows.h>
 
 #include <algorithm>
 
@@ -136,18 +136,38 @@ namespace scree
     if (!find_potential(mixture, time_step, balance))
       return;
     find_shifts(mixture, water_field, pores, time_step);
-    for_each_point(water.points(), [&](const auto &point) {
-      Tensor<1, dim> shift;
-      visit_nodes(grid, point.cell, point.reference_location, [&](const unsigned int node, const double shape) {
-        for (unsigned int c = 0; c < dim; ++c)
-          shift[c] += shape * shifts[node][dim + c];
-      });
-      point.location += shift;
-      balance.correction_work -= point.properties[water.layout.mass] * (gravity * shift);
-      // The pressure stays where it is; the point reads it at its new place.
-      for (unsigned int c = 0; c < dim; ++c)
-        point.properties[water.layout.pressure] += point.properties[water.layout.pressure_gradient + c] * shift[c];
-    });
+    if (grid.n_nodes_1d() == 2)
+      move<2>(water, balance);
+    else
+      move<3>(water, balance);
+  }
+
+
+  template <int dim>
+  template <int n>
+  void VolumeCorrection<dim>::move(WaterPhase<dim> &water, StepBalance<dim> &balance) const
+  {
+    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    const auto &layout            = water.layout;
+    for (const auto &cell : water.points().cells())
+      {
+        NodeRow of_nodes[dim][n_rows]{};
+        for (unsigned int r = 0; r < n_rows; ++r)
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              of_nodes[c][r][i] = shifts[grid.nodes(cell.cell)[r * n + i]][dim + c];
+        for_each_record(cell, [&](const auto &point) {
+          const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
+          Tensor<1, dim> shift;
+          for (unsigned int c = 0; c < dim; ++c)
+            shift[c] = sum(contract(shape.rows.value, of_nodes[c]) * shape.value_x);
+          point.location += shift;
+          balance.correction_work -= point.properties[layout.mass] * (gravity * shift);
+          // The pressure stays where it is; the point reads it at its new place.
+          for (unsigned int c = 0; c < dim; ++c)
+            point.properties[layout.pressure] += point.properties[layout.pressure_gradient + c] * shift[c];
+        });
+      }
   }
 
   template class VolumeCorrection<2>;

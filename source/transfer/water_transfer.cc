@@ -5,6 +5,7 @@
 #include <scree/transfer/water_transfer.h>
 
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace scree
@@ -14,19 +15,52 @@ namespace scree
   namespace
   {
 
+    /// A number for each corner of a cell, in registers: numbers that are stored one by one and read as a vector wait
+    /// for each other.
+    template <int dim>
+    struct RowOfCorners;
+    template <>
+    struct RowOfCorners<2>
+    {
+      using type = double __attribute__((vector_size(4 * sizeof(double))));
+    };
+    template <>
+    struct RowOfCorners<3>
+    {
+      using type = double __attribute__((vector_size(8 * sizeof(double))));
+    };
+    template <int dim>
+    using CornerRow = typename RowOfCorners<dim>::type;
+
+    /// `upper` at the corners on the upper face of an axis, `lower` at the others.
+    template <int dim>
+    DEAL_II_ALWAYS_INLINE inline CornerRow<dim>
+    on_faces(const unsigned int axis, const double lower, const double upper)
+    {
+      CornerRow<dim> row;
+      for (unsigned int v = 0; v < (1 << dim); ++v)
+        row[v] = v >> axis & 1 ? upper : lower;
+      return row;
+    }
+
     /// The linear functions of a cell's corners at one of its points.
     template <int dim>
-    std::array<double, (1 << dim)> corner_values(const Point<dim> &x)
+    DEAL_II_ALWAYS_INLINE inline CornerRow<dim> corner_values(const Point<dim> &x)
     {
-      std::array<double, (1 << dim)> values;
-      values[0] = 1.;
-      for (unsigned int a = 0, n = 1; a < dim; ++a, n *= 2)
-        for (unsigned int m = 0; m < n; ++m)
-          {
-            values[m + n] = values[m] * x[a];
-            values[m] -= values[m + n];
-          }
+      CornerRow<dim> values = on_faces<dim>(0, 1. - x[0], x[0]);
+      for (unsigned int a = 1; a < dim; ++a)
+        values *= on_faces<dim>(a, 1. - x[a], x[a]);
       return values;
+    }
+
+    template <int dim>
+    DEAL_II_ALWAYS_INLINE inline void add(const CornerRow<dim> &row,
+                                          typename MixtureCell<dim>::AtCorners &sums)
+    {
+      CornerRow<dim> sum;
+      std::memcpy(&sum, sums.data(), sizeof(sum));
+      sum += row;
+      std::memcpy(sums.data(), &sum, sizeof(sum));
     }
 
     /// The monomials x^m of places of a cell, bit a of m standing for x_a.
@@ -44,15 +78,16 @@ namespace scree
 
     /// Adds the moments of a point's volume to rows of nodes.
     template <int dim, int n>
-    void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
+    DEAL_II_ALWAYS_INLINE inline void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
     {
-      const NodeRow volume_x = shape.value_x * volume;
-      const auto powers      = monomials<dim, double>(shape.x);
-      for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
+      constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+      const NodeRow volume_x        = shape.value_x * volume;
+      const auto powers             = monomials<dim, double>(shape.x);
+      for (unsigned int r = 0; r < n_rows; ++r)
         {
           const NodeRow volume_of_row = volume_x * shape.rows.value[r];
           for (unsigned int m = 0; m < Mixture<dim>::n_moments; ++m)
-            *moments++ += volume_of_row * powers[m];
+            moments[m * n_rows + r] += volume_of_row * powers[m];
         }
     }
 
@@ -92,17 +127,13 @@ namespace scree
       double pressure_at_lower = pressure;
       for (unsigned int a = 0; a < dim; ++a)
         pressure_at_lower -= rise[a] * x[a];
-      const auto corners = corner_values(x);
-      for (unsigned int v = 0; v < corners.size(); ++v)
-        {
-          double pressure_at_corner = pressure_at_lower;
-          for (unsigned int a = 0; a < dim; ++a)
-            if ((v >> a) & 1)
-              pressure_at_corner += rise[a];
-          sums.water_at_corner[v] += volume * corners[v];
-          sums.pressure_at_corner[v] += volume * corners[v] * pressure_at_corner;
-          sums.forgotten_at_corner[v] += volume * corners[v] * forgotten;
-        }
+      CornerRow<dim> pressure_at_corner = on_faces<dim>(0, pressure_at_lower, pressure_at_lower + rise[0]);
+      for (unsigned int a = 1; a < dim; ++a)
+        pressure_at_corner += on_faces<dim>(a, 0., rise[a]);
+      const CornerRow<dim> volume_at_corner = volume * corner_values(x);
+      add<dim>(volume_at_corner, sums.water_at_corner);
+      add<dim>(volume_at_corner * pressure_at_corner, sums.pressure_at_corner);
+      add<dim>(volume_at_corner * forgotten, sums.forgotten_at_corner);
     }
 
     /// Value, Pa, and gradient, Pa/m, of a cell's pressure at places in it, and, if anything, what the next step
@@ -198,9 +229,7 @@ namespace scree
           add_row_sums(shape, drag, drag_sums);
           if (parts != nullptr)
             parts->add_soil(shape.x, grains, volume);
-          const auto corners = corner_values(shape.x);
-          for (unsigned int v = 0; v < corners.size(); ++v)
-            sums.grains_at_corner[v] += grains * corners[v];
+          add<dim>(grains * corner_values(shape.x), sums.grains_at_corner);
           sums.soil_mass += mass;
           sums.grain_volume += grains;
           sums.pore_volume += pores_of_point;

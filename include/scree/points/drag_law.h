@@ -19,10 +19,16 @@ namespace scree
     DragLaw(const WaterParameters &water, const double initial_porosity);
 
     /// Of slow flow, m/s.
-    double conductivity(const double porosity) const;
+    double conductivity(const double porosity) const
+    {
+      return is_constant ? factor : factor * kozeny_carman(porosity);
+    }
 
     /// Q, N s/m^4.
-    double linear(const double porosity) const;
+    double linear(const double porosity) const
+    {
+      return porosity * porosity * unit_weight / conductivity(porosity);
+    }
 
     /// b, N s^2/m^5: per volume of grains.
     double inertial() const
@@ -31,6 +37,11 @@ namespace scree
     }
 
   private:
+    static double kozeny_carman(const double n)
+    {
+      return n * n * n / ((1. - n) * (1. - n));
+    }
+
     const double unit_weight; // of water, N/m^3, at standard gravity: what defines the conductivity
     const bool is_constant;
     double factor; // the conductivity, m/s; or what n^3/(1-n)^2 is multiplied with

@@ -46,6 +46,10 @@ namespace scree
                      const PoreField<dim> &pores,
                      const double time_step);
 
+    /// Moves the points with the nodes.
+    template <int n>
+    void move(WaterPhase<dim> &water, StepBalance<dim> &balance) const;
+
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
     PorePressure<dim> &pressure;
