@@ -31,7 +31,7 @@ namespace scree
           double square          = 0;
           for (unsigned int c = 0; c < dim; ++c)
             square += (of_water[c] - of_soil[c]) * (of_water[c] - of_soil[c]);
-          sum += moments[i / n][i % n] * std::sqrt(square);
+          sum += moments[(i / n) * Mixture<dim>::n_moments][i % n] * std::sqrt(square);
         }
       return sum / cell.grain_volume;
     }

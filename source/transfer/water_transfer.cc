@@ -80,14 +80,13 @@ namespace scree
     template <int dim, int n>
     DEAL_II_ALWAYS_INLINE inline void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
     {
-      constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-      const NodeRow volume_x        = shape.value_x * volume;
-      const auto powers             = monomials<dim, double>(shape.x);
-      for (unsigned int r = 0; r < n_rows; ++r)
+      const NodeRow volume_x = shape.value_x * volume;
+      const auto powers      = monomials<dim, double>(shape.x);
+      for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
         {
           const NodeRow volume_of_row = volume_x * shape.rows.value[r];
           for (unsigned int m = 0; m < Mixture<dim>::n_moments; ++m)
-            moments[m * n_rows + r] += volume_of_row * powers[m];
+            *moments++ += volume_of_row * powers[m];
         }
     }
 

@@ -154,7 +154,7 @@ namespace scree
       return records;
     }
 
-    /// Moments of a cell's grains or water: of each monomial the rows of nodes; the first are sums V phi_i.
+    /// Moments of a cell's grains or water: rows of nodes of n_moments each.
     NodeRow *grain_moments(const unsigned int record)
     {
       return &grains[std::size_t(record) * moments_per_cell];
@@ -225,14 +225,13 @@ namespace scree
                                          Nodes &values,
                                          const unsigned int first) const
   {
-    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-    for (unsigned int r = 0; r < n_rows; ++r)
+    for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r, moments += n_moments)
       for (unsigned int a = 0; a < dim; ++a)
         {
           NodeRow force{};
           for (unsigned int m = 0; m < n_moments; ++m)
             if (!((m >> a) & 1))
-              force += slopes[m | (1 << a)] * moments[m * n_rows + r];
+              force += slopes[m | (1 << a)] * moments[m];
           for (unsigned int i = 0; i < n; ++i)
             values[nodes[r * n + i]][first + a] += force[i];
         }
