@@ -60,9 +60,9 @@ namespace scree
       std::array<double, n_nodes> result;
       for (unsigned int i = 0; i < n_nodes; ++i)
         {
-          const double volume = nodes.water[ids[i]][NodalField<dim>::mass] / water_density;
+          const double mass   = nodes.water[ids[i]][NodalField<dim>::mass];
           const double grains = nodes.pores[ids[i]][PoreField<dim>::grains_about_water];
-          result[i]           = grains > 0. ? volume / (volume + grains) : 1.;
+          result[i]           = grains > 0. ? mass / (mass + water_density * grains) : 1.;
         }
       return result;
     }
