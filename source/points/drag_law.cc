@@ -22,5 +22,4 @@ namespace scree
       factor = is_constant ? water.conductivity
                            : water.conductivity / kozeny_carman(std::max(initial_porosity, smallest_porosity));
   }
-
 } // namespace scree

@@ -107,11 +107,11 @@ namespace scree
         water_field.activate_cell(cell.cell);
         if (cell.effective_saturation == 0 || cell.grain_volume == 0)
           continue;
-        const unsigned int *nodes  = grid.nodes(cell.cell);
-        const unsigned int n       = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
-        const NodeRow *moments     = mixture.grain_moments(record);
-        const double inertial      = cell.inertial / cell.grain_volume;
-        const double wet_pores     = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
+        const unsigned int *nodes = grid.nodes(cell.cell);
+        const unsigned int n = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
+        const NodeRow *moments = mixture.grain_moments(record);
+        const double inertial  = cell.inertial / cell.grain_volume;
+        const double wet_pores = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int i = 0; i < n; ++i)
             {

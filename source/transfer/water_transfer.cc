@@ -14,7 +14,6 @@ namespace scree
 
   namespace
   {
-
     /// A number for each corner of a cell, in registers: numbers that are stored one by one and read as a vector wait
     /// for each other.
     template <int dim>
@@ -53,9 +52,9 @@ namespace scree
       return values;
     }
 
+    /// Adds a row to sums of a cell.
     template <int dim>
-    DEAL_II_ALWAYS_INLINE inline void add(const CornerRow<dim> &row,
-                                          typename MixtureCell<dim>::AtCorners &sums)
+    DEAL_II_ALWAYS_INLINE inline void add(const CornerRow<dim> &row, typename MixtureCell<dim>::AtCorners &sums)
     {
       CornerRow<dim> sum;
       std::memcpy(&sum, sums.data(), sizeof(sum));
@@ -78,7 +77,8 @@ namespace scree
 
     /// Adds the moments of a point's volume to rows of nodes.
     template <int dim, int n>
-    DEAL_II_ALWAYS_INLINE inline void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
+    DEAL_II_ALWAYS_INLINE inline void
+    add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
     {
       const NodeRow volume_x = shape.value_x * volume;
       const auto powers      = monomials<dim, double>(shape.x);
