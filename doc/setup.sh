@@ -64,10 +64,10 @@ fi
 export OMPI_MCA_rmaps_base_oversubscribe=1
 export OMPI_MCA_hwloc_base_binding_policy=none
 export OMPI_MCA_btl=self,vader
-# Nor does it look for a network or, without mpirun, start a daemon: runs begin in half the time.
+export OMPI_MCA_btl_vader_single_copy_mechanism=none
+# No search for networks and, without mpirun, no daemon: runs begin in half the time.
 export OMPI_MCA_pml=ob1
 export OMPI_MCA_ess_singleton_isolated=1
-export OMPI_MCA_btl_vader_single_copy_mechanism=none
 
 # Build ----------------------------------------------------------------------------------------------------------------
 

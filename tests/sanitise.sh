@@ -10,8 +10,7 @@ export ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0:abort_on_error=0:
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=0
 export OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-export OMPI_MCA_pml=ob1 OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_btl=self,vader \
-       OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1
+export OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 build=${1:-$root/build-sanitise}

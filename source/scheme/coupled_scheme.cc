@@ -109,13 +109,12 @@ namespace scree
           continue;
         const unsigned int *nodes = grid.nodes(cell.cell);
         const unsigned int n = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
-        const NodeRow *moments = mixture.grain_moments(record);
         const double inertial  = cell.inertial / cell.grain_volume;
         const double wet_pores = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int i = 0; i < n; ++i)
             {
-              const double grains = moments[r * Mixture<dim>::n_moments][i];
+              const double grains = mixture.grain_volumes(record, r)[i];
               double *pore        = pores[nodes[r * n + i]];
               pore[PoreField<dim>::grain_volume] += cell.effective_saturation * grains;
               pore[PoreField<dim>::inertial_drag] += inertial * grains;

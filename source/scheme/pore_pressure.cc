@@ -22,7 +22,6 @@ namespace scree
       const MixtureCell<dim> &cell = mixture.cells()[record];
       const unsigned int *nodes    = grid.nodes(cell.cell);
       const unsigned int n         = grid.n_nodes_1d();
-      const NodeRow *moments       = mixture.grain_moments(record);
       double sum                   = 0;
       for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
         {
@@ -31,7 +30,7 @@ namespace scree
           double square          = 0;
           for (unsigned int c = 0; c < dim; ++c)
             square += (of_water[c] - of_soil[c]) * (of_water[c] - of_soil[c]);
-          sum += moments[(i / n) * Mixture<dim>::n_moments][i % n] * std::sqrt(square);
+          sum += mixture.grain_volumes(record, i / n)[i % n] * std::sqrt(square);
         }
       return sum / cell.grain_volume;
     }

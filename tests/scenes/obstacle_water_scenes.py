@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from bed_water_scenes import GRAVITY, WEIGHT, check_balance, gain
-from scene_tools import check, main, run
+from scene_tools import check, main, nudged_gravity, run
 
 TANK = {"End time": "0.2", "Mesh/Upper corner": "1.5, 1.5", "Mesh/Cell size": "0.05", "Water/Region": "y < 1.33"}
 
@@ -97,7 +97,7 @@ def obstacle_dam_break(scree):
         name = "dam break %d" % nudge
         table = run(scree, "dam_break", "dam",
                     {"End time": "1.2", "Mesh/Upper corner": "2.4, 9", "Mesh/Cell size": "0.025", "Water/Region": "x < 0.713 && y < 1.03",
-                     "Gravity": "0, -9.8100%d" % nudge,
+                     "Gravity": nudged_gravity(nudge),
                      "Obstacle Left/Type": "free slip", "Obstacle Left/Level set expression": "x - 0.113",
                      "Obstacle Right/Type": "free slip", "Obstacle Right/Level set expression": "2.113 - x"})
         given = -np.array(table["Obstacle Left impulse x (N s)"]) - np.array(table["Obstacle Right impulse x (N s)"])

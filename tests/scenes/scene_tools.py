@@ -35,6 +35,11 @@ def run(scree, case, name, entries, may_stop=False):
     return read_statistics(os.path.join(name, "statistics"))
 
 
+def nudged_gravity(nudge):
+    """Gravity of a plane scene, changed by `nudge` times 1e-6 of it: water that breaks does so in another way then."""
+    return "0, -9.8100%d" % nudge
+
+
 def at(table, column, time):
     """The value of the row nearest to `time`."""
     index = min(range(len(table["Time (s)"])), key=lambda i: abs(table["Time (s)"][i] - time))

@@ -92,7 +92,7 @@ namespace
         if (mixture.cells()[record].grain_volume > 0.)
           for (unsigned int i = 0, n = grid.n_nodes_1d(); i < grid.n_nodes_per_cell(); ++i)
             pores[grid.nodes(mixture.cells()[record].cell)[i]][PoreField<dim>::grain_volume] +=
-                mixture.grain_moments(record)[(i / n) * Mixture<dim>::n_moments][i % n];
+                mixture.grain_volumes(record, i / n)[i % n];
       pores.add_contributions();
       water_field.add_contributions();
       for (const unsigned int node : pores.active_nodes())

@@ -26,11 +26,11 @@ namespace scree
   }
 
   /// The same records, to be read.
-  DEAL_II_ALWAYS_INLINE inline RecordPointers<const double> as_constant(const RecordPointers<double> &records)
+  inline RecordPointers<const double> as_constant(const RecordPointers<double> &records)
   {
     RecordPointers<const double> result;
     for (unsigned int l = 0; l < batch_size; ++l)
-      result[l] = apart(records[l]);
+      result[l] = records[l];
     return result;
   }
 

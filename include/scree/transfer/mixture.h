@@ -168,6 +168,12 @@ namespace scree
       return &water[std::size_t(record) * moments_per_cell];
     }
 
+    /// Of these the sums V phi_i of grains at a row of nodes, m^3.
+    const NodeRow &grain_volumes(const unsigned int record, const unsigned int row) const
+    {
+      return grain_moments(record)[row * n_moments];
+    }
+
     /// Soil in the parts of a cell: room for it is made. Records of cells with soil have to come before the others.
     PorosityOfParts<dim> &soil_parts(const unsigned int record)
     {

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_mixture_sums_h
+#define scree_transfer_mixture_sums_h
+
+#include <scree/transfer/water_transfer.h>
+
+#include <cstring>
+#include <type_traits>
+
+namespace scree
+{
+  // What a point of soil or water adds to the sums of its cell of the mixture.
+
+  using EightDoubles = double __attribute__((vector_size(8 * sizeof(double))));
+
+  /// A number for each corner of a cell, in registers: numbers that are stored one by one and read as a vector wait for
+  /// each other.
+  template <int dim>
+  using CornerRow = std::conditional_t<dim == 2, NodeRow, EightDoubles>;
+
+  /// `upper` at the corners on the upper face of an axis, `lower` at the others.
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline CornerRow<dim> on_faces(const unsigned int axis, const double lower, const double upper)
+  {
+    CornerRow<dim> row;
+    for (unsigned int v = 0; v < (1 << dim); ++v)
+      row[v] = v >> axis & 1 ? upper : lower;
+    return row;
+  }
+
+  /// The linear functions of a cell's corners at one of its points.
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline CornerRow<dim> corner_values(const dealii::Point<dim> &x)
+  {
+    CornerRow<dim> values = on_faces<dim>(0, 1. - x[0], x[0]);
+    for (unsigned int a = 1; a < dim; ++a)
+      values *= on_faces<dim>(a, 1. - x[a], x[a]);
+    return values;
+  }
+
+  /// Adds a row to sums of a cell.
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline void add_row(const CornerRow<dim> &row, typename MixtureCell<dim>::AtCorners &sums)
+  {
+    CornerRow<dim> sum;
+    std::memcpy(&sum, sums.data(), sizeof(sum));
+    sum += row;
+    std::memcpy(sums.data(), &sum, sizeof(sum));
+  }
+
+  /// The monomials x^m of places of a cell, bit a of m standing for x_a.
+  template <int dim, typename Number, typename Place>
+  std::array<Number, Mixture<dim>::n_moments> monomials(const Place &x)
+  {
+    std::array<Number, Mixture<dim>::n_moments> values;
+    values[0] = simd::broadcast<Number>(1.);
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int m = 0; m < (1u << a); ++m)
+        if (const unsigned int with = m | (1 << a); with < values.size())
+          values[with] = values[m] * x[a];
+    return values;
+  }
+
+  /// Adds the moments of a point's volume to rows of nodes.
+  template <int dim, int n>
+  DEAL_II_ALWAYS_INLINE inline void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
+  {
+    const NodeRow volume_x = shape.value_x * volume;
+    const auto powers      = monomials<dim, double>(shape.x);
+    for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
+      {
+        const NodeRow volume_of_row = volume_x * shape.rows.value[r];
+        for (unsigned int m = 0; m < Mixture<dim>::n_moments; ++m)
+          *moments++ += volume_of_row * powers[m];
+      }
+  }
+
+  /// Adds a point's number, shared by the shape functions, to rows of nodes.
+  template <int dim, int n, unsigned long n_rows>
+  void add_row_sums(const PointShape<dim, n> &shape, const double number, NodeRow (&sums)[n_rows])
+  {
+    const NodeRow number_x = shape.value_x * number;
+    for (unsigned int r = 0; r < n_rows; ++r)
+      sums[r] += number_x * shape.rows.value[r];
+  }
+
+  /// Adds rows of nodes to a component of the pores.
+  template <int dim, int n, unsigned long n_rows>
+  void
+  scatter(const NodeRow (&sums)[n_rows], const unsigned int *nodes, const unsigned int component, PoreField<dim> &pores)
+  {
+    for (unsigned int r = 0; r < n_rows; ++r)
+      for (unsigned int i = 0; i < n; ++i)
+        pores[nodes[r * n + i]][component] += sums[r][i];
+  }
+
+  /// Adds volume and pressure of a point of water to the corners of its cell.
+  ///
+  /// @param forgotten part of the pressure that the step does not start from
+  /// @param rise of the pressure along each axis over the cell's width, Pa
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline void add_to_corners(const dealii::Point<dim> &x,
+                                                   const double volume,
+                                                   const double pressure,
+                                                   const std::array<double, dim> &rise,
+                                                   const double forgotten,
+                                                   MixtureCell<dim> &sums)
+  {
+    double pressure_at_lower = pressure;
+    for (unsigned int a = 0; a < dim; ++a)
+      pressure_at_lower -= rise[a] * x[a];
+    CornerRow<dim> pressure_at_corner = on_faces<dim>(0, pressure_at_lower, pressure_at_lower + rise[0]);
+    for (unsigned int a = 1; a < dim; ++a)
+      pressure_at_corner += on_faces<dim>(a, 0., rise[a]);
+    const CornerRow<dim> volume_at_corner = volume * corner_values(x);
+    add_row<dim>(volume_at_corner, sums.water_at_corner);
+    add_row<dim>(volume_at_corner * pressure_at_corner, sums.pressure_at_corner);
+    add_row<dim>(volume_at_corner * forgotten, sums.forgotten_at_corner);
+  }
+} // namespace scree
+
+#endif
