@@ -3,7 +3,6 @@
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,23 +16,6 @@ namespace scree
   {
     template <int dim>
     using Field = NodalField<dim>;
-
-    /// Unit vectors along a surface.
-    std::array<Tensor<1, 2>, 1> tangents(const Tensor<1, 2> &normal)
-    {
-      return { { cross_product_2d(normal) } };
-    }
-    std::array<Tensor<1, 3>, 2> tangents(const Tensor<1, 3> &normal)
-    {
-      unsigned int least = 0;
-      for (unsigned int a = 1; a < 3; ++a)
-        if (std::abs(normal[a]) < std::abs(normal[least]))
-          least = a;
-      Tensor<1, 3> axis;
-      axis[least]              = 1.;
-      const Tensor<1, 3> along = cross_product_3d(normal, axis), first = along / along.norm();
-      return { { first, cross_product_3d(normal, first) } };
-    }
   } // namespace
 
 
@@ -50,7 +32,7 @@ namespace scree
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , open_cells(open_cells)
       , relative_tolerance(relative_tolerance)
-      , ground_response(grid, open_cells)
+      , contacts(grid, open_cells)
       , any_holds_water(
             std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.holds_water; }))
   {
@@ -101,8 +83,8 @@ namespace scree
   template <int dim>
   void BedProjection<dim>::reinit()
   {
-    ground_response.reinit();
-    of_segments.assign(open_cells.segments().size(), Impulses()); // The next step begins its search from nothing.
+    contacts.reinit();
+    of_segments.assign(open_cells.segments().size(), OfSegment()); // The next step begins its search from nothing.
     find_surfaces();
   }
 
@@ -111,7 +93,7 @@ namespace scree
   void BedProjection<dim>::follow()
   {
     const std::vector<unsigned int> &numbers = open_cells.numbers_before();
-    std::vector<Impulses> now(numbers.size());
+    std::vector<OfSegment> now(numbers.size());
     for (unsigned int s = 0; s < numbers.size(); ++s)
       if (numbers[s] != open_cells.none)
         now[s] = of_segments[numbers[s]];
@@ -125,20 +107,6 @@ namespace scree
   {
     const unsigned int first = surfaces.size() - n_obstacles;
     return surface_numbers[segment] < first ? nullptr : &balance.obstacles[surface_numbers[segment] - first];
-  }
-
-
-  template <int dim>
-  double BedProjection<dim>::sum(const double value) const
-  {
-    return Utilities::MPI::sum(value, grid.triangulation().get_communicator());
-  }
-
-
-  template <int dim>
-  double BedProjection<dim>::max(const double value) const
-  {
-    return Utilities::MPI::max(value, grid.triangulation().get_communicator());
   }
 
 
@@ -177,157 +145,30 @@ namespace scree
   void BedProjection<dim>::add_contact(const unsigned int segment,
                                        const Phase phase,
                                        const bool is_unilateral,
-                                       const MixtureNodes<dim> &nodes)
+                                       const MixtureNodes<dim> &nodes,
+                                       const Tensor<1, dim> &base,
+                                       const Tensor<1, dim> &first)
   {
     const GroundSegment<dim> &of_ground = open_cells.segments()[segment];
-    const NodalField<dim> &field        = phase == Phase::soil ? nodes.soil : nodes.water;
-    const Tensor<1, dim> beside_ground  = mean_velocity(of_ground, field) - open_cells.velocity(of_ground);
-    Contact contact{};
+    GroundContact<dim> contact{};
     contact.segment       = segment;
     contact.phase         = phase;
     contact.is_unilateral = is_unilateral;
-    contact.rubs          = phase == Phase::soil && surface_of(segment).friction_coefficient > 0.;
-    contact.first_row     = rows.size();
-    const bool sticks     = phase == Phase::water && std::binary_search(holding.begin(), holding.end(), segment);
-    contact.n_rows        = contact.rubs || sticks ? dim : 1;
-    contacts.push_back(contact);
-    const auto along      = tangents(of_ground.normal);
-    const double mobility = mobility_at(of_ground, phase, nodes);
-    for (unsigned int r = 0; r < contact.n_rows; ++r)
-      {
-        Row row;
-        row.contact   = contacts.size() - 1;
-        row.area      = of_ground.area;
-        row.direction = r == 0 ? of_ground.normal : along[r - 1];
-        row.mobility  = mobility;
-        row.speed     = row.direction * beside_ground;
-        rows.push_back(row);
-      }
-    // Unilateral soil that neither presses nor comes near is left alone.
-    const Impulses &before = of_segments[segment];
-    if (is_unilateral && rows[contact.first_row].speed <= 0. &&
-        !((phase == Phase::soil ? before.soil : before.water) * of_ground.normal > 0.))
-      {
-        contacts.pop_back();
-        rows.resize(contact.first_row);
-        return;
-      }
-    ground_response.add(segment, phase);
-  }
-
-
-  template <int dim>
-  const std::vector<Tensor<1, dim>> &BedProjection<dim>::by_contacts(const std::vector<double> &of_rows)
-  {
-    of_contacts.resize(contacts.size());
-    for (unsigned int k = 0; k < contacts.size(); ++k)
-      {
-        of_contacts[k] = Tensor<1, dim>();
-        for (unsigned int r = contacts[k].first_row; r < contacts[k].first_row + contacts[k].n_rows; ++r)
-          of_contacts[k] += of_rows[r] * rows[r].direction;
-      }
-    return of_contacts;
-  }
-
-
-  template <int dim>
-  void BedProjection<dim>::respond(const std::vector<double> &of_rows)
-  {
-    ground_response.apply(by_contacts(of_rows), velocities);
-    response.resize(rows.size());
-    for (unsigned int k = 0; k < rows.size(); ++k)
-      response[k] = rows[k].direction * velocities[rows[k].contact];
-  }
-
-
-  template <int dim>
-  void BedProjection<dim>::iterate()
-  {
-    constexpr unsigned int most_iterations = 100;
-    const unsigned int n                   = rows.size();
-    const auto scaled                      = [&](const unsigned int k) {
-      return rows[k].is_free && rows[k].mobility > 0. ? residual[k] / rows[k].mobility : 0.;
-    };
-    double own_product = 0., own_square = 0.;
-    const auto judge = [&] { // product of the residual with itself, scaled; its square over the ground
-      own_product = own_square = 0.;
-      for (unsigned int k = 0; k < n; ++k)
-        if (rows[k].is_free && rows[k].mobility > 0.)
-          {
-            own_product += residual[k] * scaled(k);
-            own_square += rows[k].area * residual[k] * residual[k];
-          }
-    };
-    judge();
-    double product = sum(own_product);
-    direction.resize(n);
-    for (unsigned int k = 0; k < n; ++k)
-      direction[k] = scaled(k);
-    for (unsigned int i = 0; i < most_iterations && sum(own_square) > tolerance * tolerance; ++i)
-      {
-        respond(direction);
-        double curvature = 0.;
-        for (unsigned int k = 0; k < n; ++k)
-          curvature += direction[k] * response[k];
-        curvature = sum(curvature);
-        if (!(curvature > 0.))
-          break; // Walls hold what is left.
-        const double length = product / curvature;
-        for (unsigned int k = 0; k < n; ++k)
-          {
-            rows[k].impulse += length * direction[k];
-            residual[k] -= length * response[k];
-          }
-        judge();
-        const double next = sum(own_product);
-        for (unsigned int k = 0; k < n; ++k)
-          direction[k] = scaled(k) + next / product * direction[k];
-        product = next;
-      }
-  }
-
-
-  template <int dim>
-  bool BedProjection<dim>::find_states()
-  {
-    bool changed   = false;
-    const auto set = [&](Row &row, const double impulse) {
-      changed     = changed || std::abs(impulse - row.impulse) * row.mobility * std::sqrt(row.area) > tolerance;
-      row.impulse = impulse;
-    };
-    for (Contact &contact : contacts)
-      {
-        if (!contact.is_unilateral || contact.is_off)
-          continue;
-        Row *of_contact = &rows[contact.first_row];
-        if (of_contact[0].impulse + contact.base[0] <= 0.)
-          {
-            contact.is_off = true;
-            for (unsigned int r = 0; r < contact.n_rows; ++r)
-              {
-                set(of_contact[r], -contact.base[r]);
-                of_contact[r].is_free = false;
-              }
-            continue;
-          }
-        if (!contact.rubs)
-          continue;
-        Tensor<1, dim> needed; // along the ground
-        for (unsigned int r = 1; r < contact.n_rows; ++r)
-          needed[r] = of_contact[r].impulse + contact.base[r];
-        const double available = available_friction(surface_of(contact.segment).friction_coefficient,
-                                                    of_contact[0].impulse + contact.base[0]);
-        if (!contact.slides && needed.norm() <= available)
-          continue;
-        contact.slides    = true;
-        const double size = needed.norm();
-        for (unsigned int r = 1; r < contact.n_rows; ++r)
-          {
-            set(of_contact[r], (size > 0. ? available / size * needed[r] : 0.) - contact.base[r]);
-            of_contact[r].is_free = false;
-          }
-      }
-    return max(double(changed)) > 0.;
+    if (phase == Phase::soil)
+      contact.friction = surface_of(segment).friction_coefficient;
+    else if (std::binary_search(holding.begin(), holding.end(), segment))
+      contact.friction = std::numeric_limits<double>::infinity();
+    contact.area   = of_ground.area;
+    contact.normal = of_ground.normal;
+    contact.speed =
+        mean_velocity(of_ground, phase == Phase::soil ? nodes.soil : nodes.water) - open_cells.velocity(of_ground);
+    // What neither presses nor comes near is left alone.
+    if (is_unilateral && contact.speed * contact.normal <= 0. && !(base * contact.normal > 0.))
+      return;
+    contact.mobility = mobility_at(of_ground, phase, nodes);
+    contact.base     = base;
+    contact.impulse  = contact.part(contact.holds(), first);
+    contacts.add(contact);
   }
 
 
@@ -337,45 +178,23 @@ namespace scree
                                    const double wanted,
                                    StepBalance<dim> &balance)
   {
-    constexpr unsigned int most_passes = 8;
-    double own_square                  = 0.;
-    for (const Row &row : rows)
-      own_square += row.area * row.speed * row.speed;
-    largest_flow = std::max(largest_flow, std::sqrt(sum(own_square)));
-    tolerance    = wanted * largest_flow;
-    if (tolerance == 0.)
+    largest_flow = std::max(largest_flow, contacts.flow());
+    if (largest_flow == 0.)
       return;
-    ground_response.start(nodes, step);
-
-    std::vector<double> of_rows(rows.size());
-    for (unsigned int pass = 0; pass < most_passes; ++pass)
+    contacts.find(nodes, step, wanted * largest_flow);
+    for (const GroundContact<dim> &contact : contacts.contacts())
       {
-        for (unsigned int k = 0; k < rows.size(); ++k)
-          of_rows[k] = rows[k].impulse;
-        respond(of_rows);
-        residual.resize(rows.size());
-        for (unsigned int k = 0; k < rows.size(); ++k)
-          residual[k] = rows[k].speed - response[k];
-        iterate();
-        if (!find_states())
-          break;
+        OfSegment &taken = of_segments[contact.segment];
+        (contact.phase == Phase::soil ? taken.soil : taken.water) += contact.impulse;
       }
-
-    for (unsigned int k = 0; k < rows.size(); ++k)
-      {
-        of_rows[k]             = rows[k].impulse;
-        const Contact &contact = contacts[rows[k].contact];
-        Impulses &given        = of_segments[contact.segment];
-        (contact.phase == Phase::soil ? given.soil : given.water) += rows[k].impulse * rows[k].direction;
-      }
-    ground_response.take(by_contacts(of_rows), nodes, step, balance);
+    contacts.take(nodes, step, balance);
   }
 
 
   template <int dim>
   void BedProjection<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface)
   {
-    for (Impulses &segment : of_segments)
+    for (OfSegment &segment : of_segments)
       segment.soil = segment.water = Tensor<1, dim>();
     if (!any_holds_water)
       return;
@@ -438,19 +257,17 @@ namespace scree
                                    const double time_step,
                                    StepBalance<dim> &balance)
   {
-    ground_response.clear();
     contacts.clear();
-    rows.clear();
     largest_flow = 0.;
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.soil_mass > 0. && !cell.is_rigid)
-        for_segments(cell.cell,
-                     [&](const unsigned int segment) { add_contact(segment, Phase::soil, !is_fixed(segment), nodes); });
-    for (Row &row : rows)
-      row.impulse = time_step * (of_segments[contacts[row.contact].segment].force * row.direction);
+        for_segments(cell.cell, [&](const unsigned int segment) {
+          const Tensor<1, dim> nothing, first = time_step * of_segments[segment].predicted_soil;
+          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, nothing, first);
+        });
     project(nodes, step, relative_tolerance, balance);
-    for (Impulses &segment : of_segments)
-      segment.force = segment.soil / time_step;
+    for (OfSegment &segment : of_segments)
+      segment.predicted_soil = segment.soil / time_step;
   }
 
 
@@ -459,24 +276,32 @@ namespace scree
                                    const Mixture<dim> &mixture,
                                    const MixtureStep<dim> &step,
                                    const FreeSurfaceLocator<dim> &surface,
+                                   const double time_step,
                                    StepBalance<dim> &balance)
   {
-    ground_response.clear();
     contacts.clear();
-    rows.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
       for_segments(cell.cell, [&](const unsigned int segment) {
+        const OfSegment &known = of_segments[segment];
         if (cell.soil_mass > 0. && !cell.is_rigid)
-          add_contact(segment, Phase::soil, !is_fixed(segment), nodes);
+          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, known.soil, time_step * known.corrected_soil);
         if (cell.water_volume > 0.)
-          add_contact(segment, Phase::water, !surface.has_unknown(cell.cell), nodes);
+          add_contact(segment,
+                      Phase::water,
+                      !surface.has_unknown(cell.cell),
+                      nodes,
+                      Tensor<1, dim>(),
+                      time_step * known.corrected_water);
       });
-    for (Contact &contact : contacts)
-      if (contact.phase == Phase::soil)
-        for (unsigned int r = 0; r < contact.n_rows; ++r)
-          contact.base[r] = of_segments[contact.segment].soil * rows[contact.first_row + r].direction;
+    for (OfSegment &segment : of_segments)
+      segment.corrected_soil = segment.corrected_water = Tensor<1, dim>();
     constexpr double coarser = 10.; // the next predictor finds what is left; nothing at rest or in motion is worse
     project(nodes, step, coarser * relative_tolerance, balance);
+    for (const GroundContact<dim> &contact : contacts.contacts())
+      {
+        OfSegment &found                                                              = of_segments[contact.segment];
+        (contact.phase == Phase::soil ? found.corrected_soil : found.corrected_water) = contact.impulse / time_step;
+      }
   }
 
 
@@ -490,7 +315,7 @@ namespace scree
     balance.obstacles.resize(n_obstacles);
     for (unsigned int s = 0; s < of_segments.size(); ++s)
       {
-        const Impulses &taken = of_segments[s];
+        const OfSegment &taken = of_segments[s];
         if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
           continue;
         const GroundSegment<dim> &segment = open_cells.segments()[s];

@@ -202,7 +202,7 @@ namespace scree
     if (bed)
       {
         const TimedPart part(timer, StepPart::bed);
-        bed->correct(nodes, mixture, step, pressure.free_surface(), report.balance);
+        bed->correct(nodes, mixture, step, pressure.free_surface(), time_step, report.balance);
         soil.field.update_ghosts();
         water_field.update_ghosts();
         bed->count(nodes, report.balance);

@@ -90,19 +90,16 @@ namespace scree
   void GroundResponse<dim>::start(const MixtureNodes<dim> &of_mixture, const MixtureStep<dim> &step)
   {
     held.clear();
-    for (unsigned int k = 0; k < nodes.size(); ++k)
+    for (Node &node : nodes)
       {
-        Node &node = nodes[k];
-        if (!is_owned(node))
-          continue;
         const DragPair<dim> pair = step.pair_at(of_mixture, node.node);
-        if (pair.is_held())
+        node.mobility            = drag_mobility(pair.soil_mass, pair.water_mass, pair.drag);
+        node.held                = numbers::invalid_unsigned_int;
+        if (is_owned(node) && pair.is_held())
           {
-            held.emplace_back(k, pair);
-            node.mobility = { 1., 1., 0. }; // keeps the impulses
+            node.held = held.size();
+            held.push_back(pair);
           }
-        else
-          node.mobility = drag_mobility(pair.soil_mass, pair.water_mass, pair.drag);
       }
   }
 
@@ -173,20 +170,34 @@ namespace scree
 
 
   template <int dim>
+  Tensor<1, dim> GroundResponse<dim>::mean_of(const Contact &contact) const
+  {
+    return to_vector<dim>(grid.n_nodes_1d() == 2 ? mean<2>(contact) : mean<3>(contact));
+  }
+
+
+  template <int dim>
+  std::array<NodeRow, 2> GroundResponse<dim>::motion_of_held(const Node &node,
+                                                             const std::array<NodeRow, 2> &impulses) const
+  {
+    const SoilAndWater<dim> velocity =
+        held[node.held].solve({ to_vector<dim>(impulses[0]), to_vector<dim>(impulses[1]) });
+    return { { to_row(velocity.soil), to_row(velocity.water) } };
+  }
+
+
+  template <int dim>
   void GroundResponse<dim>::apply(const std::vector<Tensor<1, dim>> &impulses, std::vector<Tensor<1, dim>> &velocities)
   {
     sum(impulses);
     for (Node &node : nodes)
       {
         const NodeRow soil = node.values[0], water = node.values[1];
-        node.values[0] = node.mobility.soil * soil + node.mobility.other * water;
-        node.values[1] = node.mobility.other * soil + node.mobility.water * water;
-      }
-    for (const auto &[number, pair] : held)
-      {
-        auto &values                     = nodes[number].values;
-        const SoilAndWater<dim> velocity = pair.solve({ to_vector<dim>(values[0]), to_vector<dim>(values[1]) });
-        values                           = { { to_row(velocity.soil), to_row(velocity.water) } };
+        if (node.held == numbers::invalid_unsigned_int)
+          node.values = { { node.mobility.soil * soil + node.mobility.other * water,
+                            node.mobility.other * soil + node.mobility.water * water } };
+        else
+          node.values = motion_of_held(node, { { soil, water } });
       }
     if (is_parallel)
       {
@@ -200,7 +211,43 @@ namespace scree
       }
     velocities.resize(contacts.size());
     for (unsigned int k = 0; k < contacts.size(); ++k)
-      velocities[k] = to_vector<dim>(grid.n_nodes_1d() == 2 ? mean<2>(contacts[k]) : mean<3>(contacts[k]));
+      velocities[k] = mean_of(contacts[k]);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> GroundResponse<dim>::velocity_at(const unsigned int contact) const
+  {
+    return mean_of(contacts[contact]);
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::change(const unsigned int contact, const Tensor<1, dim> &impulse)
+  {
+    const Contact &of_impulse      = contacts[contact];
+    const unsigned int *of_segment = &nodes_of_segments[of_impulse.first];
+    const unsigned int own = unsigned(of_impulse.phase), other = 1 - own;
+    const NodeRow whole        = to_row(impulse);
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      {
+        Node &node         = nodes[of_segment[i]];
+        const NodeRow part = of_impulse.shapes[i] * whole;
+        if (node.held == numbers::invalid_unsigned_int)
+          {
+            node.values[own] += (own == 0 ? node.mobility.soil : node.mobility.water) * part;
+            node.values[other] += node.mobility.other * part;
+          }
+        else
+          {
+            std::array<NodeRow, 2> impulses{};
+            impulses[own]     = part;
+            const auto motion = motion_of_held(node, impulses);
+            node.values[0] += motion[0];
+            node.values[1] += motion[1];
+          }
+      }
   }
 
 

@@ -3,7 +3,7 @@
 #define scree_scheme_bed_projection_h
 
 #include <scree/scheme/bed_contact.h>
-#include <scree/scheme/ground_response.h>
+#include <scree/scheme/ground_contacts.h>
 
 #include <cmath>
 #include <vector>
@@ -75,6 +75,7 @@ namespace scree
                  const Mixture<dim> &mixture,
                  const MixtureStep<dim> &step,
                  const FreeSurfaceLocator<dim> &surface,
+                 const double time_step,
                  StepBalance<dim> &balance);
 
     /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
@@ -90,31 +91,12 @@ namespace scree
     void put_back(PointSet<dim> &points) const;
 
   private:
-    /// What happens to a phase at a segment.
-    struct Contact
+    /// What a segment knows.
+    struct OfSegment
     {
-      unsigned int segment; // its number
-      Phase phase;
-      bool is_unilateral;                  // the impulse presses only
-      bool rubs;                           // as much as friction allows
-      bool slides = false, is_off = false; // what has been found
-      unsigned int first_row, n_rows;      // across the ground, then along it
-      dealii::Tensor<1, dim> base;         // impulse of the step before this projection, components by rows
-    };
-
-    struct Row
-    {
-      unsigned int contact;
-      dealii::Tensor<1, dim> direction;
-      double area;                                 // m^(dim-1)
-      bool is_free   = true;                       // whether the conjugate gradients may change it
-      double impulse = 0, mobility = 0, speed = 0; // N s, 1/kg, m/s
-    };
-
-    /// What a segment gave to a phase in this step, N s, out of the open; and the predictor's to soil over the step, N.
-    struct Impulses
-    {
-      dealii::Tensor<1, dim> soil, water, force;
+      dealii::Tensor<1, dim> soil, water; // N s, out of the open: what it has given to a phase in this step
+      dealii::Tensor<1, dim> predicted_soil, corrected_soil,
+          corrected_water; // N, in the last: searches begin with them
     };
 
     /// Calls `act(segment)` for the segments in a cell.
@@ -126,10 +108,14 @@ namespace scree
           act(s);
     }
 
+    /// @param base what the ground has taken in this step already, N s
+    /// @param first impulse with which the search begins, N s
     void add_contact(const unsigned int segment,
                      const Phase phase,
                      const bool is_unilateral,
-                     const MixtureNodes<dim> &nodes);
+                     const MixtureNodes<dim> &nodes,
+                     const dealii::Tensor<1, dim> &base,
+                     const dealii::Tensor<1, dim> &first);
 
     /// The force of add_viscous_force() at a segment, N.
     dealii::Tensor<1, dim> viscous_force(const unsigned int segment,
@@ -140,30 +126,15 @@ namespace scree
     /// What an impulse of 1 at a segment gives to the velocity of a phase there, 1/kg, in any direction.
     double mobility_at(const GroundSegment<dim> &segment, const Phase phase, const MixtureNodes<dim> &nodes) const;
 
-    /// Finds the impulses of the rows, from what they hold, and gives them to the nodes. Collective.
+    /// Finds the impulses of the contacts and takes them from the nodes. Collective.
     /// @param wanted flow through the ground that may be left, over the largest of the step
     void project(const MixtureNodes<dim> &nodes,
                  const MixtureStep<dim> &step,
                  const double wanted,
                  StepBalance<dim> &balance);
 
-    /// Changes the impulses of free rows until their velocities vanish. Collective.
-    void iterate();
-
-    /// Lets contacts go that pull, and slide that friction cannot hold; whether any changed on any rank. Collective.
-    bool find_states();
-
-    /// Sets `response` to the rows' velocities for impulses `of_rows`. Collective.
-    void respond(const std::vector<double> &of_rows);
-
-    /// Impulses of rows as those of their contacts, in `of_contacts`.
-    const std::vector<dealii::Tensor<1, dim>> &by_contacts(const std::vector<double> &of_rows);
-
     /// The mean velocity over a segment, m/s.
     dealii::Tensor<1, dim> mean_velocity(const GroundSegment<dim> &segment, const NodalField<dim> &field) const;
-
-    double sum(const double value) const;
-    double max(const double value) const;
 
     /// The surface that a segment belongs to.
     const RigidSurface<dim> &surface_of(const unsigned int segment) const
@@ -192,17 +163,13 @@ namespace scree
     const unsigned int n_obstacles; // the last of the surfaces
     const OpenCells<dim> &open_cells;
     const double relative_tolerance;
-    GroundResponse<dim> ground_response;
+    GroundContacts<dim> contacts;
     const bool any_holds_water;
     std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
-    std::vector<Impulses> of_segments;         // by segment
+    std::vector<OfSegment> of_segments;        // by segment
     std::vector<unsigned int> surface_numbers; // the same
     std::vector<dealii::Point<dim>> middles;   // of the segments, m
-    std::vector<Contact> contacts;
-    std::vector<Row> rows;
-    std::vector<double> residual, direction, response;           // by row
-    std::vector<dealii::Tensor<1, dim>> of_contacts, velocities; // of a search: impulses, N s, and what they do, m/s
-    double tolerance = 0, largest_flow = 0;                      // m/s
+    double largest_flow = 0;                   // of the step, m/s m^((dim-1)/2)
   };
 } // namespace scree
 

@@ -42,6 +42,13 @@ namespace scree
     /// Finds the `velocities`, m/s, at the contacts that `impulses`, N s, there give. Collective.
     void apply(const std::vector<dealii::Tensor<1, dim>> &impulses, std::vector<dealii::Tensor<1, dim>> &velocities);
 
+    /// The velocity at a contact, m/s, that apply() has found and change() has changed.
+    dealii::Tensor<1, dim> velocity_at(const unsigned int contact) const;
+
+    /// Adds what a change of the impulse at a contact, N s, gives to the velocities of the nodes, as this rank knows
+    /// them.
+    void change(const unsigned int contact, const dealii::Tensor<1, dim> &impulse);
+
     /// Takes `impulses`, N s, at the contacts from the nodes. Collective.
     void take(const std::vector<dealii::Tensor<1, dim>> &impulses,
               const MixtureNodes<dim> &nodes,
@@ -59,8 +66,9 @@ namespace scree
     struct Node
     {
       std::array<NodeRow, 2> values; // of soil and water: impulses, N s; then what they do, m/s
-      DragMobility mobility;         // 0 at nodes of other ranks; where walls hold the node, DragPair finds the motion
+      DragMobility mobility;         // without walls
       unsigned int node;
+      unsigned int held = dealii::numbers::invalid_unsigned_int; // number among those that walls hold
     };
 
     bool is_owned(const Node &node) const
@@ -87,6 +95,12 @@ namespace scree
     template <int n>
     NodeRow mean(const Contact &contact) const;
 
+    /// The same, whatever the number of nodes.
+    dealii::Tensor<1, dim> mean_of(const Contact &contact) const;
+
+    /// What impulses on soil and water at a node that walls hold do to it.
+    std::array<NodeRow, 2> motion_of_held(const Node &node, const std::array<NodeRow, 2> &impulses) const;
+
     /// Copies values of nodes to and from what is exchanged with other ranks.
     void write_message(const Node &node);
     void read_message(Node &node) const;
@@ -99,7 +113,7 @@ namespace scree
     std::vector<Node> nodes;
     std::vector<Contact> contacts;
     std::vector<unsigned int> nodes_of_segments;                       // a cell's nodes behind each other
-    std::vector<std::pair<unsigned int, DragPair<dim>>> held;          // by walls, of this rank
+    std::vector<DragPair<dim>> held;                                   // by walls, of this rank
     unsigned int last_segment = dealii::numbers::invalid_unsigned_int; // that has been added
   };
 } // namespace scree

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/bed_contact.h>
+#include <scree/scheme/ground_contacts.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  void GroundContact<dim>::obey_law()
+  {
+    const Tensor<1, dim> whole = impulse + base;
+    const double pressing      = whole * normal;
+    if (pressing <= 0.)
+      {
+        held    = HeldMotion::none;
+        impulse = -base;
+        return;
+      }
+    if (friction == 0.)
+      return;
+    const Tensor<1, dim> along = whole - pressing * normal;
+    const double size = along.norm(), available = available_friction(friction, pressing);
+    if (size <= available)
+      return;
+    held    = HeldMotion::across;
+    impulse = pressing * normal + available / size * along - base;
+  }
+
+
+  template <int dim>
+  GroundContacts<dim>::GroundContacts(const BackgroundGrid<dim> &grid, const OpenCells<dim> &open_cells)
+      : grid(grid)
+      , response(grid, open_cells)
+  {
+  }
+
+
+  template <int dim>
+  void GroundContacts<dim>::reinit()
+  {
+    response.reinit();
+  }
+
+
+  template <int dim>
+  void GroundContacts<dim>::clear()
+  {
+    response.clear();
+    list.clear();
+  }
+
+
+  template <int dim>
+  void GroundContacts<dim>::add(const GroundContact<dim> &contact)
+  {
+    list.push_back(contact);
+    response.add(contact.segment, contact.phase);
+  }
+
+
+  template <int dim>
+  double GroundContacts<dim>::sum(const double value) const
+  {
+    return Utilities::MPI::sum(value, grid.triangulation().get_communicator());
+  }
+
+
+  template <int dim>
+  double GroundContacts<dim>::flow() const
+  {
+    double own_square = 0.;
+    for (const GroundContact<dim> &contact : list)
+      own_square += contact.area * contact.part(contact.holds(), contact.speed).norm_square();
+    return std::sqrt(sum(own_square));
+  }
+
+
+  template <int dim>
+  void GroundContacts<dim>::respond()
+  {
+    impulses.resize(list.size());
+    for (unsigned int k = 0; k < list.size(); ++k)
+      impulses[k] = list[k].impulse;
+    response.apply(impulses, velocities);
+  }
+
+
+  template <int dim>
+  void GroundContacts<dim>::sweep(const bool is_to)
+  {
+    for (unsigned int i = 0; i < list.size(); ++i)
+      {
+        const unsigned int k        = is_to ? i : list.size() - 1 - i;
+        GroundContact<dim> &contact = list[k];
+        if (!(contact.mobility > 0.))
+          continue;
+        const Vector before = contact.impulse;
+        contact.held        = contact.holds();
+        contact.impulse += contact.part(contact.held, contact.speed - response.velocity_at(k)) / contact.mobility;
+        if (contact.is_unilateral)
+          contact.obey_law();
+        response.change(k, contact.impulse - before);
+      }
+  }
+
+
+  template <int dim>
+  bool GroundContacts<dim>::iterate(const double bearable, const double tolerance)
+  {
+    constexpr unsigned int most_iterations = 100;
+    const unsigned int n                   = list.size();
+    residual.resize(n);
+    direction.resize(n);
+    for (unsigned int k = 0; k < n; ++k)
+      residual[k] = list[k].speed - velocities[k];
+    double own_product = 0., own_square = 0.;
+    const auto step = [&](const unsigned int k) { // residual over mobility
+      const GroundContact<dim> &contact = list[k];
+      return contact.mobility > 0. ? contact.part(contact.held, residual[k]) / contact.mobility : Vector();
+    };
+    const auto judge = [&] { // product of the residual with its step; its square over the ground
+      own_product = own_square = 0.;
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          const Vector of_contact = step(k);
+          own_product += residual[k] * of_contact;
+          own_square += list[k].area * list[k].mobility * (residual[k] * of_contact);
+        }
+    };
+    judge();
+    if (sum(own_square) <= bearable * bearable)
+      return false;
+    double product = sum(own_product);
+    for (unsigned int k = 0; k < n; ++k)
+      direction[k] = step(k);
+    unsigned int i = 0;
+    for (; i < most_iterations; ++i)
+      {
+        response.apply(direction, velocities);
+        double curvature = 0.;
+        for (unsigned int k = 0; k < n; ++k)
+          curvature += direction[k] * velocities[k];
+        curvature = sum(curvature);
+        if (!(curvature > 0.))
+          break; // Walls hold what is left.
+        const double length = product / curvature;
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            list[k].impulse += length * direction[k];
+            residual[k] -= length * velocities[k];
+          }
+        judge();
+        if (sum(own_square) <= tolerance * tolerance)
+          return true;
+        const double next = sum(own_product);
+        for (unsigned int k = 0; k < n; ++k)
+          direction[k] = step(k) + next / product * direction[k];
+        product = next;
+      }
+    return i > 0;
+  }
+
+
+  template <int dim>
+  void GroundContacts<dim>::find(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step, const double tolerance)
+  {
+    constexpr unsigned int most_passes = 8;
+    response.start(nodes, step);
+    for (unsigned int pass = 0; pass < most_passes; ++pass)
+      {
+        respond();
+        sweep(true);
+        sweep(false);
+        respond(); // with other ranks' impulses, too
+        if (!iterate(pass == 0 ? tolerance : 2. * tolerance, tolerance))
+          break;
+      }
+  }
+
+
+  template <int dim>
+  void
+  GroundContacts<dim>::take(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step, StepBalance<dim> &balance)
+  {
+    impulses.resize(list.size());
+    for (unsigned int k = 0; k < list.size(); ++k)
+      impulses[k] = list[k].impulse;
+    response.take(impulses, nodes, step, balance);
+  }
+
+  template struct GroundContact<2>;
+  template struct GroundContact<3>;
+  template class GroundContacts<2>;
+  template class GroundContacts<3>;
+} // namespace scree
