@@ -123,25 +123,6 @@ namespace scree
 
 
   template <int dim>
-  double BedProjection<dim>::mobility_at(const GroundSegment<dim> &segment,
-                                         const Phase phase,
-                                         const MixtureNodes<dim> &nodes) const
-  {
-    // Without walls: ranks that do not own a node know its masses only.
-    double mobility = 0.;
-    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-      {
-        const unsigned int node    = grid.nodes(segment.cell)[i];
-        const DragMobility of_node = drag_mobility(nodes.soil[node][Field<dim>::mass],
-                                                   nodes.water[node][Field<dim>::mass],
-                                                   nodes.pores[node][PoreField<dim>::drag]);
-        mobility += segment.shapes[i] * segment.shapes[i] * (phase == Phase::soil ? of_node.soil : of_node.water);
-      }
-    return mobility;
-  }
-
-
-  template <int dim>
   void BedProjection<dim>::add_contact(const unsigned int segment,
                                        const Phase phase,
                                        const bool is_unilateral,
@@ -165,9 +146,8 @@ namespace scree
     // What neither presses nor comes near is left alone.
     if (is_unilateral && contact.speed * contact.normal <= 0. && !(base * contact.normal > 0.))
       return;
-    contact.mobility = mobility_at(of_ground, phase, nodes);
-    contact.base     = base;
-    contact.impulse  = contact.part(contact.holds(), first);
+    contact.base    = base;
+    contact.impulse = contact.part(contact.holds(), first);
     contacts.add(contact);
   }
 

@@ -97,11 +97,11 @@ namespace scree
       {
         const unsigned int k        = is_to ? i : list.size() - 1 - i;
         GroundContact<dim> &contact = list[k];
-        if (!(contact.mobility > 0.))
+        if (!(mobilities[k] > 0.))
           continue;
         const Vector before = contact.impulse;
         contact.held        = contact.holds();
-        contact.impulse += contact.part(contact.held, contact.speed - response.velocity_at(k)) / contact.mobility;
+        contact.impulse += contact.part(contact.held, contact.speed - response.velocity_at(k)) / mobilities[k];
         if (contact.is_unilateral)
           contact.obey_law();
         response.change(k, contact.impulse - before);
@@ -121,7 +121,7 @@ namespace scree
     double own_product = 0., own_square = 0.;
     const auto step = [&](const unsigned int k) { // residual over mobility
       const GroundContact<dim> &contact = list[k];
-      return contact.mobility > 0. ? contact.part(contact.held, residual[k]) / contact.mobility : Vector();
+      return mobilities[k] > 0. ? contact.part(contact.held, residual[k]) / mobilities[k] : Vector();
     };
     const auto judge = [&] { // product of the residual with its step; its square over the ground
       own_product = own_square = 0.;
@@ -129,7 +129,7 @@ namespace scree
         {
           const Vector of_contact = step(k);
           own_product += residual[k] * of_contact;
-          own_square += list[k].area * list[k].mobility * (residual[k] * of_contact);
+          own_square += list[k].area * mobilities[k] * (residual[k] * of_contact);
         }
     };
     judge();
@@ -169,8 +169,11 @@ namespace scree
   template <int dim>
   void GroundContacts<dim>::find(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step, const double tolerance)
   {
-    constexpr unsigned int most_passes = 8;
+    constexpr unsigned int most_passes = 30;
     response.start(nodes, step);
+    mobilities.resize(list.size());
+    for (unsigned int k = 0; k < list.size(); ++k)
+      mobilities[k] = response.mobility_at(k);
     for (unsigned int pass = 0; pass < most_passes; ++pass)
       {
         respond();

@@ -92,10 +92,13 @@ namespace scree
     held.clear();
     for (Node &node : nodes)
       {
-        const DragPair<dim> pair = step.pair_at(of_mixture, node.node);
-        node.mobility            = drag_mobility(pair.soil_mass, pair.water_mass, pair.drag);
-        node.held                = numbers::invalid_unsigned_int;
-        if (is_owned(node) && pair.is_held())
+        node.mobility = drag_mobility(of_mixture.soil[node.node][NodalField<dim>::mass],
+                                      of_mixture.water[node.node][NodalField<dim>::mass],
+                                      of_mixture.pores[node.node][PoreField<dim>::drag]);
+        node.held     = numbers::invalid_unsigned_int;
+        if (!is_owned(node)) // Walls there are not known.
+          continue;
+        if (const DragPair<dim> pair = step.pair_at(of_mixture, node.node); pair.is_held())
           {
             node.held = held.size();
             held.push_back(pair);
@@ -212,6 +215,21 @@ namespace scree
     velocities.resize(contacts.size());
     for (unsigned int k = 0; k < contacts.size(); ++k)
       velocities[k] = mean_of(contacts[k]);
+  }
+
+
+  template <int dim>
+  double GroundResponse<dim>::mobility_at(const unsigned int contact) const
+  {
+    const Contact &of_impulse = contacts[contact];
+    double mobility           = 0.;
+    for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+      {
+        const DragMobility &of_node = nodes[nodes_of_segments[of_impulse.first + i]].mobility;
+        mobility += of_impulse.shapes[i] * of_impulse.shapes[i] *
+                    (of_impulse.phase == Phase::soil ? of_node.soil : of_node.water);
+      }
+    return mobility;
   }
 
 

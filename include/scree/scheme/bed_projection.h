@@ -123,9 +123,6 @@ namespace scree
                                          const double ground_share,
                                          const double viscosity) const;
 
-    /// What an impulse of 1 at a segment gives to the velocity of a phase there, 1/kg, in any direction.
-    double mobility_at(const GroundSegment<dim> &segment, const Phase phase, const MixtureNodes<dim> &nodes) const;
-
     /// Finds the impulses of the contacts and takes them from the nodes. Collective.
     /// @param wanted flow through the ground that may be left, over the largest of the step
     void project(const MixtureNodes<dim> &nodes,

@@ -25,7 +25,6 @@ namespace scree
     bool is_unilateral;             ///< the ground presses only
     double friction;                ///< coefficient; 0: slips, infinite: sticks. Of a bilateral contact one of these
     double area;                    ///< m^(dim-1)
-    double mobility;                ///< 1/kg: what an impulse of 1 gives it, without walls
     dealii::Tensor<1, dim> normal;  ///< unit, out of the open
     dealii::Tensor<1, dim> speed;   ///< m/s, beside the ground's own, before any impulse
     dealii::Tensor<1, dim> base;    ///< N s: what the ground has taken in this step already
@@ -111,6 +110,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     GroundResponse<dim> response;
     std::vector<GroundContact<dim>> list;
+    std::vector<double> mobilities;                                // by contact, 1/kg, without walls
     std::vector<Vector> impulses, residual, direction, velocities; // by contact
   };
 } // namespace scree

@@ -39,6 +39,9 @@ namespace scree
     /// Looks at the nodes, after all contacts have been added.
     void start(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step);
 
+    /// What an impulse of 1 at a contact, in any direction, gives to the velocity there, 1/kg, without walls.
+    double mobility_at(const unsigned int contact) const;
+
     /// Finds the `velocities`, m/s, at the contacts that `impulses`, N s, there give. Collective.
     void apply(const std::vector<dealii::Tensor<1, dim>> &impulses, std::vector<dealii::Tensor<1, dim>> &velocities);
 
