@@ -81,12 +81,12 @@ namespace scree
 
 
   template <int dim>
-  void GroundContacts<dim>::respond()
+  const std::vector<Tensor<1, dim>> &GroundContacts<dim>::impulses()
   {
-    impulses.resize(list.size());
+    of_contacts.resize(list.size());
     for (unsigned int k = 0; k < list.size(); ++k)
-      impulses[k] = list[k].impulse;
-    response.apply(impulses, velocities);
+      of_contacts[k] = list[k].impulse;
+    return of_contacts;
   }
 
 
@@ -176,10 +176,10 @@ namespace scree
       mobilities[k] = response.mobility_at(k);
     for (unsigned int pass = 0; pass < most_passes; ++pass)
       {
-        respond();
+        response.apply(impulses(), velocities);
         sweep(true);
         sweep(false);
-        respond(); // with other ranks' impulses, too
+        response.finish_changes(impulses(), velocities);
         if (!iterate(pass == 0 ? tolerance : 2. * tolerance, tolerance))
           break;
       }
@@ -190,10 +190,7 @@ namespace scree
   void
   GroundContacts<dim>::take(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step, StepBalance<dim> &balance)
   {
-    impulses.resize(list.size());
-    for (unsigned int k = 0; k < list.size(); ++k)
-      impulses[k] = list[k].impulse;
-    response.take(impulses, nodes, step, balance);
+    response.take(impulses(), nodes, step, balance);
   }
 
   template struct GroundContact<2>;

@@ -212,9 +212,27 @@ namespace scree
           if (!is_owned(node))
             read_message(node);
       }
+    find_means(velocities);
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::find_means(std::vector<Tensor<1, dim>> &velocities) const
+  {
     velocities.resize(contacts.size());
     for (unsigned int k = 0; k < contacts.size(); ++k)
       velocities[k] = mean_of(contacts[k]);
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::finish_changes(const std::vector<Tensor<1, dim>> &impulses,
+                                           std::vector<Tensor<1, dim>> &velocities)
+  {
+    if (is_parallel)
+      apply(impulses, velocities);
+    else
+      find_means(velocities); // The nodes have all of it.
   }
 
 

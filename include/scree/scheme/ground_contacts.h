@@ -102,16 +102,16 @@ namespace scree
     /// whether it was and could be changed. Collective.
     bool iterate(const double bearable, const double tolerance);
 
-    /// Sets `velocities` to what the contacts' impulses do. Collective.
-    void respond();
+    /// Those of the contacts.
+    const std::vector<Vector> &impulses();
 
     double sum(const double value) const;
 
     const BackgroundGrid<dim> &grid;
     GroundResponse<dim> response;
     std::vector<GroundContact<dim>> list;
-    std::vector<double> mobilities;                                // by contact, 1/kg, without walls
-    std::vector<Vector> impulses, residual, direction, velocities; // by contact
+    std::vector<double> mobilities;                                   // by contact, 1/kg, without walls
+    std::vector<Vector> of_contacts, residual, direction, velocities; // by contact
   };
 } // namespace scree
 

@@ -52,6 +52,11 @@ namespace scree
     /// them.
     void change(const unsigned int contact, const dealii::Tensor<1, dim> &impulse);
 
+    /// Finds the `velocities` again, m/s, after changes on all ranks; `impulses`, N s, are the whole of them.
+    /// Collective.
+    void finish_changes(const std::vector<dealii::Tensor<1, dim>> &impulses,
+                        std::vector<dealii::Tensor<1, dim>> &velocities);
+
     /// Takes `impulses`, N s, at the contacts from the nodes. Collective.
     void take(const std::vector<dealii::Tensor<1, dim>> &impulses,
               const MixtureNodes<dim> &nodes,
@@ -98,7 +103,10 @@ namespace scree
     template <int n>
     NodeRow mean(const Contact &contact) const;
 
-    /// The same, whatever the number of nodes.
+    /// Sets `velocities` to the means of the nodes' values over the contacts' segments.
+    void find_means(std::vector<dealii::Tensor<1, dim>> &velocities) const;
+
+    /// The same of one contact, whatever the number of nodes.
     dealii::Tensor<1, dim> mean_of(const Contact &contact) const;
 
     /// What impulses on soil and water at a node that walls hold do to it.
