@@ -28,7 +28,7 @@ namespace scree
           : box(box)
           , places(places)
       {
-        constexpr double most_places = 2e7; // in the whole box: some seconds on one rank
+        constexpr double most_places = 2e6; // in the whole box: a second or less on one rank
         n_looks = std::max(1u, static_cast<unsigned int>(std::min(most_places / box.n_cells(), 1e6)));
       }
 
