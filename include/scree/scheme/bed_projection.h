@@ -95,8 +95,8 @@ namespace scree
     struct OfSegment
     {
       dealii::Tensor<1, dim> soil, water; // N s, out of the open: what it has given to a phase in this step
-      dealii::Tensor<1, dim> predicted_soil, corrected_soil,
-          corrected_water; // N, in the last: searches begin with them
+      // What it gave in the last one, N: the searches begin with it.
+      dealii::Tensor<1, dim> predicted_soil, corrected_soil, corrected_water;
     };
 
     /// Calls `act(segment)` for the segments in a cell.
