@@ -211,6 +211,7 @@ namespace scree
     if (viscosity)
       viscosity->count_dissipation(nodes, report.balance);
     pressure.accept_change(mixture, soil.field, water_field, pores);
+    pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
     if (bed)
       bed->count_pressure(mixture, pressure, time_step, report.balance);
     // The predictor has counted the load among the forces.
@@ -244,7 +245,7 @@ namespace scree
   {
     {
       const TimedPart part(timer, StepPart::stress);
-      soil.to_points(time_step, report);
+      soil.to_points(time_step, report, &mixture);
       fluidise();
     }
     const TimedPart part(timer, StepPart::water_points);

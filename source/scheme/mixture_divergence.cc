@@ -51,18 +51,20 @@ namespace scree
                                             const NodeNumbering<dim> &corners,
                                             const FreeSurfaceLocator<dim> &surface,
                                             const Divergence form,
+                                            const double gravity,
                                             const OpenCells<dim> *open_cells)
       : grid(grid)
       , corners(corners)
       , surface(surface)
       , form(form)
+      , square_of_slow(0.25 * gravity / grid.cell_size())
       , open_cells(open_cells)
   {
   }
 
 
   template <int dim>
-  typename MixtureDivergence<dim>::template Rule<2> MixtureDivergence<dim>::rule_in(const MixtureCell<dim> &cell) const
+  Tensor<1, dim> MixtureDivergence<dim>::off_middle(const MixtureCell<dim> &cell) const
   {
     Point<dim> moment; // in cells
     double volume = 0;
@@ -72,14 +74,23 @@ namespace scree
         volume += filled;
         moment += filled * GeometryInfo<dim>::unit_cell_vertex(v);
       }
-    const double share = std::min((full - cell.fill) / (full - partly_full), 1.);
-    Rule<2> rule       = whole;
+    const double fill  = cell.fill * cell.volume / Utilities::fixed_power<dim>(grid.cell_size()); // of the whole
+    const double share = std::clamp((full - fill) / (full - partly_full), 0., 1.);
+    Tensor<1, dim> off;
+    for (unsigned int a = 0; a < dim; ++a)
+      off[a] = share * (moment[a] / volume - 0.5);
+    return off;
+  }
+
+
+  template <int dim>
+  typename MixtureDivergence<dim>::template Rule<2> MixtureDivergence<dim>::rule_in(const MixtureCell<dim> &cell) const
+  {
+    const Tensor<1, dim> off = off_middle(cell);
+    Rule<2> rule             = whole;
     for (Point<dim> &point : rule.points)
       for (unsigned int a = 0; a < dim; ++a)
-        {
-          const double off_middle = share * (moment[a] / volume - 0.5);
-          point[a]                = 0.5 + off_middle + (1. - 2. * std::abs(off_middle)) * (point[a] - 0.5);
-        }
+        point[a] = in_box(point[a], off[a]);
     rule.find_shapes();
     return rule;
   }
@@ -127,7 +138,7 @@ namespace scree
           {
             double divergence = 0;
             for (unsigned int c = 0; c < dim; ++c)
-              divergence += slope(flow[c], c);
+              divergence += slope(flow.rows[c], c);
             const double weighted = -scale * weights[q] * divergence;
             for (unsigned int v = 0; v < n_corners; ++v)
               integrals[v] += weighted * rule.shapes[q][v];
@@ -136,7 +147,7 @@ namespace scree
           {
             Tensor<1, dim> flux;
             for (unsigned int c = 0; c < dim; ++c)
-              flux[c] = value(flow[c]);
+              flux[c] = value(flow.rows[c]);
             const double weight = scale * weights[q] * inverse_width;
             for (unsigned int v = 0; v < n_corners; ++v)
               integrals[v] += weight * (flux * rule.shape_gradients[q][v]);
@@ -155,12 +166,35 @@ namespace scree
       {
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-            speed += segment.normal[c] * segment.shapes[i] * flow[c][i / n][i % n];
+            speed += segment.normal[c] * segment.shapes[i] * flow.rows[c][i / n][i % n];
         if (speed < 0. && !surface.has_unknown(segment.cell))
           return; // Water may leave ground that it does not press on.
       }
     for (unsigned int v = 0; v < n_corners; ++v)
       integrals[v] += segment.area * speed * segment.ground_hats[v];
+  }
+
+
+  template <int dim>
+  template <int n>
+  typename MixtureDivergence<dim>::template Flow<n> MixtureDivergence<dim>::flow_in(const unsigned int cell,
+                                                                                    const NodalField<dim> &soil,
+                                                                                    const NodalField<dim> &water,
+                                                                                    const PoreField<dim> &pores) const
+  {
+    constexpr unsigned int velocity = NodalField<dim>::velocity;
+    // The mixture's velocity is made at the nodes: an interpolated fraction of grains would lend that of heavy nodes to
+    // light ones, whose soil is fast where points have just entered a cell.
+    Flow<n> flow;
+    for (unsigned int c = 0; c < dim; ++c)
+      gather<dim, n>(
+          grid.nodes(cell),
+          [&](const unsigned int node) {
+            const double grains = pores[node][PoreField<dim>::grain_fraction];
+            return grains * soil[node][velocity + c] + (1. - grains) * water[node][velocity + c];
+          },
+          flow.rows[c]);
+    return flow;
   }
 
 
@@ -172,25 +206,13 @@ namespace scree
                                                const PoreField<dim> &pores,
                                                CornerVector &sums)
   {
-    constexpr unsigned int velocity = NodalField<dim>::velocity;
-    const double cell_volume        = Utilities::fixed_power<dim>(grid.cell_size());
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     for (const MixtureCell<dim> &cell : mixture.cells())
       {
         if (cell.water_volume == 0)
           continue;
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        const OpenKnots open      = grid.open_knots(cell.cell);
-        // The mixture's velocity is made at the nodes: an interpolated fraction of grains would lend that of heavy
-        // nodes to light ones, whose soil is fast where points have just entered a cell.
-        Flow<n> flow;
-        for (unsigned int c = 0; c < dim; ++c)
-          gather<dim, n>(
-              nodes,
-              [&](const unsigned int node) {
-                const double grains = pores[node][PoreField<dim>::grain_fraction];
-                return grains * soil[node][velocity + c] + (1. - grains) * water[node][velocity + c];
-              },
-              flow[c]);
+        const Flow<n> flow   = flow_in<n>(cell.cell, soil, water, pores);
+        const OpenKnots open = grid.open_knots(cell.cell);
 
         const double scale = cell_volume * std::min(cell.fill, 1.);
         AtCorners integrals{};
@@ -223,6 +245,73 @@ namespace scree
     else
       integrate_cells<3>(mixture, soil, water, pores, sums);
     sums.compress(VectorOperation::add);
+  }
+
+
+  template <int dim>
+  template <int n>
+  double MixtureDivergence<dim>::mean_divergence(const MixtureCell<dim> &cell, const Flow<n> &flow) const
+  {
+    // Means over a box of products are products of means along the axes, for which two Gauss points are exact.
+    const Tensor<1, dim> off = off_middle(cell);
+    Point<dim> lower, upper;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        lower[a] = in_box(whole.points[0][a], off[a]);
+        upper[a] = in_box(whole.points[Rule<2>::n_points - 1][a], off[a]);
+      }
+    const OpenKnots open = grid.open_knots(cell.cell);
+    CellBasis<dim, n> mean(lower, open);
+    const CellBasis<dim, n> other(upper, open);
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          mean.value[a][i]      = 0.5 * (mean.value[a][i] + other.value[a][i]);
+          mean.derivative[a][i] = 0.5 * (mean.derivative[a][i] + other.derivative[a][i]);
+        }
+    const RowFactors<dim, n> rows(mean);
+    double divergence = sum(contract(rows.value, flow.rows[0]) * make_row(mean.derivative[0]));
+    for (unsigned int c = 1; c < dim; ++c)
+      divergence += sum(contract(rows.derivative[c - 1], flow.rows[c]) * make_row(mean.value[0]));
+    return divergence / grid.cell_size();
+  }
+
+
+  template <int dim>
+  template <int n>
+  void MixtureDivergence<dim>::set_volume_factors(Mixture<dim> &mixture,
+                                                  const NodalField<dim> &soil,
+                                                  const NodalField<dim> &water,
+                                                  const PoreField<dim> &pores,
+                                                  const double time_step) const
+  {
+    for (MixtureCell<dim> &cell : mixture.cells())
+      {
+        if (cell.effective_saturation < 1. || cell.soil_mass == 0. || cell.is_rigid || !surface.has_unknown(cell.cell))
+          continue;
+        const double rate = mean_divergence<n>(cell, flow_in<n>(cell.cell, soil, water, pores));
+        if (rate >= 0.)
+          continue;
+        const double drag = cell.drag * time_step, square = rate * rate;
+        const double part  = drag / (drag + cell.water_mass) * square / (square + square_of_slow);
+        cell.volume_factor = std::exp(-part * rate * time_step);
+      }
+  }
+
+
+  template <int dim>
+  void MixtureDivergence<dim>::find_volume_factors(Mixture<dim> &mixture,
+                                                   const NodalField<dim> &soil,
+                                                   const NodalField<dim> &water,
+                                                   const PoreField<dim> &pores,
+                                                   const double time_step) const
+  {
+    if (square_of_slow == 0.)
+      return; // Nothing falls.
+    if (grid.n_nodes_1d() == 2)
+      set_volume_factors<2>(mixture, soil, water, pores, time_step);
+    else
+      set_volume_factors<3>(mixture, soil, water, pores, time_step);
   }
 
   template class MixtureDivergence<2>;

@@ -89,7 +89,7 @@ namespace scree
       , timer(timer)
       , corners(numbered(grid))
       , surface(grid, corners, walls, parameters.free_surface_kind(), gravity, open_cells)
-      , divergence(grid, corners, surface, parameters.divergence_kind(), open_cells)
+      , divergence(grid, corners, surface, parameters.divergence_kind(), gravity.norm(), open_cells)
       , solver(grid, corners, parameters)
       , memory(corners,
                previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading,

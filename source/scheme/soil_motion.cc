@@ -55,12 +55,12 @@ namespace scree
 
 
   template <int dim>
-  void SoilMotion<dim>::to_points(const double time_step, StepReport<dim> &report)
+  void SoilMotion<dim>::to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture)
   {
     for (auto &body : bodies)
       if (moves(body))
         {
-          const MotionReport motion = transfer.to_points(body, field, time_step);
+          const MotionReport motion = transfer.to_points(body, field, time_step, mixture);
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);

@@ -56,6 +56,7 @@ namespace scree
     void average_volume_change(const FBar kind,
                                const unsigned int first,
                                const unsigned int n_points,
+                               const double volume_factor,
                                BlockMotion<dim> &motion)
     {
       double *volumes = &motion.volume[first], *changes = &motion.volume_change[first];
@@ -67,7 +68,7 @@ namespace scree
         weighted += own * simd::select<Batch>(used, load(changes + indices[0]), one);
         volume += own;
       });
-      const double mean = simd::sum_of_lanes(weighted) / simd::sum_of_lanes(volume);
+      const double mean = volume_factor * simd::sum_of_lanes(weighted) / simd::sum_of_lanes(volume);
       for_each_batch(n_points, [&](const BatchIndices &indices, const unsigned int n) {
         const unsigned int p = indices[0];
         const Batch change   = simd::select<Batch>(simd::first_lanes(n), load(changes + p), mean * one);
@@ -78,24 +79,26 @@ namespace scree
             store(scale * load(component), component);
           }
         store(scale, &motion.out_of_plane_stretch[first + p]);
-        if (kind == FBar::modified)
-          store(mean * one, changes + p);
+        store(kind == FBar::modified ? mean * one : volume_factor * change, changes + p);
       });
     }
   } // namespace
 
 
   template <int dim>
-  void
-  apply_f_bar(const FBar kind, const unsigned int first, const MaterialPoints<dim> &points, BlockMotion<dim> &motion)
+  void apply_f_bar(const FBar kind,
+                   const unsigned int first,
+                   const MaterialPoints<dim> &points,
+                   const double volume_factor,
+                   BlockMotion<dim> &motion)
   {
     if (kind == FBar::none)
       return;
     if (kind == FBar::modified)
       average_elastic_volume_ratio(&motion.volume[first], points);
-    average_volume_change(kind, first, points.n_points, motion);
+    average_volume_change(kind, first, points.n_points, volume_factor, motion);
   }
 
-  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<2> &, BlockMotion<2> &);
-  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<3> &, BlockMotion<3> &);
+  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<2> &, const double, BlockMotion<2> &);
+  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<3> &, const double, BlockMotion<3> &);
 } // namespace scree

@@ -72,7 +72,10 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
+  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
+                                          const NodalField<dim> &field,
+                                          const double time_step,
+                                          const Mixture<dim> *mixture)
   {
     const auto &cells = body.points.cells();
     const double keep = kept_velocity(method, pic_rate, time_step);
@@ -90,7 +93,8 @@ namespace scree
         for (auto cell = begin; cell != end; first += (cell++)->n_points)
           {
             largest.include(move_cell<n, method>(body, *cell, field, time_step, keep, first));
-            apply_f_bar(f_bar, first, body.material_points(*cell), motion);
+            const double volume_factor = mixture ? mixture->volume_factor(cell->cell) : 1.;
+            apply_f_bar(f_bar, first, body.material_points(*cell), volume_factor, motion);
           }
         update_state(body, *begin, n_points, report.material);
         costs.finish_cells(begin, end, n_points);
@@ -121,21 +125,24 @@ namespace scree
 
 
   template <int dim>
-  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
+  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body,
+                                        const NodalField<dim> &field,
+                                        const double time_step,
+                                        const Mixture<dim> *mixture)
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::flip:
-          return move_points<n, TransferMethod::flip>(body, field, time_step);
+          return move_points<n, TransferMethod::flip>(body, field, time_step, mixture);
         case TransferMethod::pic:
-          return move_points<n, TransferMethod::pic>(body, field, time_step);
+          return move_points<n, TransferMethod::pic>(body, field, time_step, mixture);
         case TransferMethod::apic:
-          return move_points<n, TransferMethod::apic>(body, field, time_step);
+          return move_points<n, TransferMethod::apic>(body, field, time_step, mixture);
         case TransferMethod::aflip:
-          return move_points<n, TransferMethod::aflip>(body, field, time_step);
+          return move_points<n, TransferMethod::aflip>(body, field, time_step, mixture);
         default:
-          return move_points<n, TransferMethod::tpic>(body, field, time_step);
+          return move_points<n, TransferMethod::tpic>(body, field, time_step, mixture);
         }
     };
     if (grid.n_nodes_1d() == 2)

@@ -18,6 +18,7 @@ template <int dim>
 void test(const unsigned int n_points)
 {
   constexpr unsigned int n_components = n_symmetric_components<dim>;
+  constexpr double volume_factor      = 1.03;
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> between(0., 1.);
   // A gap of up to e^0.6, beside elastic compression.
@@ -49,7 +50,7 @@ void test(const unsigned int n_points)
       grown += volumes[p] * motion.volume_change[p];
     }
   const double before = unloaded();
-  apply_f_bar(FBar::modified, 0, points, motion);
+  apply_f_bar(FBar::modified, 0, points, volume_factor, motion);
   double volume = 0, least = 1e300, largest = 0;
   for (unsigned int p = 0; p < n_points; ++p)
     {
@@ -60,7 +61,7 @@ void test(const unsigned int n_points)
     }
   std::cout << dim << "D, " << n_points << " points: unloaded volume kept "
             << (std::abs(unloaded() / before - 1) < 1e-14) << ", one J_e " << (largest / least - 1 < 1e-14)
-            << ", volume kept " << (std::abs(volume / grown - 1) < 1e-14) << std::endl;
+            << ", volume kept " << (std::abs(volume / (volume_factor * grown) - 1) < 1e-14) << std::endl;
 }
 
 

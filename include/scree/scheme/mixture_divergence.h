@@ -5,6 +5,8 @@
 #include <scree/scheme/free_surface.h>
 #include <scree/transfer/water_transfer.h>
 
+#include <cmath>
+
 namespace scree
 {
   /// The volume that the mixture's flow draws from the corners: integrals of -psi div u, where u = (1-n) v_s + n v_w is
@@ -16,11 +18,13 @@ namespace scree
   class MixtureDivergence
   {
   public:
+    /// @param gravity m/s^2
     /// @param open_cells what rigid ground leaves of the cells; null: all
     MixtureDivergence(const BackgroundGrid<dim> &grid,
                       const NodeNumbering<dim> &corners,
                       const FreeSurfaceLocator<dim> &surface,
                       const Divergence form,
+                      const double gravity,
                       const OpenCells<dim> *open_cells);
 
     /// Sets `sums`, m^3/s, at the corners of wet cells from the velocities and the volume fraction of grains at the
@@ -30,6 +34,18 @@ namespace scree
                    const NodalField<dim> &water,
                    const PoreField<dim> &pores,
                    CornerVector &sums);
+
+    /// Sets the cells' factors of the soil's volume, from the velocities at the end of a step of `time_step` s.
+    ///
+    /// A solve balances flow at corners, and may leave a cell closing at a rate d although water fills its pores: what
+    /// one cell takes too much its neighbour takes too little. Soil that falls on a wall would be pressed together by
+    /// this for ever. So the part of d that water cannot leave by, the drag's share C/(C + m_w) for the drag C of the
+    /// step, is no strain where it is fast: times d^2/(d^2 + g/h). A slower one is left in, as consolidation needs it.
+    void find_volume_factors(Mixture<dim> &mixture,
+                             const NodalField<dim> &soil,
+                             const NodalField<dim> &water,
+                             const PoreField<dim> &pores,
+                             const double time_step) const;
 
   private:
     static constexpr unsigned int n_corners = 1 << dim;
@@ -54,7 +70,27 @@ namespace scree
 
     /// The mixture's velocity at a cell's nodes, component by component in rows.
     template <int n>
-    using Flow = NodeRow[dim][RowFactors<dim, n>::n_rows];
+    struct Flow
+    {
+      NodeRow rows[dim][RowFactors<dim, n>::n_rows];
+    };
+
+    template <int n>
+    Flow<n> flow_in(const unsigned int cell,
+                    const NodalField<dim> &soil,
+                    const NodalField<dim> &water,
+                    const PoreField<dim> &pores) const;
+
+    /// Its mean divergence over a cell's material, 1/s.
+    template <int n>
+    double mean_divergence(const MixtureCell<dim> &cell, const Flow<n> &flow) const;
+
+    template <int n>
+    void set_volume_factors(Mixture<dim> &mixture,
+                            const NodalField<dim> &soil,
+                            const NodalField<dim> &water,
+                            const PoreField<dim> &pores,
+                            const double time_step) const;
 
     template <int n>
     void integrate_cells(const Mixture<dim> &mixture,
@@ -72,8 +108,18 @@ namespace scree
                        const Flow<n> &flow,
                        AtCorners &integrals) const;
 
-    /// Points over the part of a cell that material fills, taken to reach from its centre as far to either side as the
-    /// cell does to the nearer one along each axis: exact where it fills the cell from one side.
+    /// Where material is taken to be in a partly full cell with soil: to reach from its centre as far to either side as
+    /// the cell does to the nearer one along each axis, exact where it fills the cell from one side. Returns how far
+    /// the centre is off the cell's middle, cell widths.
+    dealii::Tensor<1, dim> off_middle(const MixtureCell<dim> &cell) const;
+
+    /// A place of the unit cell in that box, which is as far off the cell's middle along an axis.
+    static double in_box(const double place, const double off)
+    {
+      return 0.5 + off + (1. - 2. * std::abs(off)) * (place - 0.5);
+    }
+
+    /// Points over it.
     Rule<2> rule_in(const MixtureCell<dim> &cell) const;
 
     /// Adds what flows through a segment of the ground, beside its own motion.
@@ -84,6 +130,7 @@ namespace scree
     const NodeNumbering<dim> &corners;
     const FreeSurfaceLocator<dim> &surface;
     const Divergence form;
+    const double square_of_slow;      // g/h, 1/s^2
     const OpenCells<dim> *open_cells; // may be null
     const Rule<2> whole;              // exact for slopes of quadratics times linear functions
     const Rule<CutCell<dim>::n_gauss> cut_rule;

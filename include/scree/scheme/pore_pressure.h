@@ -61,6 +61,16 @@ namespace scree
                        const NodalField<dim> &water,
                        const PoreField<dim> &pores);
 
+    /// See MixtureDivergence.
+    void find_volume_factors(Mixture<dim> &mixture,
+                             const NodalField<dim> &soil,
+                             const NodalField<dim> &water,
+                             const PoreField<dim> &pores,
+                             const double time_step) const
+    {
+      divergence.find_volume_factors(mixture, soil, water, pores, time_step);
+    }
+
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
     /// @param potential what it holds is the first guess; its ghosts hold values afterwards
     void solve_potential(const Mixture<dim> &mixture,

@@ -52,9 +52,13 @@ namespace scree
   /// points dilate against loose ones (doc/verification.md has the measurement).
   ///
   /// @param first of the cell's points in the block
+  /// @param volume_factor what the mean of dJ, and the change of the points' volume, are multiplied by
   template <int dim>
-  void
-  apply_f_bar(const FBar kind, const unsigned int first, const MaterialPoints<dim> &points, BlockMotion<dim> &motion);
+  void apply_f_bar(const FBar kind,
+                   const unsigned int first,
+                   const MaterialPoints<dim> &points,
+                   const double volume_factor,
+                   BlockMotion<dim> &motion);
 } // namespace scree
 
 #endif

@@ -59,6 +59,7 @@ namespace scree
     double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
     double fill                 = 0; ///< volume of water and wet grains over `volume`
     double mobility             = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
+    double volume_factor        = 1; ///< of the soil over a step, beside what its nodes tell of
 
     MixtureCell(const unsigned int cell, const double volume)
         : cell(cell)
@@ -184,6 +185,13 @@ namespace scree
 
     /// Finds the porosities of a cell's parts, when all soil and water of the cell is in its record.
     void find_porosities(const unsigned int record);
+
+    /// What the soil's change of volume in a cell is multiplied by.
+    double volume_factor(const unsigned int cell) const
+    {
+      const unsigned int record = record_of_cell[cell];
+      return record < records.size() ? records[record].volume_factor : 1.;
+    }
 
     /// The porosities of a cell's parts; null if nothing has been put into soil_parts() there.
     const PorosityOfParts<dim> *porosity_of_parts(const unsigned int cell) const

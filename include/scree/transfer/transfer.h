@@ -5,6 +5,7 @@
 #include <scree/grid/nodal_field.h>
 #include <scree/points/soil_body.h>
 #include <scree/transfer/f_bar.h>
+#include <scree/transfer/mixture.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <vector>
@@ -34,14 +35,20 @@ namespace scree
 
     /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
     /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
-    MotionReport to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
+    ///
+    /// @param mixture whose cells know factors of the soil's volume; null: none do
+    MotionReport to_points(SoilBody<dim> &body,
+                           const NodalField<dim> &field,
+                           const double time_step,
+                           const Mixture<dim> *mixture = nullptr);
 
   private:
     template <int n, TransferMethod method>
     void add_points(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
     template <int n, TransferMethod method>
-    MotionReport move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
+    MotionReport
+    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step, const Mixture<dim> *mixture);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     /// Returns the largest square of a speed, m^2/s^2; not a number if any point's is not.
