@@ -28,6 +28,8 @@ namespace scree
       , water_density(water_parameters.density)
       , fluidisation_porosity(water_parameters.fluidisation_porosity)
       , water(water)
+      , has_water_points(
+            std::all_of(water.begin(), water.end(), [](const auto &one) { return one.carrier() == nullptr; }))
       , inflows(inflows)
       , timer(timer)
       , soil(grid, transfer_parameters, stabilisation, bodies, loads)
@@ -211,7 +213,8 @@ namespace scree
     if (viscosity)
       viscosity->count_dissipation(nodes, report.balance);
     pressure.accept_change(mixture, soil.field, water_field, pores);
-    pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
+    if (has_water_points) // The soil's volume would be water on the soil's points.
+      pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
     if (bed)
       bed->count_pressure(mixture, pressure, time_step, report.balance);
     // The predictor has counted the load among the forces.

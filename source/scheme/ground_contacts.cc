@@ -176,7 +176,7 @@ namespace scree
       mobilities[k] = response.mobility_at(k);
     for (unsigned int pass = 0; pass < most_passes; ++pass)
       {
-        response.apply(impulses(), velocities);
+        response.move_nodes(impulses());
         sweep(true);
         sweep(false);
         response.finish_changes(impulses(), velocities);

@@ -190,7 +190,7 @@ namespace scree
 
 
   template <int dim>
-  void GroundResponse<dim>::apply(const std::vector<Tensor<1, dim>> &impulses, std::vector<Tensor<1, dim>> &velocities)
+  void GroundResponse<dim>::move_nodes(const std::vector<Tensor<1, dim>> &impulses)
   {
     sum(impulses);
     for (Node &node : nodes)
@@ -212,6 +212,13 @@ namespace scree
           if (!is_owned(node))
             read_message(node);
       }
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::apply(const std::vector<Tensor<1, dim>> &impulses, std::vector<Tensor<1, dim>> &velocities)
+  {
+    move_nodes(impulses);
     find_means(velocities);
   }
 

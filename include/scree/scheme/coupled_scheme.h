@@ -74,6 +74,7 @@ namespace scree
     const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
+    const bool has_water_points; // of its own, all of it
     const std::list<Inflow<dim>> &inflows;
     dealii::TimerOutput &timer;
 

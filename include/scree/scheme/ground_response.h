@@ -42,10 +42,13 @@ namespace scree
     /// What an impulse of 1 at a contact, in any direction, gives to the velocity there, 1/kg, without walls.
     double mobility_at(const unsigned int contact) const;
 
-    /// Finds the `velocities`, m/s, at the contacts that `impulses`, N s, there give. Collective.
+    /// Finds what `impulses`, N s, at the contacts give to the velocities of the nodes. Collective.
+    void move_nodes(const std::vector<dealii::Tensor<1, dim>> &impulses);
+
+    /// The same, and the `velocities`, m/s, at the contacts. Collective.
     void apply(const std::vector<dealii::Tensor<1, dim>> &impulses, std::vector<dealii::Tensor<1, dim>> &velocities);
 
-    /// The velocity at a contact, m/s, that apply() has found and change() has changed.
+    /// The velocity at a contact, m/s, that move_nodes() has found and change() has changed.
     dealii::Tensor<1, dim> velocity_at(const unsigned int contact) const;
 
     /// Adds what a change of the impulse at a contact, N s, gives to the velocities of the nodes, as this rank knows
