@@ -57,7 +57,7 @@ namespace scree
       , corners(corners)
       , surface(surface)
       , form(form)
-      , square_of_slow(0.25 * gravity / grid.cell_size())
+      , square_of_slow(gravity / grid.cell_size())
       , open_cells(open_cells)
   {
   }
