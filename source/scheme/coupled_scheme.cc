@@ -28,7 +28,11 @@ namespace scree
       , water_density(water_parameters.density)
       , fluidisation_porosity(water_parameters.fluidisation_porosity)
       , water(water)
-      , has_water_points(
+      // Without gravity nothing falls; where water is compressible, closing is strain; what soil gains would be water
+      // if its points carry that.
+      , gives_back_volume(
+            stabilisation.f_bar_kind() != FBar::none && forcing.gravity().norm() > 0. &&
+            water_parameters.bulk_modulus == 0. &&
             std::all_of(water.begin(), water.end(), [](const auto &one) { return one.carrier() == nullptr; }))
       , inflows(inflows)
       , timer(timer)
@@ -213,7 +217,7 @@ namespace scree
     if (viscosity)
       viscosity->count_dissipation(nodes, report.balance);
     pressure.accept_change(mixture, soil.field, water_field, pores);
-    if (has_water_points) // The soil's volume would be water on the soil's points.
+    if (gives_back_volume)
       pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
     if (bed)
       bed->count_pressure(mixture, pressure, time_step, report.balance);

@@ -213,8 +213,7 @@ namespace scree
           continue;
         const Flow<n> flow   = flow_in<n>(cell.cell, soil, water, pores);
         const OpenKnots open = grid.open_knots(cell.cell);
-
-        const double scale = cell_volume * std::min(cell.fill, 1.);
+        const double scale   = cell_volume * std::min(cell.fill, 1.);
         AtCorners integrals{};
         if (const CutCell<dim> *cut = open_cells ? open_cells->find(cell.cell) : nullptr)
           {
@@ -306,8 +305,6 @@ namespace scree
                                                    const PoreField<dim> &pores,
                                                    const double time_step) const
   {
-    if (square_of_slow == 0.)
-      return; // Nothing falls.
     if (grid.n_nodes_1d() == 2)
       set_volume_factors<2>(mixture, soil, water, pores, time_step);
     else

@@ -74,7 +74,7 @@ namespace scree
     const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
-    const bool has_water_points; // of its own, all of it
+    const bool gives_back_volume; // that soil loses where a solve leaves it closing
     const std::list<Inflow<dim>> &inflows;
     dealii::TimerOutput &timer;
 

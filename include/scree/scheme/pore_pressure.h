@@ -61,15 +61,14 @@ namespace scree
                        const NodalField<dim> &water,
                        const PoreField<dim> &pores);
 
-    /// See MixtureDivergence. Where water is compressible, closing is strain.
+    /// See MixtureDivergence.
     void find_volume_factors(Mixture<dim> &mixture,
                              const NodalField<dim> &soil,
                              const NodalField<dim> &water,
                              const PoreField<dim> &pores,
                              const double time_step) const
     {
-      if (bulk_modulus == 0.)
-        divergence.find_volume_factors(mixture, soil, water, pores, time_step);
+      divergence.find_volume_factors(mixture, soil, water, pores, time_step);
     }
 
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
