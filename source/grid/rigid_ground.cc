@@ -69,6 +69,17 @@ namespace scree
     return all_parts[part].samples->view(cell, place);
   }
 
+  template <int dim>
+  Batch RigidGround<dim>::distances(const unsigned int cell, const std::array<Batch, dim> &places) const
+  {
+    Batch nearest = simd::broadcast<Batch>(std::numeric_limits<double>::infinity());
+    for (const GroundPart<dim> &part : all_parts)
+      if (part.samples->is_near(cell))
+        nearest = simd::min<Batch>(nearest, part.samples->distances(cell, places));
+    return nearest;
+  }
+
+
   template class RigidGround<2>;
   template class RigidGround<3>;
 } // namespace scree

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/points/batch_pointers.h>
 #include <scree/scheme/bed_projection.h>
 #include <scree/tensor/vector.h>
 
@@ -114,11 +115,14 @@ namespace scree
   Tensor<1, dim> BedProjection<dim>::mean_velocity(const GroundSegment<dim> &segment,
                                                    const NodalField<dim> &field) const
   {
-    const unsigned int *nodes = grid.nodes(segment.cell);
-    Tensor<1, dim> velocity;
-    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-      velocity += segment.shapes[i] * vector_of<dim>(field[nodes[i]] + Field<dim>::velocity);
-    return velocity;
+    const unsigned int *nodes     = grid.nodes(segment.cell);
+    const unsigned int n_nodes_1d = grid.n_nodes_1d();
+    // Several sums, as each addition would wait for the one before.
+    std::array<Tensor<1, dim>, 3> sums;
+    for (unsigned int i = 0; i < segment.shapes.size(); i += n_nodes_1d)
+      for (unsigned int j = 0; j < n_nodes_1d; ++j)
+        sums[j] += segment.shapes[i + j] * vector_of<dim>(field[nodes[i + j]] + Field<dim>::velocity);
+    return sums[0] + sums[1] + sums[2];
   }
 
 
@@ -174,6 +178,7 @@ namespace scree
   template <int dim>
   void BedProjection<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface)
   {
+    contacts.begin_step();
     for (OfSegment &segment : of_segments)
       segment.soil = segment.water = Tensor<1, dim>();
     if (!any_holds_water)
@@ -288,10 +293,6 @@ namespace scree
   template <int dim>
   void BedProjection<dim>::count(const MixtureNodes<dim> &nodes, StepBalance<dim> &balance) const
   {
-    // The work of an impulse is its product with the mean velocity.
-    const auto mean = [](const double *values) {
-      return vector_of<dim>(values + Field<dim>::velocity) - 0.5 * vector_of<dim>(values + Field<dim>::velocity_change);
-    };
     balance.obstacles.resize(n_obstacles);
     for (unsigned int s = 0; s < of_segments.size(); ++s)
       {
@@ -301,18 +302,25 @@ namespace scree
         const GroundSegment<dim> &segment = open_cells.segments()[s];
         Tensor<1, dim> impulse;
         double dissipation = 0.;
-        for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-          {
-            const unsigned int node = grid.nodes(segment.cell)[i];
-            const auto add          = [&](const double *values, const Tensor<1, dim> &of_phase) {
-              if (values[Field<dim>::mass] <= 0.)
-                return;
-              impulse -= segment.shapes[i] * of_phase;
-              dissipation += segment.shapes[i] * of_phase * mean(values);
-            };
-            add(nodes.soil[node], taken.soil);
-            add(nodes.water[node], taken.water);
-          }
+        const auto add     = [&](const NodalField<dim> &field, const Tensor<1, dim> &of_phase) {
+          if (of_phase.norm_square() == 0.)
+            return;
+          double share = 0.;
+          Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
+          for (unsigned int i = 0; i < segment.shapes.size(); ++i)
+            {
+              const double *values = field[grid.nodes(segment.cell)[i]];
+              const double shape   = values[Field<dim>::mass] > 0. ? segment.shapes[i] : 0.;
+              share += shape;
+              for (unsigned int c = 0; c < dim; ++c)
+                velocity[c] +=
+                    shape * (values[Field<dim>::velocity + c] - 0.5 * values[Field<dim>::velocity_change + c]);
+            }
+          impulse -= share * of_phase;
+          dissipation += of_phase * velocity;
+        };
+        add(nodes.soil, taken.soil);
+        add(nodes.water, taken.water);
         if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
           {
             const double work = impulse * open_cells.velocity(segment);
@@ -368,10 +376,19 @@ namespace scree
         if (ground.least_distance(cell.cell) > width) // no point moves farther in a step
           continue;
         const Point<dim> lower = fine.box().corner(fine.cells()[fine.of_index(cell.cell)].place);
-        for_each_point(cell, [&](const auto &point) {
-          const SurfaceView<dim> view = ground.view(point.cell, Point<dim>((point.location - lower) / width));
-          if (view.distance < 0.)
-            point.location += (inside - view.distance) * view.normal;
+        for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+          std::array<Batch, dim> places;
+          simd::load_records<dim>(as_constant(BatchPointers<dim>(cell, indices).locations), places.data());
+          for (unsigned int a = 0; a < dim; ++a)
+            places[a] = (places[a] - lower[a]) * (1. / width);
+          const unsigned int below = simd::bits_of(ground.distances(cell.cell, places) < 0.);
+          for (unsigned int l = 0; l < n; ++l)
+            if (below >> l & 1)
+              {
+                Point<dim> &location        = cell.location_of(indices[l]);
+                const SurfaceView<dim> view = ground.view(cell.cell, Point<dim>((location - lower) / width));
+                location += (inside - view.distance) * view.normal;
+              }
         });
       }
   }

@@ -182,15 +182,19 @@ namespace scree
       soil.field.update_ghosts();
       water_field.update_ghosts();
       pores.update_ghosts();
-      if (bed)
-        bed->begin_step(mixture, pressure.free_surface());
-      if (viscosity)
-        {
-          viscosity->apply(nodes, step, bed.get(), time_step, report.balance);
-          soil.field.update_ghosts();
-          water_field.update_ghosts();
-        }
     }
+    if (bed)
+      {
+        const TimedPart part(timer, StepPart::bed);
+        bed->begin_step(mixture, pressure.free_surface());
+      }
+    if (viscosity)
+      {
+        const TimedPart part(timer, StepPart::nodes);
+        viscosity->apply(nodes, step, bed.get(), time_step, report.balance);
+        soil.field.update_ghosts();
+        water_field.update_ghosts();
+      }
     if (bed)
       {
         const TimedPart part(timer, StepPart::bed);
@@ -213,17 +217,22 @@ namespace scree
         water_field.update_ghosts();
         bed->count(nodes, report.balance);
       }
-    const TimedPart part(timer, StepPart::nodes);
-    if (viscosity)
-      viscosity->count_dissipation(nodes, report.balance);
-    pressure.accept_change(mixture, soil.field, water_field, pores);
-    if (gives_back_volume)
-      pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
+    {
+      const TimedPart part(timer, StepPart::nodes);
+      if (viscosity)
+        viscosity->count_dissipation(nodes, report.balance);
+      pressure.accept_change(mixture, soil.field, water_field, pores);
+      if (gives_back_volume)
+        pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
+      // The predictor has counted the load among the forces.
+      report.balance.load_impulse += soil.load_impulse(time_step);
+      report.balance.pressure_impulse -= soil.load_impulse(time_step);
+    }
     if (bed)
-      bed->count_pressure(mixture, pressure, time_step, report.balance);
-    // The predictor has counted the load among the forces.
-    report.balance.load_impulse += soil.load_impulse(time_step);
-    report.balance.pressure_impulse -= soil.load_impulse(time_step);
+      {
+        const TimedPart part(timer, StepPart::bed);
+        bed->count_pressure(mixture, pressure, time_step, report.balance);
+      }
   }
 
 
@@ -255,25 +264,30 @@ namespace scree
       soil.to_points(time_step, report, &mixture);
       fluidise();
     }
-    const TimedPart part(timer, StepPart::water_points);
-    for (auto &one : water)
-      {
-        report.speeds.include_point(transfer.to_points(
-            one,
-            { soil.field, water_field, pores },
-            mixture,
-            [this](const unsigned int cell) { return pressure.pressure_of(cell); },
-            pressure.fades() ? [this](const unsigned int cell) { return pressure.forgotten_of(cell); }
-                             : ForgottenOfCell<dim>(),
-            time_step));
-        if (volume_correction)
-          volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
-        if (const PointSet<dim> *own = one.own_points())
-          report.n_updates += own->n_points();
-      }
+    {
+      const TimedPart part(timer, StepPart::water_points);
+      for (auto &one : water)
+        {
+          report.speeds.include_point(transfer.to_points(
+              one,
+              { soil.field, water_field, pores },
+              mixture,
+              [this](const unsigned int cell) { return pressure.pressure_of(cell); },
+              pressure.fades() ? [this](const unsigned int cell) { return pressure.forgotten_of(cell); }
+                               : ForgottenOfCell<dim>(),
+              time_step));
+          if (volume_correction)
+            volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
+          if (const PointSet<dim> *own = one.own_points())
+            report.n_updates += own->n_points();
+        }
+    }
     if (bed)
-      for (PointSet<dim> *points : point_sets())
-        bed->put_back(*points);
+      {
+        const TimedPart part(timer, StepPart::bed);
+        for (PointSet<dim> *points : point_sets())
+          bed->put_back(*points);
+      }
   }
 
 

@@ -11,7 +11,17 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  void GroundContact<dim>::obey_law()
+  void GroundContact<dim>::obey_law(const Tensor<1, dim> &left, const double mobility)
+  {
+    held = holds();
+    impulse += part(held, left) / mobility;
+    if (is_unilateral)
+      obey_unilateral_law();
+  }
+
+
+  template <int dim>
+  void GroundContact<dim>::obey_unilateral_law()
   {
     const Tensor<1, dim> whole = impulse + base;
     const double pressing      = whole * normal;
@@ -44,6 +54,14 @@ namespace scree
   void GroundContacts<dim>::reinit()
   {
     response.reinit();
+  }
+
+
+  template <int dim>
+  void GroundContacts<dim>::begin_step()
+  {
+    response.begin_step();
+    list.clear();
   }
 
 
@@ -100,11 +118,9 @@ namespace scree
         if (!(mobilities[k] > 0.))
           continue;
         const Vector before = contact.impulse;
-        contact.held        = contact.holds();
-        contact.impulse += contact.part(contact.held, contact.speed - response.velocity_at(k)) / mobilities[k];
-        if (contact.is_unilateral)
-          contact.obey_law();
-        response.change(k, contact.impulse - before);
+        contact.obey_law(contact.speed - response.velocity_at(k), mobilities[k]);
+        if (contact.impulse != before)
+          response.change(k, contact.impulse - before);
       }
   }
 
@@ -115,29 +131,26 @@ namespace scree
     constexpr unsigned int most_iterations = 100;
     const unsigned int n                   = list.size();
     residual.resize(n);
-    direction.resize(n);
+    scaled.resize(n);
     for (unsigned int k = 0; k < n; ++k)
       residual[k] = list[k].speed - velocities[k];
     double own_product = 0., own_square = 0.;
-    const auto step = [&](const unsigned int k) { // residual over mobility
-      const GroundContact<dim> &contact = list[k];
-      return mobilities[k] > 0. ? contact.part(contact.held, residual[k]) / mobilities[k] : Vector();
-    };
-    const auto judge = [&] { // product of the residual with its step; its square over the ground
+    const auto judge = [&] { // scales the residual; product of both; its square over the ground
       own_product = own_square = 0.;
       for (unsigned int k = 0; k < n; ++k)
         {
-          const Vector of_contact = step(k);
-          own_product += residual[k] * of_contact;
-          own_square += list[k].area * mobilities[k] * (residual[k] * of_contact);
+          const GroundContact<dim> &contact = list[k];
+          scaled[k] = mobilities[k] > 0. ? contact.part(contact.held, residual[k]) / mobilities[k] : Vector();
+          const double of_contact = residual[k] * scaled[k];
+          own_product += of_contact;
+          own_square += contact.area * mobilities[k] * of_contact;
         }
     };
     judge();
     if (sum(own_square) <= bearable * bearable)
       return false;
     double product = sum(own_product);
-    for (unsigned int k = 0; k < n; ++k)
-      direction[k] = step(k);
+    direction      = scaled;
     unsigned int i = 0;
     for (; i < most_iterations; ++i)
       {
@@ -159,10 +172,25 @@ namespace scree
           return true;
         const double next = sum(own_product);
         for (unsigned int k = 0; k < n; ++k)
-          direction[k] = step(k) + next / product * direction[k];
+          direction[k] = scaled[k] + next / product * direction[k];
         product = next;
       }
     return i > 0;
+  }
+
+
+  template <int dim>
+  bool GroundContacts<dim>::obeys_laws(const double bearable) const
+  {
+    double own_square = 0.;
+    for (unsigned int k = 0; k < list.size(); ++k)
+      if (mobilities[k] > 0.)
+        {
+          GroundContact<dim> contact = list[k];
+          contact.obey_law(residual[k], mobilities[k]);
+          own_square += contact.area * (mobilities[k] * (contact.impulse - list[k].impulse)).norm_square();
+        }
+    return sum(own_square) <= bearable * bearable;
   }
 
 
@@ -180,7 +208,7 @@ namespace scree
         sweep(true);
         sweep(false);
         response.finish_changes(impulses(), velocities);
-        if (!iterate(pass == 0 ? tolerance : 2. * tolerance, tolerance))
+        if (!iterate(pass == 0 ? tolerance : 2. * tolerance, tolerance) || obeys_laws(2. * tolerance))
           break;
       }
   }

@@ -57,14 +57,16 @@ namespace scree
 
 
   template <int dim>
-  void GroundResponse<dim>::clear()
+  void GroundResponse<dim>::begin_step()
   {
     for (const Node &node : nodes)
       numbers[node.node] = numbers::invalid_unsigned_int;
     nodes.clear();
     contacts.clear();
+    held.clear();
     nodes_of_segments.clear();
-    last_segment = numbers::invalid_unsigned_int;
+    first_of_segment.assign(open_cells.segments().size(), numbers::invalid_unsigned_int);
+    n_started = 0;
     if (!is_parallel)
       return;
     messages.clear();
@@ -77,25 +79,26 @@ namespace scree
   void GroundResponse<dim>::add(const unsigned int segment, const Phase phase)
   {
     const GroundSegment<dim> &of_ground = open_cells.segments()[segment];
-    const unsigned int n_nodes          = of_ground.shapes.size();
-    if (segment != last_segment)
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        nodes_of_segments.push_back(number_of(grid.nodes(of_ground.cell)[i]));
-    last_segment = segment;
-    contacts.push_back({ phase, unsigned(nodes_of_segments.size()) - n_nodes, of_ground.shapes.data() });
+    unsigned int &first                 = first_of_segment[segment];
+    if (first == numbers::invalid_unsigned_int)
+      {
+        first = nodes_of_segments.size();
+        for (unsigned int i = 0; i < of_ground.shapes.size(); ++i)
+          nodes_of_segments.push_back(number_of(grid.nodes(of_ground.cell)[i]));
+      }
+    contacts.push_back({ phase, first, of_ground.shapes.data() });
   }
 
 
   template <int dim>
   void GroundResponse<dim>::start(const MixtureNodes<dim> &of_mixture, const MixtureStep<dim> &step)
   {
-    held.clear();
-    for (Node &node : nodes)
+    for (; n_started < nodes.size(); ++n_started)
       {
+        Node &node    = nodes[n_started];
         node.mobility = drag_mobility(of_mixture.soil[node.node][NodalField<dim>::mass],
                                       of_mixture.water[node.node][NodalField<dim>::mass],
                                       of_mixture.pores[node.node][PoreField<dim>::drag]);
-        node.held     = numbers::invalid_unsigned_int;
         if (!is_owned(node)) // Walls there are not known.
           continue;
         if (const DragPair<dim> pair = step.pair_at(of_mixture, node.node); pair.is_held())
@@ -130,19 +133,29 @@ namespace scree
 
 
   template <int dim>
-  void GroundResponse<dim>::sum(const std::vector<Tensor<1, dim>> &impulses)
+  template <int n>
+  void GroundResponse<dim>::add_shares(const std::vector<Tensor<1, dim>> &impulses)
   {
-    for (Node &node : nodes)
-      node.values = {};
-    const unsigned int n_nodes = grid.n_nodes_per_cell();
     for (unsigned int k = 0; k < contacts.size(); ++k)
       {
         const Contact &contact         = contacts[k];
         const unsigned int *of_segment = &nodes_of_segments[contact.first];
         const NodeRow impulse          = to_row(impulses[k]);
-        for (unsigned int i = 0; i < n_nodes; ++i)
+        for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
           nodes[of_segment[i]].values[unsigned(contact.phase)] += contact.shapes[i] * impulse;
       }
+  }
+
+
+  template <int dim>
+  void GroundResponse<dim>::sum(const std::vector<Tensor<1, dim>> &impulses)
+  {
+    for (Node &node : nodes)
+      node.values = {};
+    if (grid.n_nodes_1d() == 2)
+      add_shares<2>(impulses);
+    else
+      add_shares<3>(impulses);
     if (!is_parallel)
       return;
     messages.clear_ghosts();
@@ -194,14 +207,7 @@ namespace scree
   {
     sum(impulses);
     for (Node &node : nodes)
-      {
-        const NodeRow soil = node.values[0], water = node.values[1];
-        if (node.held == numbers::invalid_unsigned_int)
-          node.values = { { node.mobility.soil * soil + node.mobility.other * water,
-                            node.mobility.other * soil + node.mobility.water * water } };
-        else
-          node.values = motion_of_held(node, { { soil, water } });
-      }
+      node.values = node.is_held() ? motion_of_held(node, node.values) : motion_of_free(node);
     if (is_parallel)
       {
         for (const Node &node : nodes)
@@ -277,7 +283,7 @@ namespace scree
       {
         Node &node         = nodes[of_segment[i]];
         const NodeRow part = of_impulse.shapes[i] * whole;
-        if (node.held == numbers::invalid_unsigned_int)
+        if (!node.is_held())
           {
             node.values[own] += (own == 0 ? node.mobility.soil : node.mobility.water) * part;
             node.values[other] += node.mobility.other * part;
@@ -301,9 +307,17 @@ namespace scree
                                  StepBalance<dim> &balance)
   {
     sum(impulses);
+    const auto vectors = [](const std::array<NodeRow, 2> &rows) {
+      return SoilAndWater<dim>{ -to_vector<dim>(rows[0]), -to_vector<dim>(rows[1]) };
+    };
     for (const Node &node : nodes)
-      if (is_owned(node) && has_mass(of_mixture, node.node))
-        step.push(of_mixture, node.node, { -to_vector<dim>(node.values[0]), -to_vector<dim>(node.values[1]) }, balance);
+      if (is_owned(node) && node.is_pushed() && has_mass(of_mixture, node.node))
+        {
+          if (node.is_held())
+            step.push(of_mixture, node.node, vectors(node.values), balance);
+          else
+            step.add(of_mixture, node.node, vectors(motion_of_free(node)));
+        }
   }
 
   template class GroundResponse<2>;

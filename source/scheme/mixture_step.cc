@@ -353,19 +353,27 @@ namespace scree
                               const SoilAndWater<dim> &impulses,
                               StepBalance<dim> &balance) const
   {
-    double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
-    const DragPair<dim> pair = pair_at(nodes, node);
-    SoilAndWater<dim> change = pair.solve(impulses);
+    const DragPair<dim> pair       = pair_at(nodes, node);
+    const SoilAndWater<dim> change = pair.solve(impulses);
     if (pair.is_held())
       {
         const SoilAndWater<dim> walls = pair.reactions(impulses, change);
         count_walls(node, walls, balance);
         // As in the corrector.
         const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
-        balance.wall_dissipation -= 0.5 * (walls.soil * (velocity_at_start<dim>(of_soil) + wall_velocity.soil) +
-                                           walls.water * (velocity_at_start<dim>(of_water) + wall_velocity.water));
+        balance.wall_dissipation -=
+            0.5 * (walls.soil * (velocity_at_start<dim>(nodes.soil[node]) + wall_velocity.soil) +
+                   walls.water * (velocity_at_start<dim>(nodes.water[node]) + wall_velocity.water));
       }
-    pair.follow(change);
+    add(nodes, node, change);
+  }
+
+
+  template <int dim>
+  void MixtureStep<dim>::add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change)
+  {
+    double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
+    follow(of_soil[Field<dim>::mass], of_water[Field<dim>::mass], change);
     add_to_velocities(change, of_soil, of_water);
   }
 

@@ -55,8 +55,8 @@ void test(const std::string &ground_expression, std::ostream &out)
   std::array<double, 2> products;
   for (const double first : { 0., 0.2 })
     {
-      contacts.clear();
-      response.clear();
+      contacts.begin_step();
+      response.begin_step();
       add_contacts(mixture, first, contacts);
       const double flow = contacts.flow();
       contacts.find(mixture.nodes, mixture.step, tolerance * flow);

@@ -27,7 +27,7 @@ void test(const std::string &ground_expression, std::ostream &out)
   const MixtureNodes<dim> &nodes   = mixture.nodes;
 
   GroundResponse<dim> response(grid, open_cells);
-  response.clear();
+  response.begin_step();
   const auto &segments = open_cells.segments();
   std::vector<Tensor<1, dim>> first, second, of_first, of_second; // N s, and what they do, m/s
   for (unsigned int s = 0; s < segments.size(); ++s)

@@ -51,6 +51,9 @@ namespace scree
     /// As SampledSurface, of the nearest part.
     SurfaceView<dim> view(const unsigned int cell, const dealii::Point<dim> &place) const;
 
+    /// As SampledSurface, from a cell that is near a part.
+    Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const;
+
   private:
     const std::vector<GroundPart<dim>> all_parts;
     const bool any_moves;

@@ -32,6 +32,16 @@ namespace scree
     return { soil_mass > 0. ? 1. / soil_mass : 0., water_mass > 0. ? 1. / water_mass : 0., 0. };
   }
 
+  /// A phase without mass takes the other's vector.
+  template <int dim>
+  void follow(const double soil_mass, const double water_mass, SoilAndWater<dim> &vectors)
+  {
+    if (soil_mass <= 0.)
+      vectors.soil = vectors.water;
+    if (water_mass <= 0.)
+      vectors.water = vectors.soil;
+  }
+
   /// Soil and water at a node, tied by drag: [[m_s + C, -C], [-C, m_w + C]] v = r, where walls leave them free to move;
   /// a phase that is absent takes no part. What walls hold of the two phases is taken to be along or across each other.
   template <int dim>
@@ -46,34 +56,15 @@ namespace scree
       return held_soil.any() || held_water.any();
     }
 
-    /// Velocities, m/s, from impulses, N s. Free of differences, so that any drag is good.
-    SoilAndWater<dim> solve(const SoilAndWater<dim> &impulses) const
+    bool has_both() const
     {
-      SoilAndWater<dim> velocity;
-      const dealii::Tensor<1, dim> soil  = held_soil.free_part(impulses.soil),
-                                   water = held_water.free_part(impulses.water);
-      if (soil_mass > 0 && water_mass > 0)
-        {
-          // Where both can move they share the drag's impulse; where one is held, the other drags along it.
-          HeldDirections<dim> held = held_soil;
-          held.hold(held_water);
-          const dealii::Tensor<1, dim> soil_with = held.free_part(soil), water_with = held.free_part(water);
-          const double determinant            = soil_mass * water_mass + drag * (soil_mass + water_mass);
-          const dealii::Tensor<1, dim> shared = drag * (soil_with + water_with);
-          velocity.soil                       = (water_mass * soil_with + shared) / determinant;
-          velocity.water                      = (soil_mass * water_with + shared) / determinant;
-          if (held_water.any())
-            velocity.soil += (soil - soil_with) / (soil_mass + drag);
-          if (held_soil.any())
-            velocity.water += (water - water_with) / (water_mass + drag);
-          velocity.soil  = held_soil.free_part(velocity.soil);
-          velocity.water = held_water.free_part(velocity.water);
-        }
-      else if (soil_mass > 0)
-        velocity.soil = soil / (soil_mass + drag);
-      else if (water_mass > 0)
-        velocity.water = water / (water_mass + drag);
-      return velocity;
+      return soil_mass > 0 && water_mass > 0;
+    }
+
+    /// Velocities, m/s, from impulses, N s. Free of differences, so that any drag is good.
+    DEAL_II_ALWAYS_INLINE inline SoilAndWater<dim> solve(const SoilAndWater<dim> &impulses) const
+    {
+      return is_held() ? solve_held(impulses) : solve_free(impulses);
     }
 
     /// What is left of two vectors without their held directions.
@@ -92,10 +83,7 @@ namespace scree
     /// A phase without mass takes the other's vector.
     void follow(SoilAndWater<dim> &vectors) const
     {
-      if (soil_mass <= 0.)
-        vectors.soil = vectors.water;
-      if (water_mass <= 0.)
-        vectors.water = vectors.soil;
+      scree::follow(soil_mass, water_mass, vectors);
     }
 
     /// Speed at which soil and water pass each other, m/s, if the drag is C + `inertial` times this speed: exact where
@@ -103,7 +91,7 @@ namespace scree
     /// @param inertial kg s/m
     double slip_speed(const SoilAndWater<dim> &impulses, const double inertial) const
     {
-      if (soil_mass <= 0 || water_mass <= 0)
+      if (!has_both())
         return 0.;
       const dealii::Tensor<1, dim> slip =
           held_water.free_part(impulses.water) / water_mass - held_soil.free_part(impulses.soil) / soil_mass;
@@ -127,6 +115,41 @@ namespace scree
       if (water_mass > 0)
         walls.water = held_water.held_part(-impulses.water - drag * velocity.soil);
       return walls;
+    }
+
+  private:
+    SoilAndWater<dim> solve_held(const SoilAndWater<dim> &impulses) const
+    {
+      const SoilAndWater<dim> free = free_part(impulses);
+      if (!has_both())
+        return solve_free(free);
+      // Where both can move they share the drag's impulse; where one is held, the other drags along it.
+      HeldDirections<dim> held = held_soil;
+      held.hold(held_water);
+      const SoilAndWater<dim> with{ held.free_part(free.soil), held.free_part(free.water) };
+      SoilAndWater<dim> velocity = solve_free(with);
+      if (held_water.any())
+        velocity.soil += (free.soil - with.soil) / (soil_mass + drag);
+      if (held_soil.any())
+        velocity.water += (free.water - with.water) / (water_mass + drag);
+      return free_part(velocity);
+    }
+
+    DEAL_II_ALWAYS_INLINE inline SoilAndWater<dim> solve_free(const SoilAndWater<dim> &impulses) const
+    {
+      SoilAndWater<dim> velocity;
+      if (has_both())
+        {
+          const double inverse                = 1. / (soil_mass * water_mass + drag * (soil_mass + water_mass));
+          const dealii::Tensor<1, dim> shared = drag * (impulses.soil + impulses.water);
+          velocity.soil                       = inverse * (water_mass * impulses.soil + shared);
+          velocity.water                      = inverse * (soil_mass * impulses.water + shared);
+        }
+      else if (soil_mass > 0)
+        velocity.soil = impulses.soil / soil_mass;
+      else if (water_mass > 0)
+        velocity.water = impulses.water / water_mass;
+      return velocity;
     }
   };
 } // namespace scree

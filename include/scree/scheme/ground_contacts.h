@@ -51,8 +51,13 @@ namespace scree
         }
     }
 
+    /// Changes the impulse to what the contact's law wants where `left`, m/s, is left of its motion.
+    /// @param mobility of the contact, 1/kg
+    void obey_law(const dealii::Tensor<1, dim> &left, const double mobility);
+
+  private:
     /// Makes the impulse of a unilateral contact one that presses and does not exceed friction.
-    void obey_law();
+    void obey_unilateral_law();
   };
 
 
@@ -61,7 +66,7 @@ namespace scree
   ///
   /// Two sweeps, to and fro, give each contact in turn the impulse that its law wants (projected Gauss-Seidel: Jourdan,
   /// Alart & Jean 1998), which settles what presses and slides; conjugate gradients then find the impulses that act on
-  /// nearly the same nodes; until the sweeps leave nothing to do.
+  /// nearly the same nodes; until each contact obeys its law.
   template <int dim>
   class GroundContacts
   {
@@ -74,10 +79,13 @@ namespace scree
     /// Fits the nodes to the grid's current partition.
     void reinit();
 
-    /// Begins anew, without contacts. Each rank must do so for each rank's contacts.
+    /// Forgets contacts and nodes. Each rank must do so for each rank's contacts.
+    void begin_step();
+
+    /// Forgets the contacts.
     void clear();
 
-    /// Adds a contact. Those with one segment come together.
+    /// Adds a contact.
     void add(const GroundContact<dim> &contact);
 
     const std::vector<GroundContact<dim>> &contacts() const
@@ -88,7 +96,8 @@ namespace scree
     /// Root of the integral of the square of what the ground has to stop, m/s m^((dim-1)/2). Collective.
     double flow() const;
 
-    /// Finds the impulses that leave no more than `tolerance` of flow(), after sweeps twice as much. Collective.
+    /// Finds the impulses that leave no more than `tolerance` of flow(), or twice as much where laws are obeyed, too.
+    /// Collective.
     void find(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step, const double tolerance);
 
     /// Takes the impulses from the nodes. Collective.
@@ -102,6 +111,10 @@ namespace scree
     /// whether it was and could be changed. Collective.
     bool iterate(const double bearable, const double tolerance);
 
+    /// Whether no more than `bearable` is between the impulses and what the contacts' laws want, after iterate().
+    /// Collective.
+    bool obeys_laws(const double bearable) const;
+
     /// Those of the contacts.
     const std::vector<Vector> &impulses();
 
@@ -110,8 +123,9 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     GroundResponse<dim> response;
     std::vector<GroundContact<dim>> list;
-    std::vector<double> mobilities;                                   // by contact, 1/kg, without walls
-    std::vector<Vector> of_contacts, residual, direction, velocities; // by contact
+    std::vector<double> mobilities;                     // by contact, 1/kg, without walls
+    std::vector<Vector> residual, velocities;           // by contact, m/s
+    std::vector<Vector> of_contacts, scaled, direction; // by contact, N s: impulses; the residual over mobilities
   };
 } // namespace scree
 

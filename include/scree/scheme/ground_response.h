@@ -30,13 +30,20 @@ namespace scree
     /// Fits the nodes to the grid's current partition.
     void reinit();
 
-    /// Begins anew, without contacts. Each rank must do so for each rank's contacts.
-    void clear();
+    /// Forgets contacts and nodes. Each rank must do so for each rank's contacts.
+    void begin_step();
 
-    /// Adds a contact of a phase with a segment, with the next number. Contacts with one segment come together.
+    /// Forgets the contacts.
+    void clear()
+    {
+      contacts.clear();
+    }
+
+    /// Adds a contact of a phase with a segment, with the next number.
     void add(const unsigned int segment, const Phase phase);
 
-    /// Looks at the nodes, after all contacts have been added.
+    /// Looks at nodes that are new in this step, after all contacts have been added. What the nodes weigh, their drag
+    /// and what walls hold of them stays the same in a step.
     void start(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step);
 
     /// What an impulse of 1 at a contact, in any direction, gives to the velocity there, 1/kg, without walls.
@@ -80,6 +87,17 @@ namespace scree
       DragMobility mobility;         // without walls
       unsigned int node;
       unsigned int held = dealii::numbers::invalid_unsigned_int; // number among those that walls hold
+
+      bool is_held() const
+      {
+        return held != dealii::numbers::invalid_unsigned_int;
+      }
+
+      bool is_pushed() const
+      {
+        const NodeRow squares = values[0] * values[0] + values[1] * values[1];
+        return scree::sum(squares) > 0.;
+      }
     };
 
     bool is_owned(const Node &node) const
@@ -102,6 +120,10 @@ namespace scree
     /// Sums impulses at the nodes, owned ones hold the whole. Collective.
     void sum(const std::vector<dealii::Tensor<1, dim>> &impulses);
 
+    /// The same of this rank's contacts, with `n` nodes a cell and axis.
+    template <int n>
+    void add_shares(const std::vector<dealii::Tensor<1, dim>> &impulses);
+
     /// The mean of the nodes' values over a contact's segment, with `n` nodes a cell and axis.
     template <int n>
     NodeRow mean(const Contact &contact) const;
@@ -111,6 +133,14 @@ namespace scree
 
     /// The same of one contact, whatever the number of nodes.
     dealii::Tensor<1, dim> mean_of(const Contact &contact) const;
+
+    /// What the impulses at a node do to it, if walls do not hold it.
+    std::array<NodeRow, 2> motion_of_free(const Node &node) const
+    {
+      const NodeRow soil = node.values[0], water = node.values[1];
+      return { { node.mobility.soil * soil + node.mobility.other * water,
+                 node.mobility.other * soil + node.mobility.water * water } };
+    }
 
     /// What impulses on soil and water at a node that walls hold do to it.
     std::array<NodeRow, 2> motion_of_held(const Node &node, const std::array<NodeRow, 2> &impulses) const;
@@ -126,9 +156,10 @@ namespace scree
     std::vector<unsigned int> numbers; // by node
     std::vector<Node> nodes;
     std::vector<Contact> contacts;
-    std::vector<unsigned int> nodes_of_segments;                       // a cell's nodes behind each other
-    std::vector<DragPair<dim>> held;                                   // by walls, of this rank
-    unsigned int last_segment = dealii::numbers::invalid_unsigned_int; // that has been added
+    std::vector<unsigned int> nodes_of_segments; // a cell's nodes behind each other
+    std::vector<unsigned int> first_of_segment;  // of those, by segment
+    std::vector<DragPair<dim>> held;             // by walls, of this rank
+    unsigned int n_started = 0;                  // nodes that have been looked at in this step
   };
 } // namespace scree
 

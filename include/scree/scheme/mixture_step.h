@@ -45,6 +45,9 @@ namespace scree
               const SoilAndWater<dim> &impulses,
               StepBalance<dim> &balance) const;
 
+    /// Changes the velocities of an owned node, m/s, after predict(). A phase without mass follows the other.
+    static void add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change);
+
   private:
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;
