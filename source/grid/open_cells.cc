@@ -45,17 +45,30 @@ namespace scree
       return 0.5 * cross_product_3d(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     }
 
-    /// Lagrange's cubics through the Gauss points at `x`, from 0 to 1.
-    std::array<double, n_gauss> cubics(const std::array<double, n_gauss> &points, const double x)
+    using AtGaussPoints = std::array<double, n_gauss>; // along an axis
+
+    /// Products of the cubics' factors without x: 1 at their own Gauss point.
+    AtGaussPoints cubic_scales(const AtGaussPoints &points)
     {
-      std::array<double, n_gauss> values;
+      AtGaussPoints scales;
       for (unsigned int i = 0; i < n_gauss; ++i)
         {
-          values[i] = 1.;
+          scales[i] = 1.;
           for (unsigned int j = 0; j < n_gauss; ++j)
             if (j != i)
-              values[i] *= (x - points[j]) / (points[i] - points[j]);
+              scales[i] /= points[i] - points[j];
         }
+      return scales;
+    }
+
+    /// Lagrange's cubics through the Gauss points at `x`, from 0 to 1.
+    AtGaussPoints cubics(const AtGaussPoints &points, const AtGaussPoints &scales, const double x)
+    {
+      AtGaussPoints values = scales;
+      for (unsigned int i = 0; i < n_gauss; ++i)
+        for (unsigned int j = 0; j < n_gauss; ++j)
+          if (j != i)
+            values[i] *= x - points[j];
       return values;
     }
   } // namespace
@@ -87,7 +100,8 @@ namespace scree
   void OpenCells<dim>::integrate_open_part(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut) const
   {
     static const QWitherdenVincentSimplex<dim> rule(dim == 2 ? 4 : 5); // cubics along all axes: degree 6, 9
-    const auto points = gauss_points();
+    constexpr unsigned int n_rows = CutCell<dim>::n_points / n_gauss;
+    const AtGaussPoints points = gauss_points(), scales = cubic_scales(points);
     for (const Simplex<dim> &simplex : open)
       {
         std::array<Point<dim>, dim + 1> corners;
@@ -96,18 +110,24 @@ namespace scree
         const double volume = volume_of(simplex);
         cut.open_fraction += volume;
         visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
-          std::array<std::array<double, n_gauss>, dim> along;
+          std::array<AtGaussPoints, dim> along;
           for (unsigned int a = 0; a < dim; ++a)
-            along[a] = cubics(points, x[a]);
-          for (unsigned int q = 0; q < CutCell<dim>::n_points; ++q)
+            along[a] = cubics(points, scales, x[a]);
+          for (unsigned int r = 0; r < n_rows; ++r)
             {
-              double weight = part * volume;
-              for (unsigned int a = 0, rest = q; a < dim; ++a, rest /= n_gauss)
-                weight *= along[a][rest % n_gauss];
-              cut.weights[q] += weight;
+              double of_row = part * volume * along[1][r % n_gauss];
+              if constexpr (dim == 3)
+                of_row *= along[2][r / n_gauss];
+              for (unsigned int i = 0; i < n_gauss; ++i)
+                cut.weights[r * n_gauss + i] += of_row * along[0][i];
             }
           for (unsigned int v = 0; v < cut.n_corners; ++v)
-            cut.open_hats[v] += part * volume * GeometryInfo<dim>::d_linear_shape_function(x, v);
+            {
+              double hat = part * volume;
+              for (unsigned int a = 0; a < dim; ++a)
+                hat *= v >> a & 1 ? x[a] : 1. - x[a];
+              cut.open_hats[v] += hat;
+            }
         });
       }
   }
