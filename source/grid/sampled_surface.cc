@@ -165,13 +165,16 @@ namespace scree
   template <int dim>
   Batch SampledSurface<dim>::distances(const unsigned int cell, const std::array<Batch, dim> &places) const
   {
-    // Hat functions along the axes at the lattice's corners.
+    // Hat functions along the axes at the lattice's corners; beyond it those of its outer cells go on.
     std::array<std::array<Batch, 3>, dim> hats;
     for (unsigned int a = 0; a < dim; ++a)
       if (is_moving())
-        for (unsigned int j = 0; j < 3; ++j)
-          hats[a][j] = simd::max<Batch>(1. - simd::abs<Batch>(places[a] + (1. - part_of_cell[a] - j)),
-                                        simd::broadcast<Batch>(0.));
+        {
+          const Batch from_middle = places[a] - part_of_cell[a], none{};
+          hats[a][0]              = simd::max<Batch>(-from_middle, none);
+          hats[a][1]              = 1. - simd::abs<Batch>(from_middle);
+          hats[a][2]              = simd::max<Batch>(from_middle, none);
+        }
       else
         {
           hats[a][0] = 1. - places[a];

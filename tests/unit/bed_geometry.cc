@@ -2,7 +2,7 @@
 
 // Distances and normals of rigid ground: of a profile and of a raster of heights against the nearest of many places on
 // it, of an expression that is no distance against the closed form; where the ground is missing; and as the mesh
-// samples an arc, at rest and moved.
+// samples an arc, at rest and moved; from places one by one and in batches, of ground in parts, too.
 
 #include "expect.h"
 #include "random_numbers.h"
@@ -10,11 +10,12 @@
 #include <scree/geometry/expression_surface.h>
 #include <scree/geometry/height_surface.h>
 #include <scree/geometry/profile.h>
-#include <scree/grid/sampled_surface.h>
+#include <scree/grid/rigid_ground.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -221,6 +222,48 @@ void test_moved_samples()
 }
 
 
+/// Distances in batches are those of the nearest part, in the cells of the places and beside them.
+template <int dim>
+void test_batches()
+{
+  GridParameters parameters;
+  parameters.lower_corner.assign(dim, 0.);
+  parameters.upper_corner.assign(dim, 1.);
+  parameters.cell_size = 0.1;
+  const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
+  const ExpressionSurface<dim> plane("", dim == 2 ? "0.6*x + 0.8*y - 0.4" : "0.6*x + 0.8*z - 0.4", 0.1),
+      wall("", "0.7 - x", 0.1);
+  const SampledSurface<dim> at_rest(grid, plane);
+  SampledSurface<dim> moving(grid, wall, SurfaceMotion::rigid);
+  Tensor<1, dim> displacement;
+  displacement[0] = -0.033;
+  moving.move_to(displacement);
+  const RigidGround<dim> ground({ { &at_rest }, { &moving, &displacement } });
+  RandomNumbers random;
+  unsigned int n_near = 0;
+  for (unsigned int cell = 0; cell < grid.triangulation().n_active_cells(); ++cell)
+    {
+      if (std::isinf(ground.least_distance(cell)))
+        continue;
+      ++n_near;
+      std::array<Batch, dim> places;
+      for (Batch &along : places)
+        for (unsigned int l = 0; l < batch_size; ++l)
+          along[l] = random.uniform(-0.2, 1.2);
+      const Batch distances = ground.distances(cell, places);
+      for (unsigned int l = 0; l < batch_size; ++l)
+        {
+          Point<dim> place;
+          for (unsigned int a = 0; a < dim; ++a)
+            place[a] = places[a][l];
+          expect(distances[l], ground.view(cell, place).distance, 1e-14, "distance in a batch");
+        }
+    }
+  AssertThrow(n_near > 0, ExcMessage("batches: no cell is near"));
+  std::cout << dim << "D distances in batches" << std::endl;
+}
+
+
 int main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -231,4 +274,6 @@ int main(int argc, char **argv)
   test_samples<3>();
   test_moved_samples<2>();
   test_moved_samples<3>();
+  test_batches<2>();
+  test_batches<3>();
 }
