@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case_changes.h>
 #include <scree/input/input_error.h>
+#include <scree/lost_points.h>
 #include <scree/output/checkpoint.h>
 #include <scree/output/log_header.h>
 #include <scree/simulation.h>
@@ -287,7 +288,7 @@ namespace scree
     totals.add(step.material);
     last_update = step.material;
     point_updates += step.n_updates;
-    scene.account_for_lost_points(totals, clock.time());
+    account_for_lost_points(scene, totals, clock.time());
     if (is_released)
       end_step(time_step);
   }
