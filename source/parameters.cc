@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/case_checks.h>
 #include <scree/parameters.h>
-#include <scree/points/water_seeding.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -13,68 +13,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  void BodyParameters::add_parameters(ParameterHandler &prm)
-  {
-    prm.enter_subsection(name);
-    seeding.add_parameters(prm);
-    seepage.add_parameters(prm);
-    material.add_parameters(prm);
-    initial_state.add_parameters(prm);
-    prm.leave_subsection();
-  }
-
-
-  void BodyParameters::check(const std::vector<double> &gravity, const WaterParameters *water) const
-  {
-    seeding.check(name, gravity.size());
-    seepage.check(name, water);
-    material.check(name);
-    initial_state.check(name, gravity);
-    if (is_rigid())
-      check_rigid();
-  }
-
-
-  void BodyParameters::check_rigid() const
-  {
-    require_entry(seeding.initial_velocity.empty(),
-                  name,
-                  "Initial velocity",
-                  seeding.initial_velocity,
-                  "\"Material = rigid\" does not move. Remove one of the two.");
-    require_entry(initial_state.stress_kind() == InitialStress::none,
-                  name + "/Initial state",
-                  "Type",
-                  initial_state.type,
-                  "the stress of \"Material = rigid\" is not known. Remove the entry.");
-  }
-
-
-  bool BodyParameters::is_rigid() const
-  {
-    return material.law_kind() == LawKind::rigid;
-  }
-
-
-  double BodyParameters::initial_porosity() const
-  {
-    return seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
-  }
-
-
-  double BodyParameters::bulk_density() const
-  {
-    return seeding.grain_density * (1. - initial_porosity());
-  }
-
-
-  double BodyParameters::wave_speed() const
-  {
-    const auto law = make_material<2>(material);
-    return law->wave_speed(law->initial_bulk_modulus(initial_state.pressure), 0., bulk_density());
-  }
-
 
   Parameters::Parameters()
   {
@@ -122,7 +60,7 @@ namespace scree
             for (BodyParameters &body : bodies)
               body.seeding.is_fed = body.seeding.is_fed || inflow.body == body.name;
           }
-        check();
+        check_case(*this);
         read_maps();
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
@@ -275,56 +213,6 @@ namespace scree
   }
 
 
-  void Parameters::check() const
-  {
-    require_entry(gravity.size() == dimension,
-                  "",
-                  "Gravity",
-                  number_text(gravity),
-                  "entry \"Dimension\" is " + std::to_string(dimension) + ". Write " + std::to_string(dimension) +
-                      " components in m/s^2, separated by commas.");
-    require_entry(dimension == 3 || (local_origin[0] == 0. && local_origin[1] == 0.),
-                  "",
-                  "Local origin",
-                  number_text(local_origin),
-                  "a scene in the plane has no map. Remove it.");
-    require_entry(!output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
-    grid.check(dimension);
-    transfer.check();
-    output.check(end_time);
-    output.maps.check(!bodies.empty());
-    boundaries.check(dimension);
-    bed.check(dimension);
-    check_type_for_water(bed);
-    for (const ObstacleParameters &obstacle : obstacles)
-      {
-        obstacle.check(dimension);
-        check_type_for_water(obstacle.surface);
-      }
-    for (const InflowParameters &inflow : inflows)
-      check_inflow(inflow);
-    surface_load.check(grid, dimension);
-    body_force.check(dimension);
-    base_motion.check(dimension);
-    settling.check(gravity);
-    probes.check(grid, dimension, !bodies.empty());
-    require_entry(transfer.transfer_method() != TransferMethod::apic || grid.basis_kind() == Basis::spline,
-                  "Transfer",
-                  "Method",
-                  transfer.method,
-                  "with \"Basis = " + grid.basis +
-                      "\" its affine field grows without bound, as the inertia of the nodes around a point vanishes at "
-                      "cell faces. Write \"Basis = spline\", or another method.");
-    for (const auto &body : bodies)
-      body.check(gravity, has_water ? &water : nullptr);
-    check_contacts();
-    if (has_water)
-      check_water();
-    if (bodies.empty())
-      check_without_soil();
-  }
-
-
   const BodyParameters *Parameters::find_body(const std::string &name) const
   {
     const auto body =
@@ -333,71 +221,10 @@ namespace scree
   }
 
 
-  void Parameters::check_inflow(const InflowParameters &inflow) const
-  {
-    const BodyParameters *body = find_body(inflow.body);
-    std::string names;
-    for (const BodyParameters &one : bodies)
-      names += (names.empty() ? "" : ", ") + one.name;
-    if (has_water)
-      names += (names.empty() ? "" : ", ") + std::string("Water");
-    require_entry(body != nullptr || (inflow.is_water() && has_water),
-                  inflow.subsection,
-                  "Body",
-                  inflow.body,
-                  inflow.is_water() ? "there is no subsection Water. Add one, or write the name of a body."
-                                    : "write what enters: " + names + ".");
-    require_entry(body == nullptr || !body->is_rigid(),
-                  inflow.subsection,
-                  "Body",
-                  inflow.body,
-                  "a body of \"Material = rigid\" does not move. Write another one.");
-    require_entry(!has_water || water.point_sets_kind() == PointSets::double_point,
-                  "Water",
-                  "Point sets",
-                  water.point_sets,
-                  "with subsection " + inflow.subsection +
-                      " water needs points of its own. Write double, or remove the inflow.");
-    if (inflow.is_saturated)
-      {
-        const auto require = [&](const bool possible, const std::string &remedy) {
-          require_entry(possible, inflow.subsection, "Saturated", "true", remedy);
-        };
-        require(has_water && body != nullptr,
-                "it is said of soil in a scene with water. Remove the entry, or add subsection Water.");
-        require(body->initial_porosity() > 0,
-                "the body has no pores. Write an \"Initial porosity\" above 0 in subsection " + body->name + '.');
-        require(water.points_per_cell == body->seeding.points_per_cell,
-                "water enters on a point for each one of the soil. Write the same \"Points per cell\" in subsections " +
-                    body->name + " and Water.");
-      }
-    inflow.check(grid, dimension, points_per_cell(inflow));
-  }
-
-
   unsigned int Parameters::points_per_cell(const InflowParameters &inflow) const
   {
     const BodyParameters *body = find_body(inflow.body);
     return body == nullptr ? water.points_per_cell : body->seeding.points_per_cell;
-  }
-
-
-  void Parameters::check_contacts() const
-  {
-    contact_groups();
-    for (const ContactParameters &contact : contacts)
-      {
-        const auto require = [&contact](const bool possible, const std::string &what) {
-          require_entry(possible || !contact.is_set(),
-                        contact.subsection,
-                        "Bodies",
-                        contact.bodies,
-                        "bodies that slide are not possible with " + what + " yet. Remove one of the two subsections.");
-        };
-        require(!has_water, "subsection Water");
-        require(!surface_load.is_set(), "subsection Surface load");
-        require(inflows.empty(), "subsection Inflow");
-      }
   }
 
 
@@ -434,50 +261,6 @@ namespace scree
   }
 
 
-  void Parameters::check_type_for_water(const BedParameters &surface) const
-  {
-    const auto require = [&](const bool possible, const std::string &remedy) {
-      require_entry(
-          possible || !surface.holds_water(), surface.subsection, "Type for water", surface.for_water, remedy);
-    };
-    require(has_water, "nothing reads it, as there is no subsection Water. Remove it.");
-    require(water.viscosity > 0.,
-            "water without viscosity slips along anything. Write a \"Viscosity\" in subsection Water, or impermeable.");
-  }
-
-
-  void Parameters::check_water() const
-  {
-    water.check(gravity, bodies.size());
-    pressure.check(bodies.size(), water.bulk_modulus);
-    water_boundaries.check(dimension);
-    require_entry(bed.friction_angles.empty(),
-                  "Bed",
-                  "Friction angles",
-                  bed.friction_angles,
-                  "with water the bed has one angle of friction yet. Write a \"Friction angle\", or remove subsection "
-                  "Water.");
-    for (const WaterWall &wall : water_boundaries.walls(dimension))
-      require_entry(wall.type != WaterWallType::drained || wall.pressure >= pressure.cavitation_pressure,
-                    "Water/Pressure",
-                    "Cavitation pressure",
-                    pressure.cavitation_pressure,
-                    "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
-                        " Pa. Water tears there. Write a lower number, or a higher pressure at the wall.");
-    for (const SoilRegion &body : soil_regions())
-      {
-        if (water.is_where_soil_is())
-          require_pores(body);
-        require_entry(body.porosity < water.fluidisation_porosity,
-                      "Water",
-                      "Fluidisation porosity",
-                      water.fluidisation_porosity,
-                      quoted(body.name) + " has a porosity of " + number_text(body.porosity) +
-                          " at the start and would never bear a stress. Write a larger number.");
-      }
-  }
-
-
   void Parameters::check_dry() const
   {
     require_entry(
@@ -489,21 +272,6 @@ namespace scree
                     face,
                     file.value(subsection, face, ""),
                     "nothing reads it, as the file has no subsection Water. Add one, or remove the entry.");
-  }
-
-
-  void Parameters::check_without_soil() const
-  {
-    const std::string no_soil = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it";
-    const auto walls = boundaries.texts(3), defaults = BoundaryParameters().texts(3);
-    for (unsigned int f = 0; f < walls.size(); ++f)
-      require_entry(walls[f] == defaults[f],
-                    "Boundaries",
-                    FaceEntries::names(3)[f],
-                    walls[f],
-                    no_soil + ", or move it to subsection Water of subsection Boundaries.");
-    require_entry(!surface_load.is_set(), "Surface load", "Traction", surface_load.traction, no_soil + '.');
-    require_entry(settling.maximum_time == 0, "Settling", "Maximum time", settling.maximum_time, no_soil + '.');
   }
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/joined_surface.h>
-#include <scree/points/seeding.h>
-#include <scree/points/water_seeding.h>
+#include <scree/places_of_points.h>
 #include <scree/scene.h>
 #include <scree/scheme/coupled_scheme.h>
 
@@ -12,78 +11,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Where the case puts points at the start.
-    template <int dim>
-    PlacesOfPoints<dim> places_of_points(const Parameters &parameters)
-    {
-      struct Part
-      {
-        Region<dim> region;
-        unsigned int points_per_cell;
-      };
-      const auto parts = std::make_shared<std::vector<Part>>();
-      const auto soil  = parameters.soil_regions();
-      for (unsigned int i = 0; i < soil.size(); ++i)
-        parts->push_back({ soil[i].template places<dim>(), parameters.bodies[i].seeding.points_per_cell });
-      if (parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point)
-        for (const WaterPart &part : water_parts(parameters.water, soil))
-          parts->push_back(
-              { Region<dim>(entry_name("Water", "Region"), part.region), parameters.water.points_per_cell });
-      struct Section // of an inflow
-      {
-        Region<dim> region;
-        unsigned int axis;
-        double lower; // coordinate of the lower side of a layer, m
-      };
-      const auto sections = std::make_shared<std::vector<Section>>();
-      for (const InflowParameters &inflow : parameters.inflows)
-        {
-          const unsigned int face = inflow.face_number(dim);
-          const double x          = inflow.place(parameters.grid);
-          sections->push_back(
-              { Region<dim>(entry_name(inflow.subsection, "Region"), inflow.region),
-                face / 2,
-                face % 2 == 0 ? x : x - parameters.grid.cell_size / parameters.points_per_cell(inflow) });
-        }
-      unsigned int n_places = 0;
-      for (const Part &part : *parts)
-        n_places += Utilities::fixed_power<dim>(part.points_per_cell) * Region<dim>::n_places_of_cube;
-      const auto loaded = [&parameters](const Point<dim> &cell) {
-        return parameters.surface_load.touches_cell(cell.begin_raw(), parameters.grid, dim);
-      };
-      const auto fed = [sections, &parameters](const Point<dim> &cell) {
-        return std::any_of(sections->begin(), sections->end(), [&](const Section &section) {
-          const double beyond = section.lower - cell[section.axis], width = parameters.grid.cell_size;
-          return beyond > -1e-6 * width && beyond < (1. - 1e-6) * width && section.region.touches_cube(cell, width);
-        });
-      };
-      const auto in_cell = [parts, loaded, fed, &parameters](const Point<dim> &cell) {
-        const auto touches_cell = [&](const Part &part) {
-          const unsigned int n = part.points_per_cell;
-          const double width   = parameters.grid.cell_size / n;
-          for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
-            {
-              Point<dim> corner = cell;
-              for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-                corner[a] += width * (rest % n);
-              if (part.region.touches_cube(corner, width))
-                return true;
-            }
-          return false;
-        };
-        return loaded(cell) || fed(cell) || std::any_of(parts->begin(), parts->end(), touches_cell);
-      };
-      const auto at_place = [parts, loaded, fed](const Point<dim> &cell, const Point<dim> &x) {
-        return loaded(cell) || fed(cell) ||
-               std::any_of(parts->begin(), parts->end(), [&](const Part &part) { return part.region.contains(x); });
-      };
-      return { in_cell, at_place, n_places };
-    }
-  } // namespace
-
 
   template <int dim>
   Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm communicator)
@@ -399,66 +326,6 @@ namespace scree
     for (unsigned int node = 0; node < is_rigid.size(); ++node)
       is_rigid[node] = field[node][NodalField<dim>::mass] > 0.;
     return is_rigid;
-  }
-
-
-  template <int dim>
-  void Scene<dim>::lose(const std::string &name,
-                        const LostPoint<dim> &point,
-                        const std::pair<std::string, bool> &face_and_whether_open,
-                        const unsigned int velocity_slot,
-                        const unsigned int mass_slot,
-                        const double time,
-                        double &lost_mass,
-                        RunTotals<dim> &totals) const
-  {
-    const auto &[face, is_open] = face_and_whether_open;
-    AssertThrow(is_open,
-                ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
-                           number_text(point.location) + ") m, t = " + Utilities::to_string(time) +
-                           " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
-                           "Boundaries."));
-    const double *velocity_of_point = point.properties.data() + velocity_slot;
-    const double mass               = point.properties[mass_slot];
-    const Tensor<1, dim> velocity(make_array_view(velocity_of_point, velocity_of_point + dim));
-    lost_mass += mass;
-    totals.lost_momentum += mass * velocity;
-    totals.lost_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (point.location - Point<dim>()));
-  }
-
-
-  template <int dim>
-  void Scene<dim>::account_for_lost_points(RunTotals<dim> &totals, const double time)
-  {
-    for (auto &part : water)
-      for (const LostPoint<dim> &point : part.points().lost())
-        lose("the water",
-             point,
-             part.own_points() != nullptr ? water_walls->face_crossed(point.location)
-                                          : walls.face_crossed(point.location),
-             part.layout.velocity,
-             part.layout.mass,
-             time,
-             totals.lost_water_mass,
-             totals);
-    for (auto &body : bodies)
-      {
-        for (const LostPoint<dim> &point : body.points.lost())
-          lose(body.name,
-               point,
-               walls.face_crossed(point.location),
-               body.layout.velocity,
-               body.layout.mass,
-               time,
-               totals.lost_mass,
-               totals);
-        totals.n_lost += body.points.lost().size();
-        body.points.lost().clear();
-      }
-    for (auto &part : water)
-      part.points().lost().clear();
-    for (auto &load : loads)
-      load.points().lost().clear();
   }
 
   template class Scene<2>;

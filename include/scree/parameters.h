@@ -2,19 +2,16 @@
 #ifndef scree_parameters_h
 #define scree_parameters_h
 
+#include <scree/body_parameters.h>
 #include <scree/grid/background_grid.h>
 #include <scree/grid/boundary_conditions.h>
 #include <scree/grid/water_walls.h>
-#include <scree/initial/initial_state.h>
 #include <scree/input/case_entries.h>
 #include <scree/input/input_file.h>
-#include <scree/material/table.h>
 #include <scree/output/output_parameters.h>
 #include <scree/output/probe_parameters.h>
-#include <scree/points/seeding.h>
 #include <scree/geometry/bed_parameters.h>
 #include <scree/geometry/obstacle_parameters.h>
-#include <scree/points/seepage_parameters.h>
 #include <scree/transfer/surface_load.h>
 #include <scree/points/water_parameters.h>
 #include <scree/scheme/contact_parameters.h>
@@ -26,38 +23,6 @@
 
 namespace scree
 {
-  /// One body of soil: where it is, what it is made of, how it starts. One subsection of the `.prm`, named after the
-  /// body.
-  struct BodyParameters
-  {
-    std::string name;
-    SeedingParameters seeding;
-    SeepageParameters seepage;
-    MaterialParameters material;
-    InitialStateParameters initial_state;
-
-    void add_parameters(dealii::ParameterHandler &prm);
-
-    /// Throws EntryError at impossible combinations of entries.
-    /// @param water null in a dry scene
-    void check(const std::vector<double> &gravity, const WaterParameters *water) const;
-
-    /// Whether the body keeps its place.
-    bool is_rigid() const;
-
-    /// Volume of pores over total volume, as the entry or the law says.
-    double initial_porosity() const;
-
-    /// Density of the dry body, kg/m^3: grains times (1 - porosity).
-    double bulk_density() const;
-
-    /// Of pressure waves in the dry body at the entry of its pressure, m/s; 0 without stiffness.
-    double wave_speed() const;
-
-  private:
-    void check_rigid() const;
-  };
-
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
   class Parameters
   {
@@ -134,14 +99,8 @@ namespace scree
     void name_contacts();
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
-    void check() const;
-    void check_contacts() const;
     void read_maps();
-    void check_type_for_water(const BedParameters &surface) const;
-    void check_water() const;
-    void check_inflow(const InflowParameters &inflow) const;
     void check_dry() const;
-    void check_without_soil() const;
 
     double size_of_gravity() const; // m/s^2
     double wave_speed() const;      // of the stiffest body, m/s; 0 without bodies

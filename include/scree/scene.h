@@ -85,11 +85,6 @@ namespace scree
     /// From here on, displacements count.
     void mark_start();
 
-    /// Adds what left the box through open walls to `totals`, and forgets it. Throws if a point left through a closed
-    /// one.
-    /// @param time s, for the message
-    void account_for_lost_points(RunTotals<dim> &totals, const double time);
-
     /// What the run calls a point where it tells its speed.
     std::string name_of_a_point() const
     {
@@ -190,16 +185,6 @@ namespace scree
 
     /// Whether points of rigid bodies act on the nodes of this rank's cells; empty without such bodies. Collective.
     std::vector<char> rigid_nodes() const;
-
-    /// Adds one that left the box through the face of this name.
-    void lose(const std::string &name,
-              const LostPoint<dim> &point,
-              const std::pair<std::string, bool> &face_and_whether_open,
-              const unsigned int velocity_slot,
-              const unsigned int mass_slot,
-              const double time,
-              double &lost_mass,
-              RunTotals<dim> &totals) const;
 
     const Parameters &parameters;
     const ContactGroups groups;

@@ -2,17 +2,14 @@
 #ifndef scree_simulation_h
 #define scree_simulation_h
 
-#include <scree/output/graphics.h>
-#include <scree/output/maps.h>
+#include <scree/mesh_adaptation.h>
 #include <scree/output/output_times.h>
-#include <scree/output/probes.h>
 #include <scree/output/progress.h>
-#include <scree/output/row_file.h>
-#include <scree/output/statistics.h>
-#include <scree/output/stop_requests.h>
 #include <scree/points/partition.h>
+#include <scree/results.h>
 #include <scree/scene.h>
 #include <scree/scheme/step_part.h>
+#include <scree/step_control.h>
 
 #include <limits>
 
@@ -48,15 +45,24 @@ namespace scree
     void advance(const double time_step);
 
     /// Largest step, s, of the points as they are.
-    double stable_step() const;
+    double stable_step() const
+    {
+      return control.stable_step();
+    }
 
     /// One step of the run, of `largest_step` s and to the time `due`, s, at most.
     /// @return its length, s
     double step(const double largest_step, const double due);
 
     /// Output of the state as it is. Collective.
-    void write_row();
-    void write_picture();
+    void write_row()
+    {
+      results.write_row(state());
+    }
+    void write_picture()
+    {
+      results.write_picture(state());
+    }
 
     const std::list<SoilBody<dim>> &bodies() const
     {
@@ -72,7 +78,10 @@ namespace scree
     }
 
     /// What limits the next step: of the points as they are, and of obstacles.
-    Speeds limiting_speeds() const;
+    Speeds limiting_speeds() const
+    {
+      return control.limiting_speeds();
+    }
 
     /// Wall time of the parts of the steps so far.
     const dealii::TimerOutput &times_of_parts() const
@@ -103,16 +112,8 @@ namespace scree
     void resume();
     void settle();
 
-    /// Steps with damping, until the soil rests, its time is over, or the run is asked to stop.
-    /// @return kinetic over elastic energy at the end, infinity if that is not known
-    double settle_down(Clock &settling_clock);
-
     /// Fits scene and scheme to a new partition of the mesh.
     void reinit();
-
-    /// Makes cells fine around the points as they are, and where they go to, once a point has come to the edge of the
-    /// fine cells. Depends on the state of the run only, so that a resumed run does it in the same step.
-    void follow_points(const double time_step);
 
     /// Repartitions the mesh, if that is due and worthwhile.
     void repartition();
@@ -120,41 +121,18 @@ namespace scree
     /// Moves on what the scene moves by itself, and puts in what enters.
     void end_step(const double time_step);
 
-    /// The blocks that are to be fine, of all ranks: around the points and on their way. Collective.
-    Blocks blocks_ahead(const double time_step) const;
-
-    /// Whether a point of any rank has come to the edge of the fine cells. Collective.
-    bool are_points_at_edge();
-
     /// Waits for the slowest rank.
     void wait();
 
     /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
     void place_points(const double time_step, const Speeds &of_rank);
 
-    /// The speeds of the points as they are.
-    void measure_speeds();
-
-    /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Also agrees on
-    /// whether to stop. Collective.
-    void agree_on(std::vector<double> &largest);
-
-    /// Throws if the motion is unstable.
-    void check_step(const double largest_step, const double first_step) const;
-    void check_speed(const double time_step) const;
-
     void report();
-    ProbedState<dim> probed_state(const WaterView<dim> *view) const;
+    RunState<dim> state() const
+    {
+      return { totals, last_update, clock.time(), clock.step(), last_time_step };
+    }
     void write_checkpoint();
-
-    /// Keeps the case with its results and begins the log.
-    void record_case();
-
-    /// What has been made of the case: size and transfer.
-    void log_case();
-
-    /// After a checkpoint has been read: drops from lists and rows what was written after it.
-    void cut_output();
 
     /// Writes what --resume and the eye need of a run that ends before its time.
     void write_last();
@@ -174,24 +152,18 @@ namespace scree
     Scene<dim> scene;
     std::unique_ptr<Scheme<dim>> scheme;
     Partition<dim> partition;
-    bool points_at_edge        = false; // of any rank
-    unsigned int n_refinements = 0;     // that followed the points
+    MeshAdaptation<dim> adaptation;
 
     Clock clock;
+    StepControl<dim> control;
     OutputTimes output_times;
-    Graphics<dim> graphics;
-    Statistics<dim> statistics;
-    RowFile rows; // of the statistics
-    Probes<dim> probes;
-    Maps<dim> maps;
+    Results<dim> results;
 
     RunTotals<dim> totals;
     double point_updates = 0;                  // points times steps, of this rank
     UpdateReport last_update;                  // of this rank
-    Speeds speeds;                             // of all ranks
     double last_time_step                 = 0; // s
     unsigned long long step_of_checkpoint = std::numeric_limits<unsigned long long>::max(); // the newest, of this run
-    StopReason stop_reason                = StopReason::none;                               // of all ranks
     bool is_released                      = true; // or was stopped while it settled
   };
 } // namespace scree

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
+#include <scree/output/byte_reader.h>
 #include <scree/output/checkpoint.h>
+#include <scree/output/packed_points.h>
 #include <scree/output/whole_file.h>
 #include <scree/version.h>
 
@@ -10,7 +12,6 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <cstring>
 #include <map>
 #include <sstream>
 
@@ -51,117 +52,6 @@ namespace scree
       return result;
     }
 
-    template <typename Value>
-    void append(std::string &buffer, const Value *values, const std::size_t n)
-    {
-      buffer.append(reinterpret_cast<const char *>(values), n * sizeof(Value));
-    }
-
-    /// Takes numbers from a file's content, as append() put them there.
-    class Reader
-    {
-    public:
-      Reader(const std::string &file, const std::string &content)
-          : file(file)
-          , next(content.data())
-          , end(content.data() + content.size())
-      {
-      }
-
-      template <typename Value>
-      void take(Value *values, const std::size_t n)
-      {
-        if (n > std::size_t(end - next) / sizeof(Value))
-          throw FileError(file + ": ends too early");
-        std::memcpy(values, next, n * sizeof(Value));
-        next += n * sizeof(Value);
-      }
-
-      std::uint64_t take()
-      {
-        std::uint64_t value;
-        take(&value, 1);
-        return value;
-      }
-
-    private:
-      const std::string file;
-      const char *next, *const end;
-    };
-
-    /// This rank's points, cell by cell: for each set the numbers of properties and of points; for each cell its id and
-    /// the number of its points; for each point its id, location, reference location and properties.
-    template <int dim>
-    std::string pack_points(const std::vector<PointSet<dim> *> &sets)
-    {
-      std::string buffer;
-      for (const PointSet<dim> *points : sets)
-        {
-          const auto &handler           = points->handler();
-          const std::uint64_t numbers[] = { points->stride(), handler.n_locally_owned_particles() };
-          append(buffer, numbers, 2);
-          for (auto point = handler.begin(); point != handler.end();)
-            {
-              const auto cell              = point->get_surrounding_cell();
-              const auto id                = cell->id().template to_binary<dim>();
-              const std::uint64_t n_points = handler.n_particles_in_cell(cell);
-              append(buffer, id.data(), id.size());
-              append(buffer, &n_points, 1);
-              for (std::uint64_t p = 0; p < n_points; ++p, ++point)
-                {
-                  const std::uint64_t number = point->get_id();
-                  append(buffer, &number, 1);
-                  append(buffer, point->get_location().begin_raw(), dim);
-                  append(buffer, point->get_reference_location().begin_raw(), dim);
-                  append(buffer, point->get_properties().data(), points->stride());
-                }
-            }
-        }
-      return buffer;
-    }
-
-
-    template <int dim>
-    using OwnCells = std::map<CellId, typename Triangulation<dim>::active_cell_iterator>;
-
-    template <int dim>
-    OwnCells<dim> own_cells(const Triangulation<dim> &mesh)
-    {
-      OwnCells<dim> cells;
-      for (const auto &cell : mesh.active_cell_iterators())
-        if (cell->is_locally_owned())
-          cells.emplace(cell->id(), cell);
-      return cells;
-    }
-
-    /// Inserts the points of `cells` into the set; returns how many points the file has of it.
-    template <int dim>
-    std::uint64_t unpack_points(Reader &file, const OwnCells<dim> &cells, PointSet<dim> &points)
-    {
-      AssertThrow(file.take() == points.stride(), ExcMessage("The points have other properties than the case's."));
-      const std::uint64_t n_points = file.take();
-      std::vector<double> properties(points.stride());
-      for (std::uint64_t n = 0; n < n_points;)
-        {
-          CellId::binary_type id;
-          file.take(id.data(), id.size());
-          const auto cell               = cells.find(CellId(id));
-          const std::uint64_t n_in_cell = file.take();
-          for (std::uint64_t p = 0; p < n_in_cell; ++p, ++n)
-            {
-              const std::uint64_t number = file.take();
-              Point<dim> location, reference_location;
-              file.take(location.begin_raw(), dim);
-              file.take(reference_location.begin_raw(), dim);
-              file.take(properties.data(), properties.size());
-              if (cell != cells.end())
-                points.handler().insert_particle(location, reference_location, number, cell->second, properties);
-            }
-        }
-      return n_points;
-    }
-
-
     /// Reads all points of a checkpoint, of which this rank keeps those in its cells; returns how many each set has.
     template <int dim>
     std::vector<std::uint64_t>
@@ -174,7 +64,7 @@ namespace scree
         if (file.name.rfind(name_of_points, 0) == 0)
           {
             const std::string content = read_checked_file(checkpoint.folder, file);
-            Reader reader(checkpoint.folder + '/' + file.name, content);
+            ByteReader reader(checkpoint.folder + '/' + file.name, content);
             for (unsigned int s = 0; s < sets.size(); ++s)
               n_points[s] += unpack_points(reader, cells, *sets[s]);
           }
@@ -192,7 +82,7 @@ namespace scree
             const std::string content = read_checked_file(checkpoint.folder, file);
             const std::size_t n = content.size() / sizeof(Blocks::value_type), n_before = blocks.size();
             blocks.resize(n_before + n);
-            Reader(checkpoint.folder + '/' + file.name, content).take(blocks.data() + n_before, n);
+            ByteReader(checkpoint.folder + '/' + file.name, content).take(blocks.data() + n_before, n);
           }
       return blocks;
     }
@@ -285,7 +175,7 @@ namespace scree
     if (grid.follows_points())
       {
         const Blocks blocks = grid.fine_blocks();
-        append(contents[name_of_mesh + std::to_string(rank)], blocks.data(), blocks.size());
+        append_bytes(contents[name_of_mesh + std::to_string(rank)], blocks.data(), blocks.size());
       }
     if (rank == 0)
       {

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/step_part.h>
+#include <scree/step_control.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string remedy_for_instability =
+        "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in subsection Stabilisation.";
+  } // namespace
+
+
+  template <int dim>
+  StepControl<dim>::StepControl(const Scene<dim> &scene,
+                                const Clock &clock,
+                                StopRequests &stop,
+                                TimerOutput &timer,
+                                const MPI_Comm communicator)
+      : scene(scene)
+      , clock(clock)
+      , stop(stop)
+      , timer(timer)
+      , communicator(communicator)
+  {
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::measure_speeds()
+  {
+    const Speeds of_rank = scene.speeds();
+    std::vector<double> largest{ of_rank.wave, of_rank.points };
+    agree_on(largest);
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::agree_on(std::vector<double> &largest)
+  {
+    const TimedPart part(timer, StepPart::waiting);
+    for (double &value : largest)
+      if (std::isnan(value))
+        value = std::numeric_limits<double>::infinity();
+    largest.push_back(static_cast<double>(stop.reason()));
+    Utilities::MPI::max(largest, communicator, largest);
+    speeds = { largest[0], largest[1] };
+    scene.include_inflows(speeds);
+    reason = static_cast<StopReason>(largest.back());
+    largest.pop_back();
+  }
+
+
+  template <int dim>
+  Speeds StepControl<dim>::limiting_speeds() const
+  {
+    Speeds all = speeds;
+    scene.include_obstacles(all, clock.time());
+    return all;
+  }
+
+
+  template <int dim>
+  double StepControl<dim>::stable_step() const
+  {
+    const Speeds all = limiting_speeds();
+    return clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
+  }
+
+
+  template <int dim>
+  StepLimit StepControl<dim>::limit() const
+  {
+    return clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points);
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::require_stable_step(const double largest_step, const double first_step) const
+  {
+    // A run that gains energy would creep on with ever smaller steps.
+    AssertThrow(largest_step > 1e-3 * first_step,
+                ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
+                           " s the stable step has fallen to " + Utilities::to_string(largest_step) + " s, from " +
+                           Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::require_stable_speed(const double time_step) const
+  {
+    AssertThrow(std::isfinite(speeds.points) && speeds.points * time_step < 2 * scene.grid.cell_size(),
+                ExcMessage("The motion is unstable at t = " + Utilities::to_string(clock.time()) +
+                           " s: a point moves at " + Utilities::to_string(speeds.points) + " m/s. " +
+                           remedy_for_instability));
+  }
+
+  template class StepControl<2>;
+  template class StepControl<3>;
+} // namespace scree
