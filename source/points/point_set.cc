@@ -3,32 +3,13 @@
 #include <scree/simd/records.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
-#include <deal.II/distributed/tria_base.h>
 #include <deal.II/grid/cell_id.h>
 
 #include <algorithm>
-#include <map>
 
 namespace scree
 {
   using namespace dealii;
-
-  template <int dim>
-  struct PointSet<dim>::Record
-  {
-    CellId::binary_type cell; // where it goes
-    Point<dim> location;      // m
-    types::particle_index id;
-    std::vector<double> properties;
-
-    template <class Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive &cell &location &id &properties;
-    }
-  };
-
 
   /// Cell by cell.
   template <int dim>
@@ -48,8 +29,10 @@ namespace scree
       : mesh(triangulation)
       , n_properties(n_properties)
       , particle_handler(triangulation, mapping, n_properties)
+      , lists(particle_handler, table)
       , refinement_signal(triangulation.signals.any_change.connect([this] { table.clear(); }))
       , repartition_signal(triangulation.signals.post_distributed_repartition.connect([this] { table.clear(); }))
+      , emigrants(triangulation)
   {
     particle_handler.signals.particle_lost.connect([this](const auto &point, const auto &) {
       const auto properties = point->get_properties();
@@ -95,13 +78,15 @@ namespace scree
     n_moved += leavers.size();
     if (!found_all || n_moved > most_moved * n_points())
       return Disorder::far;
-    return emigrants.empty() ? Disorder::none : Disorder::beside_a_border;
+    return emigrants.is_empty() ? Disorder::none : Disorder::beside_a_border;
   }
 
 
   template <int dim>
   bool PointSet<dim>::set_places()
   {
+    const auto &cell_list = lists.cells();
+    const auto &filled    = lists.filled_cells();
     leavers.clear();
     if (cell_list.empty())
       return true;
@@ -146,9 +131,9 @@ namespace scree
   template <int dim>
   void PointSet<dim>::take_out(const Leaver &leaver, Record &record)
   {
-    FilledCell &cell              = filled[leaver.from];
-    const CellPoints<dim> &points = cell_list[leaver.from];
-    const auto of_handler         = particle_handler.particles_in_cell(table[cell.in_table].iterator);
+    const CellPoints<dim> &points = lists.cells()[leaver.from];
+    const unsigned int in_table   = lists.filled_cells()[leaver.from].in_table;
+    const auto of_handler         = particle_handler.particles_in_cell(table[in_table].iterator);
     const auto point              = std::next(of_handler.begin(), leaver.point);
     Assert(point->get_local_index() == points.slots[leaver.point], ExcInternalError("The lists differ."));
 
@@ -158,8 +143,7 @@ namespace scree
     record.id       = point->get_id();
     // In both lists the last point of the cell takes the number of one that is removed.
     particle_handler.remove_particle(point);
-    unsigned int *own = slots.data() + (points.slots - slots.data());
-    own[leaver.point] = own[--cell.n_points];
+    lists.remove(leaver.from, leaver.point);
   }
 
 
@@ -172,8 +156,7 @@ namespace scree
         insert(to, record);
         return;
       }
-    record.cell = cell->id().template to_binary<dim>();
-    emigrants[cell->subdomain_id()].push_back(record);
+    emigrants.add(cell, record);
   }
 
 
@@ -195,7 +178,7 @@ namespace scree
   void PointSet<dim>::insert(const unsigned int number, const Record &record)
   {
     const unsigned int slot = insert_into(number, record.location, record.id, record.properties);
-    entrants.push_back({ table[number].number, static_cast<unsigned int>(entrants.size()), number, slot });
+    lists.insert(number, slot);
   }
 
 
@@ -207,15 +190,15 @@ namespace scree
   {
     const unsigned int number = table.number_of(cell);
     const unsigned int slot   = insert_into(number, location, id, make_array_view(properties));
-    entrants.push_back({ table[number].number, static_cast<unsigned int>(entrants.size()), number, slot });
+    lists.insert(number, slot);
   }
 
 
   template <int dim>
   void PointSet<dim>::finish_adding()
   {
-    if (!entrants.empty())
-      update_lists();
+    if (lists.has_entrants())
+      lists.update();
   }
 
 
@@ -223,59 +206,20 @@ namespace scree
   void PointSet<dim>::hand_over(const Disorder disorder)
   {
     if (disorder != Disorder::none)
-      exchange();
+      for (const Record &record : emigrants.exchange())
+        insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
     if (disorder == Disorder::far)
       sort();
-    else if (!leavers.empty() || !entrants.empty())
-      update_lists();
-  }
-
-
-  template <int dim>
-  void PointSet<dim>::exchange()
-  {
-    // Points go to ghost cells only, so that all ranks know who may write to them. deal.II's some_to_some() asks first,
-    // which takes 60 microseconds more a step on two ranks.
-    const auto &neighbours      = dynamic_cast<const parallel::TriangulationBase<dim> &>(mesh).ghost_owners();
-    const MPI_Comm communicator = mesh.get_communicator();
-    constexpr int tag           = 1;
-    std::vector<std::vector<char>> messages;
-    std::vector<MPI_Request> requests(neighbours.size());
-    for (const unsigned int rank : neighbours)
-      {
-        messages.push_back(Utilities::pack(emigrants[rank], /*allow_compression=*/false));
-        const int error = MPI_Isend(messages.back().data(),
-                                    messages.back().size(),
-                                    MPI_CHAR,
-                                    rank,
-                                    tag,
-                                    communicator,
-                                    &requests[messages.size() - 1]);
-        AssertThrowMPI(error);
-      }
-    for (const unsigned int rank : neighbours)
-      {
-        MPI_Status status;
-        int size, error = MPI_Probe(rank, tag, communicator, &status);
-        AssertThrowMPI(error);
-        error = MPI_Get_count(&status, MPI_CHAR, &size);
-        AssertThrowMPI(error);
-        std::vector<char> message(size);
-        error = MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
-        AssertThrowMPI(error);
-        for (const Record &record : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
-          insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
-      }
-    const int error = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-    AssertThrowMPI(error);
-    emigrants.clear();
+    else if (!leavers.empty() || lists.has_entrants())
+      lists.update();
   }
 
 
   template <int dim>
   bool PointSet<dim>::is_in_inner_cells() const
   {
-    return std::all_of(filled.begin(), filled.end(), [this](const FilledCell &cell) {
+    const auto &filled = lists.filled_cells();
+    return std::all_of(filled.begin(), filled.end(), [this](const auto &cell) {
       return use_of(table[cell.in_table].iterator) == CellUse::inner;
     });
   }
@@ -289,11 +233,13 @@ namespace scree
     lifted->locations.reserve(count);
     lifted->ids.reserve(count);
     lifted->properties.reserve(count * n_properties);
-    const auto &pool = particle_handler.get_property_pool();
+    const auto &pool      = particle_handler.get_property_pool();
+    const auto &cell_list = lists.cells();
     for (unsigned int c = 0; c < cell_list.size(); ++c)
       {
         const CellPoints<dim> &points = cell_list[c];
-        lifted->cells.emplace_back(table[filled[c].in_table].iterator->id().template to_binary<dim>(), points.n_points);
+        lifted->cells.emplace_back(table[lists.filled_cells()[c].in_table].iterator->id().template to_binary<dim>(),
+                                   points.n_points);
         for (unsigned int p = 0; p < points.n_points; ++p)
           {
             const double *properties = points.properties_of(p);
@@ -367,104 +313,20 @@ namespace scree
   template <int dim>
   void PointSet<dim>::list_all_cells()
   {
-    filled.clear();
-    slots.clear();
-    entrants.clear();
     lose_points_outside();
-    at_edge = false;
-    for (auto point = particle_handler.begin(); point != particle_handler.end();)
-      {
-        const CellIterator cell     = point->get_surrounding_cell();
-        const unsigned int in_table = table.number_of(cell);
-        filled.push_back({ table[in_table].number, in_table, particle_handler.n_particles_in_cell(cell) });
-        at_edge = at_edge || use_of(cell) != CellUse::inner;
-        point   = particle_handler.particles_in_cell(cell).end();
-      }
-    std::sort(
-        filled.begin(), filled.end(), [](const FilledCell &a, const FilledCell &b) { return a.number < b.number; });
-    for (const FilledCell &cell : filled)
-      for (const auto &point : particle_handler.particles_in_cell(table[cell.in_table].iterator))
-        slots.push_back(point.get_local_index());
-    point_to_records();
-  }
-
-
-  template <int dim>
-  void PointSet<dim>::update_lists()
-  {
-    std::sort(entrants.begin(), entrants.end());
-    new_filled.clear();
-    new_slots.clear();
-    const Entrant *entrant = entrants.data(), *end = entrant + entrants.size();
-    for (unsigned int c = 0; c < filled.size(); ++c)
-      {
-        while (entrant != end && entrant->number < filled[c].number)
-          entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
-        entrant = append_cell(filled[c], cell_list[c].slots, entrant, end);
-      }
-    while (entrant != end)
-      entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
-    filled.swap(new_filled);
-    slots.swap(new_slots);
-    entrants.clear();
-    point_to_records();
-  }
-
-
-  template <int dim>
-  const typename PointSet<dim>::Entrant *PointSet<dim>::append_cell(const FilledCell &cell,
-                                                                    const unsigned int *first_slot,
-                                                                    const Entrant *entrant,
-                                                                    const Entrant *end)
-  {
-    new_slots.insert(new_slots.end(), first_slot, first_slot + cell.n_points);
-    unsigned int n_points = cell.n_points;
-    for (; entrant != end && entrant->number == cell.number; ++entrant, ++n_points)
-      new_slots.push_back(entrant->slot);
-    if (n_points > 0)
-      new_filled.push_back({ cell.number, cell.in_table, n_points });
-    return entrant;
-  }
-
-
-  template <int dim>
-  void PointSet<dim>::point_to_records()
-  {
-    cell_list.clear();
-    const_cell_list.clear();
-    slots.insert(slots.end(), points_ahead, 0);
-    if (filled.empty())
-      return;
-
-    // The pool stores records slot by slot and hands out references to them: writing through them saves a call per
-    // point.
-    auto &pool = particle_handler.get_property_pool();
-#if DEAL_II_VERSION_GTE(9, 6, 0)
-    Point<dim> *locations = &pool.get_location(0);
-#else
-    // Before 9.6 only constant ones.
-    Point<dim> *locations = const_cast<Point<dim> *>(&pool.get_location(0));
-#endif
-    const Point<dim> *places    = &pool.get_reference_location(0);
-    double *properties          = pool.get_properties(0).data();
-    const unsigned int *of_cell = slots.data();
-    for (const FilledCell &cell : filled)
-      {
-        const unsigned int index = table[cell.in_table].index;
-        cell_list.push_back({ index, cell.n_points, of_cell, n_properties, properties, locations, places });
-        const_cell_list.push_back({ index, cell.n_points, of_cell, n_properties, properties, locations, places });
-        of_cell += cell.n_points;
-      }
+    lists.list_all();
+    at_edge = !is_in_inner_cells();
   }
 
 
   template <int dim>
   std::vector<types::particle_index> PointSet<dim>::ids(const unsigned int cell) const
   {
-    const auto &pool = particle_handler.get_property_pool();
+    const auto &pool                   = particle_handler.get_property_pool();
+    const ConstCellPoints<dim> &points = lists.cells()[cell];
     std::vector<types::particle_index> result;
-    for (unsigned int p = 0; p < const_cell_list[cell].n_points; ++p)
-      result.push_back(pool.get_id(const_cell_list[cell].slots[p]));
+    for (unsigned int p = 0; p < points.n_points; ++p)
+      result.push_back(pool.get_id(points.slots[p]));
     return result;
   }
 

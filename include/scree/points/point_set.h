@@ -5,83 +5,19 @@
 #include <scree/points/cell_costs.h>
 #include <scree/points/cell_table.h>
 #include <scree/points/cell_use.h>
+#include <scree/points/point_exchange.h>
+#include <scree/points/point_lists.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/particles/particle_handler.h>
 
 #include <cstddef>
-#include <cstdint>
-#include <map>
 #include <memory>
-#include <type_traits>
 #include <vector>
 
 namespace scree
 {
-  /// How many points before their turn kernels ask the memory for records, which lie in no order there.
-  constexpr unsigned int points_ahead = 12;
-
-  /// The points of one cell: which slots of the rank's records they fill.
-  ///
-  /// @tparam Number double, or const double for points that must not change
-  template <int dim, typename Number = double>
-  struct CellPoints
-  {
-    using Location = std::conditional_t<std::is_const_v<Number>, const dealii::Point<dim>, dealii::Point<dim>>;
-
-    unsigned int cell; ///< active cell index
-    unsigned int n_points;
-    const unsigned int *slots; ///< of the points; those of the cells that follow in cells() lie behind them
-    unsigned int stride;       ///< doubles from one slot's properties to the next one's
-    Number *properties;        ///< of slot 0
-    Location *locations;       ///< of slot 0, m
-    const dealii::Point<dim> *reference_locations; ///< of slot 0
-
-    /// Properties of the cell's point `p`.
-    Number *properties_of(const unsigned int p) const
-    {
-      return properties + std::size_t(slots[p]) * stride;
-    }
-
-    /// Where the cell's point `p` is, m.
-    Location &location_of(const unsigned int p) const
-    {
-      return locations[slots[p]];
-    }
-
-    /// Its place in the cell, from 0 to 1 along each axis.
-    const dealii::Point<dim> &reference_location_of(const unsigned int p) const
-    {
-      return reference_locations[slots[p]];
-    }
-
-    /// Asks the memory for the properties and the place of the point that comes `points_ahead` after point `p`, here or
-    /// in the cells that follow.
-    void prefetch_after(const unsigned int p) const
-    {
-      constexpr unsigned int cache_line = 64 / sizeof(double);
-      const Number *record              = properties_of(p + points_ahead);
-      for (unsigned int first = 0; first < stride; first += cache_line)
-        __builtin_prefetch(record + first);
-      __builtin_prefetch(&reference_location_of(p + points_ahead));
-    }
-  };
-
-  /// The points of one cell of a set that must not change.
-  template <int dim>
-  using ConstCellPoints = CellPoints<dim, const double>;
-
-  /// One point of a set, as for_each_point() shows it.
-  template <int dim, typename Number>
-  struct PointView
-  {
-    unsigned int cell; ///< active cell index
-    Number *properties;
-    typename CellPoints<dim, Number>::Location &location; ///< m
-    const dealii::Point<dim> &reference_location;
-  };
-
   /// A point that lay outside the mesh when the set was sorted.
   template <int dim>
   struct LostPoint
@@ -160,11 +96,11 @@ namespace scree
     /// move on.
     const std::vector<CellPoints<dim>> &cells()
     {
-      return cell_list;
+      return lists.cells();
     }
     const std::vector<ConstCellPoints<dim>> &cells() const
     {
-      return const_cell_list;
+      return lists.cells();
     }
 
     /// The lasting numbers of the points of cells()[cell], in their order: unique in the set over all ranks; a point
@@ -177,7 +113,7 @@ namespace scree
     /// Number of this rank's points.
     unsigned int n_points() const
     {
-      return slots.size() - points_ahead;
+      return lists.n_points();
     }
 
     /// This rank's points that left the mesh since the list was last cleared.
@@ -213,14 +149,7 @@ namespace scree
 
   private:
     using CellIterator = typename CellTable<dim>::Iterator;
-
-    /// A cell with points.
-    struct FilledCell
-    {
-      std::uint64_t number;  // of the cell on the curve through the mesh
-      unsigned int in_table; // its number there
-      unsigned int n_points;
-    };
+    using Record       = PointRecord<dim>;
 
     /// A point that is no longer in its cell.
     struct Leaver
@@ -229,23 +158,6 @@ namespace scree
       unsigned int point; // number in the cell
       unsigned int to;    // number in the table
     };
-
-    /// A point that has come into a cell since cells() was made.
-    struct Entrant
-    {
-      bool operator<(const Entrant &other) const
-      {
-        return number < other.number || (number == other.number && turn < other.turn);
-      }
-
-      std::uint64_t number;  // of the cell, as above
-      unsigned int turn;     // among all entrants
-      unsigned int in_table; // the cell's number there
-      unsigned int slot;
-    };
-
-    /// What a point carries from cell to cell or rank to rank.
-    struct Record;
 
     /// What points carry from mesh to mesh.
     struct Lifted;
@@ -269,73 +181,28 @@ namespace scree
     /// The same with a point that becomes an entrant.
     void insert(const unsigned int number, const Record &record);
 
-    /// Sends and receives emigrants. Collective.
-    void exchange();
-
     /// Takes out the points in cells beyond the walls.
     void lose_points_outside();
 
-    /// Lists filled cells and their slots anew, as the handler has them.
+    /// Makes cells() anew, as the handler has them.
     void list_all_cells();
-
-    /// Puts the entrants into the lists and drops empty cells.
-    void update_lists();
-
-    /// Appends a cell with `n` of its slots and those entrants from `entrant` on that are its own to the new lists;
-    /// returns the first one that is not.
-    const Entrant *
-    append_cell(const FilledCell &cell, const unsigned int *first_slot, const Entrant *entrant, const Entrant *end);
-
-    /// Makes cells() from the lists.
-    void point_to_records();
 
     const dealii::Triangulation<dim> &mesh;
     const unsigned int n_properties;
     dealii::Particles::ParticleHandler<dim> particle_handler;
     CellTable<dim> table;
+    PointLists<dim> lists;
     boost::signals2::scoped_connection refinement_signal, repartition_signal;
 
-    // The same points in the same order as in the handler's lists.
-    std::vector<FilledCell> filled, new_filled;
-    /// Of all points, cell by cell; behind them so many that kernels may look ahead.
-    std::vector<unsigned int> slots = std::vector<unsigned int>(points_ahead), new_slots;
-    std::vector<CellPoints<dim>> cell_list;
-    std::vector<ConstCellPoints<dim>> const_cell_list; // the same cells
-
     std::vector<Leaver> leavers;
-    std::vector<Entrant> entrants;
-    std::vector<Record> carried;                           // the leavers, between two cells
-    std::map<unsigned int, std::vector<Record>> emigrants; // by rank
-    std::size_t n_moved = 0;                               // points that changed cells since the last sort()
+    std::vector<Record> carried; // the leavers, between two cells
+    PointExchange<dim> emigrants;
+    std::size_t n_moved = 0; // points that changed cells since the last sort()
     std::vector<LostPoint<dim>> lost_points;
     std::unique_ptr<Lifted> lifted;
     bool at_edge = false;
     CellCosts cell_costs;
   };
-
-
-  /// Calls `act(point)` with a PointView of each of a cell's points. Inlined by force: out of line, a kernel's sums
-  /// would go through memory (a sixth more time from points to nodes).
-  template <int dim, typename Number, typename Act>
-  DEAL_II_ALWAYS_INLINE inline void for_each_point(const CellPoints<dim, Number> &cell, const Act &act)
-  {
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      act(PointView<dim, Number>{
-          cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) });
-  }
-
-
-  /// The same for kernels that need most of a record, for all of a set's cells in turn.
-  template <int dim, typename Number, typename Act>
-  DEAL_II_ALWAYS_INLINE inline void for_each_record(const CellPoints<dim, Number> &cell, const Act &act)
-  {
-    for (unsigned int p = 0; p < cell.n_points; ++p)
-      {
-        cell.prefetch_after(p);
-        act(PointView<dim, Number>{
-            cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) });
-      }
-  }
 
 
   /// Calls `act(point)` with a PointView of each of this rank's points, cell by cell.

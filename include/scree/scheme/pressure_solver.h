@@ -2,7 +2,7 @@
 #ifndef scree_scheme_pressure_solver_h
 #define scree_scheme_pressure_solver_h
 
-#include <scree/scheme/free_surface.h>
+#include <scree/scheme/pressure_operator.h>
 
 #include <functional>
 #include <memory>
@@ -10,6 +10,9 @@
 
 namespace scree
 {
+  template <int dim>
+  class PressurePreconditioner;
+
   /// What a pressure solve took.
   struct SolveReport
   {
@@ -19,10 +22,9 @@ namespace scree
 
   /// The system for the change of the pressure, L dp = b, on the corners of the cells that hold water.
   ///
-  /// L = dt sum kappa K with the Laplacian K of one cell and the mobility kappa of the mixture's cells; corners beside
-  /// the surface enter through the unknown ones. The matrix is applied cell by cell and never stored, but for the
-  /// algebraic multigrid preconditioner of the conjugate gradients, which is kept over steps and made anew when it gets
-  /// worse. Unknowns are numbered for the wet cells and those next to them: the numbering, too, serves many steps.
+  /// The matrix (PressureOperator) is applied cell by cell and never stored, but for the algebraic multigrid
+  /// preconditioner of the conjugate gradients, which is kept over steps and made anew when it gets worse. The
+  /// numbering of the unknowns, too, serves many steps.
   template <int dim>
   class PressureSolver
   {
@@ -63,37 +65,6 @@ namespace scree
     void judge_preconditioner(const SolveReport &report);
 
   private:
-    static constexpr unsigned int n_corners = 1 << dim;
-    using CellMatrix                        = std::array<std::array<double, n_corners>, n_corners>;
-
-    struct Cell
-    {
-      std::array<unsigned int, n_corners> numbers;
-      double mobility;   // dt kappa h^(dim-2), m^3/(Pa s)
-      double projection; // m^3/(Pa s)
-    };
-
-    /// The matrix for SolverCG: applied cell by cell.
-    struct Operator
-    {
-      const PressureSolver &solver;
-      void vmult(CornerVector &target, const CornerVector &source) const;
-    };
-
-    /// Hands out new numbers if a wet cell has a corner without one. Collective.
-    void number(const Mixture<dim> &mixture);
-
-    /// Whether all corners of wet cells of all ranks have numbers. Collective.
-    bool numbers_serve(const Mixture<dim> &mixture) const;
-
-    /// Marks the corners of wet cells and of those around them, `margin` cells deep, on owned corners and ghosts;
-    /// returns this rank's cells whose corners are marked. Collective.
-    std::vector<unsigned int> mark_corners(const Mixture<dim> &mixture, CornerVector &marks) const;
-
-    /// Turns the marks of owned corners into global numbers, -1 elsewhere; returns the range of this rank. Collective.
-    dealii::IndexSet number_marked(CornerVector &marks) const;
-    void make_preconditioner();
-
     /// Sets `to` to the values of the owned unknown corners, and to 0 elsewhere.
     void take(const CornerVector &from, CornerVector &to) const;
 
@@ -103,10 +74,6 @@ namespace scree
       unsigned int n;
       double residual; ///< m^3/s
     };
-
-    /// Sets `preconditioned` to what the preconditioner makes of `remainder`: corners that have become unknown since it
-    /// was made get that over their own diagonal, the others that are not unknown 0.
-    void precondition();
 
     /// At most this many steps of conjugate gradients on `solution`, until the residual is below the tolerance. The
     /// sums over all ranks are taken together, once a step (Chronopoulos & Gear 1989); they also tell the residual at
@@ -119,29 +86,17 @@ namespace scree
     /// Solves with `solution` prescribed where `is_held`, by owned number; `residual` is L dp - b then, at all.
     void solve_held(const std::vector<char> &is_held, CornerVector &residual, SolveReport &report);
 
-    CellMatrix matrix(const Cell &cell) const;
-
     const BackgroundGrid<dim> &grid;
-    const NodeNumbering<dim> &corners;
+    PressureNumbering<dim> numbering;
+    PressureOperator<dim> system;
     const unsigned int maximum_iterations;
 
-    CellMatrix laplacian, fluctuation; // of the unit cell
-
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; // of the numbers
-    std::vector<unsigned int> number_of_corner, corner_of_number;           // local indices; owned numbers first
-
-    std::vector<Cell> cells;
-    std::vector<char> is_unknown; // by number
-    std::vector<double> diagonal; // what surface corners and storage add, by owned number
-    CornerVector source, solution, scratch;
-    CornerVector whole_diagonal; // of the owned unknown numbers, m^3/(Pa s)
+    CornerVector source, solution, scratch; // by number
     // Of iterate(): what is left of the source, that preconditioned, that times L; the step's direction, that times L.
     CornerVector remainder, preconditioned, product, direction, direction_product;
     double tolerance = 0; // of the last solve's residual, m^3/s
 
-    struct Preconditioner; // of the corners that were unknown: multigrid, or of small systems on few ranks a direct
-                           // solver of each rank's block
-    std::unique_ptr<Preconditioner> preconditioner;
+    std::unique_ptr<PressurePreconditioner<dim>> preconditioner;
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
     unsigned int iterations_when_new = 0, surplus_iterations = 0;
     bool is_worn = true;
