@@ -12,7 +12,10 @@ namespace scree
   void Transfer<dim>::add_points(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
     const auto &layout = body.layout;
-    for (const auto &cell : body.points.cells())
+    // Without a name for the cells GCC writes the sums of each cell to memory before they are added to the nodes: 8 % of
+    // the time from points to nodes in 2D.
+    const auto &cells = body.points.cells();
+    for (const auto &cell : cells)
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         CellSums<dim, n> sums(grid.cell_size());
