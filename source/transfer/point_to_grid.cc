@@ -12,8 +12,8 @@ namespace scree
   void Transfer<dim>::add_points(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
     const auto &layout = body.layout;
-    // Without a name for the cells GCC writes the sums of each cell to memory before they are added to the nodes: 8 % of
-    // the time from points to nodes in 2D.
+    // Without a name for the cells GCC writes the sums of each cell to memory before they are added to the nodes: 8 %
+    // of the time from points to nodes in 2D.
     const auto &cells = body.points.cells();
     for (const auto &cell : cells)
       {
