@@ -43,13 +43,15 @@ namespace scree
 
         if (const NodeConstraints<dim> *walls = constraints.at(node))
           {
-            const Tensor<1, dim> free = after;
-            walls->apply(after);
-            const Tensor<1, dim> impulse = mass * (after - free);
+            const Tensor<1, dim> free         = after;
+            const HeldDirections<dim> stopped = walls->apply(after);
+            const Tensor<1, dim> impulse      = mass * (after - free);
             balance.wall_impulse += impulse;
             balance.soil_walls.add(walls->soil_faces, impulse);
-            // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
-            balance.wall_dissipation -= impulse * (0.5 * (before + after));
+            // Forces do work with the velocity of the step's end: what a wall stops cost it what was there before.
+            const Tensor<1, dim> slide = stopped.free_part(0.5 * (before + after));
+            balance.wall_dissipation += 0.5 * mass * stopped.held_part(before - walls->soil_velocity).norm_square() -
+                                        impulse * (stopped.held_part(walls->soil_velocity) + slide);
           }
 
         for (unsigned int c = 0; c < dim; ++c)

@@ -66,6 +66,20 @@ namespace scree
     }
 
     template <int dim>
+    double work_of(const SoilAndWater<dim> &impulses, const SoilAndWater<dim> &velocities)
+    {
+      return impulses.soil * velocities.soil + impulses.water * velocities.water;
+    }
+
+    /// Kinetic energy, J, of what walls stop, from the velocities before beside theirs.
+    template <int dim>
+    double stopped_energy(const DragPair<dim> &pair, const SoilAndWater<dim> &before)
+    {
+      return 0.5 * (pair.soil_mass * pair.held_soil.held_part(before.soil).norm_square() +
+                    pair.water_mass * pair.held_water.held_part(before.water).norm_square());
+    }
+
+    template <int dim>
     void write_motion(double *values, const Tensor<1, dim> &before, const Tensor<1, dim> &after)
     {
       for (unsigned int c = 0; c < dim; ++c)
@@ -228,9 +242,7 @@ namespace scree
       {
         const SoilAndWater<dim> walls = pair.reactions(impulses, after);
         count_walls(node, walls, balance);
-        // The work of an impulse is its product with the mean velocity: a reaction at rest does none.
-        balance.wall_dissipation -= 0.5 * (walls.soil * (before.soil + after.soil + wall_velocity.soil) +
-                                           walls.water * (before.water + after.water + wall_velocity.water));
+        balance.wall_dissipation -= work_of(walls, wall_velocity);
       }
     after.soil += wall_velocity.soil;
     after.water += wall_velocity.water;
@@ -297,10 +309,10 @@ namespace scree
   {
     const SoilAndWater<dim> walls = pair.reactions(impulses, change);
     count_walls(node, walls, balance);
-    // Before the correction the nodes moved as the walls there, at rest or as an inflow.
     const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
-    balance.wall_dissipation -=
-        0.5 * (walls.soil * (before.soil + wall_velocity.soil) + walls.water * (before.water + wall_velocity.water));
+    balance.wall_dissipation +=
+        stopped_energy(pair, { before.soil - wall_velocity.soil, before.water - wall_velocity.water }) -
+        work_of(walls, wall_velocity);
     const Tensor<1, dim> soil_after = soil_predicted + change.soil;
     const Tensor<1, dim> more       = friction.adjust(node, walls.soil, pair.soil_mass, soil_after);
     const SoilAndWater<dim> further = pair.solve({ more, Tensor<1, dim>() });
@@ -359,11 +371,7 @@ namespace scree
       {
         const SoilAndWater<dim> walls = pair.reactions(impulses, change);
         count_walls(node, walls, balance);
-        // As in the corrector.
-        const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
-        balance.wall_dissipation -=
-            0.5 * (walls.soil * (velocity_at_start<dim>(nodes.soil[node]) + wall_velocity.soil) +
-                   walls.water * (velocity_at_start<dim>(nodes.water[node]) + wall_velocity.water));
+        balance.wall_dissipation -= work_of(walls, velocity_of_walls(node));
       }
     add(nodes, node, change);
   }

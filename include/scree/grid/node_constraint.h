@@ -139,9 +139,10 @@ namespace scree
       return !soil.empty() || water_held.any();
     }
 
-    /// Corrects the end-of-step velocity of dry soil, one constraint after the other.
-    void apply(dealii::Tensor<1, dim> &velocity) const
+    /// Corrects the end-of-step velocity of dry soil, one constraint after the other; returns where they stop it.
+    HeldDirections<dim> apply(dealii::Tensor<1, dim> &velocity) const
     {
+      HeldDirections<dim> stopped;
       velocity -= soil_velocity;
       for (const NodeConstraint<dim> &constraint : soil)
         {
@@ -150,10 +151,16 @@ namespace scree
           if (!fixed && normal_speed >= 0.)
             continue; // The soil lifts off.
           velocity -= normal_speed * constraint.normal;
-          if (!fixed)
-            velocity += coulomb_friction<dim>(-velocity, -constraint.friction_coefficient * normal_speed).impulse;
+          stopped.hold(constraint.normal);
+          if (fixed)
+            continue;
+          const auto friction = coulomb_friction<dim>(-velocity, -constraint.friction_coefficient * normal_speed);
+          velocity += friction.impulse;
+          if (friction.sticks)
+            stopped.hold_all();
         }
       velocity += soil_velocity;
+      return stopped;
     }
   };
 } // namespace scree
