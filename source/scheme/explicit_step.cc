@@ -48,7 +48,7 @@ namespace scree
             const Tensor<1, dim> impulse      = mass * (after - free);
             balance.wall_impulse += impulse;
             balance.soil_walls.add(walls->soil_faces, impulse);
-            // Forces do work with the velocity of the step's end: what a wall stops cost it what was there before.
+            // Forces do work with the velocity of the step's end, and so none on what is stopped.
             const Tensor<1, dim> slide = stopped.free_part(0.5 * (before + after));
             balance.wall_dissipation += 0.5 * mass * stopped.held_part(before - walls->soil_velocity).norm_square() -
                                         impulse * (stopped.held_part(walls->soil_velocity) + slide);

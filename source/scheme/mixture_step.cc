@@ -71,7 +71,8 @@ namespace scree
       return impulses.soil * velocities.soil + impulses.water * velocities.water;
     }
 
-    /// Kinetic energy, J, of what walls stop, from the velocities before beside theirs.
+    /// Kinetic energy, J, of what walls stop, from the velocities before beside theirs. Forces do work with the
+    /// velocity of the step's end, and so none on what is stopped.
     template <int dim>
     double stopped_energy(const DragPair<dim> &pair, const SoilAndWater<dim> &before)
     {
