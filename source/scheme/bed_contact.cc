@@ -318,7 +318,7 @@ namespace scree
     for (unsigned int s = 0; s < n_sweeps; ++s)
       sweep<n>(s % 2 == 0);
     nodes.write(field, balance);
-    nodes.take_means(field);
+    nodes.take_working_velocities(field);
     finish<n>(time_step, balance);
   }
 

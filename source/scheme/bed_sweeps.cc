@@ -254,17 +254,17 @@ namespace scree
     constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
     for (const CellLanes &lanes : cell_lanes)
       {
-        const NodeLanes<dim, n> means(nodes, nodes_of(lanes));
+        const NodeLanes<dim, n> working(nodes, nodes_of(lanes));
         for (unsigned int k = 0; k < lanes.n; ++k)
           {
             const ContactLanes<dim> &in_lanes = contact_lanes[lanes.first + k];
-            Batch mean_velocity[dim], impulses[dim], sum{};
-            means.velocity_at(in_lanes.shape, mean_velocity);
+            Batch velocity[dim], impulses[dim], sum{};
+            working.velocity_at(in_lanes.shape, velocity);
             for (unsigned int i = 0; i < n_nodes; ++i)
               sum += in_lanes.shape[i];
             for (unsigned int a = 0; a < dim; ++a)
               impulses[a] = in_lanes.normal_impulse * in_lanes.normal[a] + in_lanes.tangent_impulse[a];
-            const Batch work_at_nodes = product<dim>(impulses, mean_velocity);
+            const Batch work_at_nodes = product<dim>(impulses, velocity);
             for (unsigned int l = 0; l < lanes.n_cells; ++l)
               {
                 const Cell &cell = cells[lanes.cells[l]];

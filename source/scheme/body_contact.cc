@@ -116,10 +116,12 @@ namespace scree
     for (const Meeting &meeting : meetings)
       for (unsigned int side = 0; side < 2; ++side)
         {
-          const double *values               = (*groups[side].field)[meeting.node];
-          const Tensor<1, dim> mean_velocity = vector_of<dim>(values + NodalField<dim>::velocity) -
-                                               0.5 * vector_of<dim>(values + NodalField<dim>::velocity_change);
-          balance.contact_dissipation -= (side == 0 ? -1. : 1.) * (meeting.impulse * mean_velocity);
+          const double *values         = (*groups[side].field)[meeting.node];
+          const Tensor<1, dim> own     = side == 0 ? -meeting.impulse : meeting.impulse;
+          const Tensor<1, dim> working = working_velocity(vector_of<dim>(values + NodalField<dim>::velocity),
+                                                          vector_of<dim>(values + NodalField<dim>::velocity_change),
+                                                          meeting.inverse_mass[side] * own);
+          balance.contact_dissipation -= own * working;
         }
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/contact_nodes.h>
+#include <scree/scheme/node_contact.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
@@ -89,7 +90,7 @@ namespace scree
         for (unsigned int a = 0; a < dim; ++a)
           axes[a] = held.free_part(Point<dim>::unit_vector(a))[a];
       }
-    nodes.push_back({ node, is_held, velocity });
+    nodes.push_back({ node, is_held, velocity, velocity });
     motion_records.push_back(motion);
     axis_records.push_back(axes);
   }
@@ -154,16 +155,18 @@ namespace scree
 
 
   template <int dim>
-  void ContactNodes<dim>::take_means(const NodalField<dim> &field)
+  void ContactNodes<dim>::take_working_velocities(const NodalField<dim> &field)
   {
     for (unsigned int k = 0; k < nodes.size(); ++k)
       if (motion_records[k][inverse_mass] > 0.)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            const double *values = field[nodes[k].node];
-            motion_records[k][c] =
-                values[NodalField<dim>::velocity + c] - 0.5 * values[NodalField<dim>::velocity_change + c];
-          }
+        {
+          const double *values         = field[nodes[k].node];
+          const Tensor<1, dim> after   = vector_of<dim>(values + NodalField<dim>::velocity);
+          const Tensor<1, dim> working = working_velocity(
+              after, vector_of<dim>(values + NodalField<dim>::velocity_change), after - nodes[k].before);
+          for (unsigned int c = 0; c < dim; ++c)
+            motion_records[k][c] = working[c];
+        }
   }
 
   template void stop_at_walls(const NodeConstraints<2> &, const double, Tensor<1, 2> &, StepBalance<2> &);

@@ -85,15 +85,16 @@ namespace scree
     /// field, those of ghosts included. Collective.
     void write(NodalField<dim> &field, StepBalance<dim> &balance);
 
-    /// Puts the mean velocities of the step, which write() has ended, into the records.
-    void take_means(const NodalField<dim> &field);
+    /// Puts the working_velocity() of the impulses on the nodes in the step, which write() has ended, into the records.
+    void take_working_velocities(const NodalField<dim> &field);
 
   private:
     struct Node
     {
       unsigned int node; // of the grid
       bool is_held;
-      dealii::Tensor<1, dim> known; // velocity as all ranks know it, m/s
+      dealii::Tensor<1, dim> before; // velocity without the impulses, m/s
+      dealii::Tensor<1, dim> known;  // velocity as all ranks know it, m/s
     };
 
     using Record = std::array<double, n_doubles>;

@@ -4,6 +4,8 @@
 
 #include <scree/grid/node_constraint.h>
 
+#include <algorithm>
+
 namespace scree
 {
   /// What one of two fields of velocity has at a node.
@@ -35,6 +37,27 @@ namespace scree
     const dealii::Tensor<1, dim> along = relative - across * normal;
     return pressing * normal +
            coulomb_friction<dim>(-along / mobility, available_friction(friction_coefficient, pressing)).impulse;
+  }
+
+
+  /// The velocity, m/s, with which an impulse that contact gives a node in a step does work.
+  ///
+  /// Forces do work with the velocity of the step's end, so that a node gains -m dv^2/2 beside the work of all impulses
+  /// with that velocity. The part of this along the contact's impulse is what the contact takes by stopping the node.
+  ///
+  /// @param after at the end of the step, m/s
+  /// @param change dv over the whole step, m/s
+  /// @param own_change of this by the contact, m/s
+  template <int dim>
+  dealii::Tensor<1, dim> working_velocity(const dealii::Tensor<1, dim> &after,
+                                          const dealii::Tensor<1, dim> &change,
+                                          const dealii::Tensor<1, dim> &own_change)
+  {
+    const double square = own_change.norm_square();
+    if (square == 0.)
+      return after;
+    const double share = change * own_change / square; // more than 1 in size: other forces pushed the same way
+    return after - 0.5 * share * std::clamp(share, -1., 1.) * own_change;
   }
 } // namespace scree
 
