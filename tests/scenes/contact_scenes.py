@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from bed_scenes import GRAVITY, Plane, slope_of
-from scene_tools import check, main, run
+from scene_tools import check, largest_fall, main, run
 
 # scene_tools has put doc/ on the path.
 import render
@@ -118,6 +118,7 @@ def check_contact_energy(name, table):
     """Kinetic and elastic energy never grow beyond those of the start."""
     energy = np.array(table["Kinetic energy (J)"]) + np.array(table["Elastic energy (J)"])
     check(name + ": largest energy over that of the start", np.max(energy) / energy[0], 1, 1.001)
+    check(name + ": energy that contact gives back over it", largest_fall(table["Contact dissipation (J)"]) / energy[0], 0, 1e-3)
 
 
 def contact_bars(scree):

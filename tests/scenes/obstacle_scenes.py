@@ -10,7 +10,7 @@ import os
 
 import numpy as np
 
-from scene_tools import ROOT, at, check, main, run
+from scene_tools import ROOT, at, check, largest_fall, main, run
 
 GRAVITY = 9.81
 
@@ -47,6 +47,7 @@ def obstacle_impact(scree):
         check(name + ": sum of force times time over the impulse", sum_of_forces / impulse[0, -1], 1 - 1e-9, 1 + 1e-9)
         energy = np.array(table["Kinetic energy (J)"]) + table["Elastic energy (J)"]
         check(name + ": energy made over that of the start", max(energy) / energy[0] - 1, -1, 1e-3)
+        check(name + ": energy that the wall gives back over it", largest_fall(table["Obstacle Piston dissipation (J)"]) / energy[0], 0, 1e-3)
 
 
 def obstacle_pressure(scree):
