@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from scene_tools import check, main, run
+from scene_tools import check, largest_fall, main, run
 
 # scene_tools has put doc/ on the path.
 import closed_forms
@@ -33,8 +33,7 @@ def frame(theta, slope=0., height=1.1):
 
 def gain(table):
     """Largest gain of energy over what gravity released."""
-    dissipation = np.array(table["Numerical dissipation (J)"])
-    return np.max(np.maximum.accumulate(dissipation) - dissipation) / np.ptp(table["Potential energy (J)"])
+    return largest_fall(table["Numerical dissipation (J)"]) / np.ptp(table["Potential energy (J)"])
 
 
 def check_balance(name, table):

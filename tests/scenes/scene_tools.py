@@ -5,6 +5,8 @@ import os
 import subprocess
 import sys
 
+import numpy as np
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "doc"))
 from variants import write_variant  # noqa: E402
@@ -48,7 +50,7 @@ def at(table, column, time):
 
 def largest_fall(values):
     """By how much a column falls below what it was in a row before."""
-    return max(max(values[:i + 1]) - value for i, value in enumerate(values))
+    return np.max(np.maximum.accumulate(values) - values)
 
 
 def mean_oscillation(table):
