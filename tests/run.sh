@@ -9,12 +9,13 @@
 # Two tests at a time on whatever cores there are: waiting ranks give way.
 export OMPI_MCA_mpi_yield_when_idle=1
 
-# The last of Open MPI's programs to end removes the folder ompi.HOST.USER that another one is just about to use. Here something lies in it.
+# The last of Open MPI's programs to end removes folders that another one is just about to use: ompi.HOST.USER, and jf.0/1/0 in it where no mpirun
+# gives a run a number of its own. Here something lies in them.
 TMPDIR=$(mktemp -d) || exit 1
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 host=$(uname -n)
-mkdir -p "$TMPDIR/ompi.$host.$(id -u)/kept" "$TMPDIR/ompi.${host%%.*}.$(id -u)/kept"
+mkdir -p "$TMPDIR/ompi.$host.$(id -u)/jf.0/1/0/kept" "$TMPDIR/ompi.${host%%.*}.$(id -u)/jf.0/1/0/kept"
 
 # run_tests FOLDER [ctest arguments]: also keeps what ctest says in FOLDER/tests.log.
 run_tests()
