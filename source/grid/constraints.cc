@@ -3,7 +3,6 @@
 #include <scree/input/input_error.h>
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 
 namespace scree
@@ -97,6 +96,9 @@ namespace scree
     set_of_node.assign(grid.numbering().n_local(), free);
     sets.clear();
     inflow_of_set.clear();
+    faces_of_set.clear();
+    set_of_faces.clear();
+    released.clear();
     // Nodes on the same faces share a set.
     std::map<std::tuple<std::uint8_t, bool, unsigned int>, unsigned int> set_of_kind;
     for (unsigned int node = 0; node < set_of_node.size(); ++node)
@@ -117,7 +119,10 @@ namespace scree
                 entry->second = sets.size();
                 sets.push_back(constraints);
                 inflow_of_set.push_back(inflow);
+                faces_of_set.push_back(is_rigid || inflow != free ? 0 : faces);
               }
+            if (!is_rigid && inflow == free)
+              set_of_faces[faces] = entry->second;
           }
         set_of_node[node] = entry->second;
       }
@@ -131,6 +136,36 @@ namespace scree
       if (gate->contains(grid.node_position(node)))
         set_of_node[node] = sets.size();
     sets.push_back(held);
+    inflow_of_set.push_back(free);
+    faces_of_set.push_back(0);
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::release(const unsigned int node, const std::uint8_t faces)
+  {
+    const unsigned int set     = set_of_node[node];
+    const std::uint8_t left    = faces_of_set[set] & ~faces;
+    const auto [entry, is_new] = set_of_faces.emplace(left, free);
+    if (is_new && left != 0)
+      if (const NodeConstraints<dim> constraints = of_faces(left, false, false); constraints.any())
+        {
+          entry->second = sets.size();
+          sets.push_back(constraints);
+          inflow_of_set.push_back(free);
+          faces_of_set.push_back(left);
+        }
+    released.emplace_back(node, set);
+    set_of_node[node] = entry->second;
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::hold_all()
+  {
+    for (const auto &[node, set] : released)
+      set_of_node[node] = set;
+    released.clear();
   }
 
 

@@ -9,7 +9,7 @@ namespace scree
 
   template <int dim>
   CoupledScheme<dim>::CoupledScheme(const BackgroundGrid<dim> &grid,
-                                    const Constraints<dim> &constraints,
+                                    Constraints<dim> &constraints,
                                     const WaterBoundaryConditions<dim> &water_walls,
                                     const Forcing<dim> &forcing,
                                     const TransferParameters &transfer_parameters,
@@ -25,6 +25,7 @@ namespace scree
                                     const std::list<Inflow<dim>> &inflows,
                                     TimerOutput &timer)
       : grid(grid)
+      , forcing(forcing)
       , water_density(water_parameters.density)
       , fluidisation_porosity(water_parameters.fluidisation_porosity)
       , water(water)
@@ -45,7 +46,8 @@ namespace scree
       , pores(grid)
       , water_field(grid)
       , pressure(grid, water_walls, pressure_parameters, water_parameters, forcing.gravity(), open_cells, timer)
-      , step(grid, constraints, forcing, water_density, pressure_parameters.splitting_kind())
+      , wall_gaps(grid, constraints, std::min(soil_points, water_parameters.points_per_cell))
+      , step(grid, constraints, wall_gaps, forcing, water_density, pressure_parameters.splitting_kind())
       , bed(std::move(bed))
   {
     for (const auto &body : bodies)
@@ -66,6 +68,7 @@ namespace scree
     pores.reinit();
     water_field.reinit();
     pressure.reinit();
+    wall_gaps.reinit();
     step.reinit();
     if (viscosity)
       viscosity->reinit();
@@ -162,6 +165,9 @@ namespace scree
     const TimedPart part(timer, StepPart::points_to_grid);
     soil.to_grid(time);
     gather();
+    wall_gaps.clear();
+    for (const PointSet<dim> *points : point_sets())
+      wall_gaps.add(*points);
   }
 
 
@@ -178,6 +184,7 @@ namespace scree
       soil.field.add_contributions();
       water_field.add_contributions();
       pores.add_contributions();
+      wall_gaps.release(pores.active_nodes(), soil.field, water_field, forcing, time_step);
       step.predict(nodes, time_step, report.balance);
       soil.field.update_ghosts();
       water_field.update_ghosts();

@@ -95,10 +95,12 @@ namespace scree
   template <int dim>
   MixtureStep<dim>::MixtureStep(const BackgroundGrid<dim> &grid,
                                 const Constraints<dim> &constraints,
+                                const WallGaps<dim> &wall_gaps,
                                 const Forcing<dim> &forcing,
                                 const double water_density,
                                 const Splitting splitting)
       : constraints(constraints)
+      , wall_gaps(wall_gaps)
       , forcing(forcing)
       , grid(grid)
       , water_density(water_density)
@@ -138,7 +140,10 @@ namespace scree
   SoilAndWater<dim> MixtureStep<dim>::velocity_of_walls(const unsigned int node) const
   {
     const NodeConstraints<dim> *walls = constraints.at(node);
-    return walls != nullptr ? SoilAndWater<dim>{ walls->soil_velocity, walls->water_velocity } : SoilAndWater<dim>();
+    if (walls == nullptr)
+      return SoilAndWater<dim>();
+    const Tensor<1, dim> &closing = wall_gaps.closing_velocity(node);
+    return { walls->soil_velocity + closing, walls->water_velocity + closing };
   }
 
 

@@ -44,7 +44,8 @@ struct ScatteredMixture
       , water_walls(grid, scree::WaterBoundaryParameters())
       , constraints(grid, walls, &water_walls)
       , forcing(grid, std::vector<double>(dim, 0.), scree::BodyForceParameters(), scree::BaseMotionParameters())
-      , step(grid, constraints, forcing, 1000., scree::Splitting())
+      , wall_gaps(grid, constraints, 4)
+      , step(grid, constraints, wall_gaps, forcing, 1000., scree::Splitting())
       , soil(grid)
       , water(grid)
       , pores(grid)
@@ -86,8 +87,9 @@ struct ScatteredMixture
   const scree::OpenCells<dim> open_cells;
   const scree::BoundaryConditions<dim> walls;
   const scree::WaterBoundaryConditions<dim> water_walls;
-  const scree::Constraints<dim> constraints;
+  scree::Constraints<dim> constraints;
   const scree::Forcing<dim> forcing;
+  const scree::WallGaps<dim> wall_gaps;
   const scree::MixtureStep<dim> step;
   scree::NodalField<dim> soil, water;
   scree::PoreField<dim> pores;

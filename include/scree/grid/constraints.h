@@ -7,7 +7,10 @@
 #include <scree/grid/water_walls.h>
 #include <scree/points/region.h>
 
+#include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace scree
 {
@@ -50,6 +53,16 @@ namespace scree
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
+    /// Whether nothing but walls holds a node: no inflow, rigid body or gate.
+    bool has_walls_alone(const unsigned int node) const
+    {
+      return set_of_node[node] != free && faces_of_set[set_of_node[node]] != 0;
+    }
+
+    /// These walls (bit f: face f) do not act until hold_all() on a node that has walls alone.
+    void release(const unsigned int node, const std::uint8_t faces);
+    void hold_all();
+
     /// Those of a node of this rank's cells; null where there are none.
     const NodeConstraints<dim> *at(const unsigned int node) const
     {
@@ -80,7 +93,10 @@ namespace scree
 
     std::vector<unsigned int> set_of_node; // by node, ghosts included
     std::vector<NodeConstraints<dim>> sets;
-    std::vector<unsigned int> inflow_of_set; // `free`: none
+    std::vector<unsigned int> inflow_of_set;                     // `free`: none
+    std::vector<std::uint8_t> faces_of_set;                      // 0: not of walls alone
+    std::map<std::uint8_t, unsigned int> set_of_faces;           // those of walls alone; `free`: they hold nothing
+    std::vector<std::pair<unsigned int, unsigned int>> released; // nodes and their sets
   };
 } // namespace scree
 

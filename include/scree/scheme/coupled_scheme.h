@@ -31,7 +31,7 @@ namespace scree
     /// @param open_cells what the bed leaves of the cells, may be null, as `bed`
     /// @param inflows of water are looked at
     CoupledScheme(const BackgroundGrid<dim> &grid,
-                  const Constraints<dim> &constraints,
+                  Constraints<dim> &constraints,
                   const WaterBoundaryConditions<dim> &water_walls,
                   const Forcing<dim> &forcing,
                   const TransferParameters &transfer,
@@ -71,6 +71,7 @@ namespace scree
     void fluidise();
 
     const BackgroundGrid<dim> &grid;
+    const Forcing<dim> &forcing;
     const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
@@ -84,6 +85,7 @@ namespace scree
     PoreField<dim> pores;
     NodalField<dim> water_field;
     PorePressure<dim> pressure;
+    WallGaps<dim> wall_gaps;
     MixtureStep<dim> step;
     std::unique_ptr<ViscousStep<dim>> viscosity;              // null if there is none
     std::unique_ptr<BedProjection<dim>> bed;                  // null if there is none

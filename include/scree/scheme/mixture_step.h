@@ -5,6 +5,7 @@
 #include <scree/scheme/forcing.h>
 #include <scree/scheme/pore_pressure.h>
 #include <scree/scheme/wall_friction.h>
+#include <scree/scheme/wall_gaps.h>
 
 namespace scree
 {
@@ -16,6 +17,7 @@ namespace scree
   public:
     MixtureStep(const BackgroundGrid<dim> &grid,
                 const Constraints<dim> &constraints,
+                const WallGaps<dim> &wall_gaps,
                 const Forcing<dim> &forcing,
                 const double water_density,
                 const Splitting splitting);
@@ -89,6 +91,7 @@ namespace scree
     void sum_pressure_impulses(const Mixture<dim> &mixture, const PorePressure<dim> &pressure, const double time_step);
 
     const Constraints<dim> &constraints;
+    const WallGaps<dim> &wall_gaps;
     const Forcing<dim> &forcing;
     const BackgroundGrid<dim> &grid;
     const double water_density;

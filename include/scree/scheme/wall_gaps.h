@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_wall_gaps_h
+#define scree_scheme_wall_gaps_h
+
+#include <scree/grid/constraints.h>
+#include <scree/grid/nodal_field.h>
+#include <scree/points/point_set.h>
+#include <scree/scheme/forcing.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <array>
+#include <vector>
+
+namespace scree
+{
+  /// Walls of the box act on what has reached them.
+  ///
+  /// A node on a wall moves with all that is in the cells beside it. Were it held from the moment that a point comes
+  /// into one of them, what falls would be stopped up to a cell before the wall, by stress of soil that is pressed
+  /// together there and by pressure that grows as steps shrink. So walls whose gap to the points around a node is open
+  /// do not act on it, unless it would close the gap within the step: then they hold it at the speed that just closes
+  /// it. A gap is from the nearest point, beside what a point reaches for itself.
+  template <int dim>
+  class WallGaps
+  {
+  public:
+    /// @param n_points of a cell along each axis at the start; where they are fewest
+    WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const unsigned int n_points);
+
+    /// Fits the gaps to the grid's current nodes.
+    void reinit();
+
+    /// All walls act on all nodes, and no gap is known, before a new step.
+    void clear();
+
+    /// Heeds points.
+    void add(const PointSet<dim> &points);
+
+    /// Frees nodes of walls for the step, s. `soil` and `water` hold mass, momentum and force of owned nodes.
+    /// Collective.
+    /// @param nodes owned ones on which points act
+    void release(const std::vector<unsigned int> &nodes,
+                 const NodalField<dim> &soil,
+                 const NodalField<dim> &water,
+                 const Forcing<dim> &forcing,
+                 const double time_step);
+
+    /// Velocity, m/s, at which walls hold an owned node that closes its gap in this step; else 0.
+    const dealii::Tensor<1, dim> &closing_velocity(const unsigned int node) const
+    {
+      return closing[node];
+    }
+
+  private:
+    using NodeVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+    static constexpr double far = 1.; // a cell without points
+
+    const BackgroundGrid<dim> &grid;
+    Constraints<dim> &constraints;
+    const double reach;                          // of a point, cells
+    std::array<NodeVector, dim> gaps;            // to the wall that a node lies on across an axis, cells
+    NodeVector released;                         // faces, bit f: face f
+    std::vector<dealii::Tensor<1, dim>> closing; // by owned node
+    std::vector<unsigned int> closing_nodes;
+  };
+} // namespace scree
+
+#endif

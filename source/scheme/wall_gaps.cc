@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/wall_gaps.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of the points' spacing: a little more than the half that a point fills, so that what rests on a wall stays held
+    /// however its points have settled.
+    constexpr double reach_of_a_point = 0.6;
+  } // namespace
+
+
+  template <int dim>
+  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const unsigned int n_points)
+      : grid(grid)
+      , constraints(constraints)
+      , reach(reach_of_a_point / n_points)
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void WallGaps<dim>::reinit()
+  {
+    for (NodeVector &gap : gaps)
+      gap.reinit(grid.numbering().partitioner());
+    released.reinit(grid.numbering().partitioner());
+    closing.assign(grid.n_owned_nodes(), Tensor<1, dim>());
+    closing_nodes.clear();
+    clear();
+  }
+
+
+  template <int dim>
+  void WallGaps<dim>::clear()
+  {
+    constraints.hold_all();
+    for (NodeVector &gap : gaps)
+      for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
+        gap.local_element(node) = far;
+    for (const unsigned int node : closing_nodes)
+      closing[node] = Tensor<1, dim>();
+    closing_nodes.clear();
+  }
+
+
+  template <int dim>
+  void WallGaps<dim>::add(const PointSet<dim> &points)
+  {
+    for (const auto &cell : points.cells())
+      {
+        const unsigned int *nodes = grid.nodes(cell.cell);
+        std::uint8_t walls        = 0;
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          walls |= grid.node_faces(nodes[i]);
+        if (walls == 0)
+          continue;
+        std::array<double, dim> lowest, highest; // places of points, cells
+        lowest.fill(1.);
+        highest.fill(0.);
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              const double place = cell.reference_location_of(p)[a];
+              lowest[a]          = std::min(lowest[a], place);
+              highest[a]         = std::max(highest[a], place);
+            }
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          if (const std::uint8_t faces = grid.node_faces(nodes[i]); faces != 0)
+            for (unsigned int a = 0; a < dim; ++a)
+              if (const unsigned int sides = faces >> 2 * a & 3; sides != 0)
+                {
+                  double &gap = gaps[a].local_element(nodes[i]);
+                  gap         = std::min(gap, (sides == 1 ? lowest[a] : 1. - highest[a]) - reach);
+                }
+      }
+  }
+
+
+  template <int dim>
+  void WallGaps<dim>::release(const std::vector<unsigned int> &nodes,
+                              const NodalField<dim> &soil,
+                              const NodalField<dim> &water,
+                              const Forcing<dim> &forcing,
+                              const double time_step)
+  {
+    using Field = NodalField<dim>;
+    for (NodeVector &gap : gaps)
+      gap.compress(VectorOperation::min);
+    released = 0.;
+    for (const unsigned int node : nodes)
+      {
+        const std::uint8_t faces = grid.node_faces(node);
+        const double mass        = soil[node][Field::mass] + water[node][Field::mass];
+        if (faces == 0 || mass <= 0. || !constraints.has_walls_alone(node))
+          continue;
+        const auto sum_of = [&](const unsigned int component) {
+          return soil[node][component] + water[node][component];
+        };
+        unsigned int open = 0;
+        for (unsigned int a = 0; a < dim; ++a)
+          if (const double gap = gaps[a].local_element(node); (faces >> 2 * a & 3) != 0 && gap > 0.)
+            {
+              const unsigned int side = faces >> 2 * a & 3; // bits: lower, upper
+              const double to_inside  = side == 1 ? 1. : -1.;
+              const double speed      = (sum_of(Field::momentum + a) + time_step * sum_of(Field::force + a)) / mass +
+                                   time_step * forcing.acceleration(node)[a];
+              const double limit = -gap * grid.cell_size() / time_step;
+              if (to_inside * speed >= limit)
+                open |= side << 2 * a;
+              else
+                {
+                  closing[node][a] = to_inside * limit;
+                  closing_nodes.push_back(node);
+                }
+            }
+        released.local_element(node) = open;
+      }
+    released.update_ghost_values();
+    for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
+      if (released.local_element(node) != 0.)
+        constraints.release(node, static_cast<std::uint8_t>(released.local_element(node)));
+    released.zero_out_ghost_values();
+  }
+
+  template class WallGaps<2>;
+  template class WallGaps<3>;
+} // namespace scree
