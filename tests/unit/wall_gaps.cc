@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Walls of a wet scene act on nodes whose points have reached them: which walls act where a point is near one, two or
+// no wall; the speed at which a gap closes within a step; a gate holds whatever is near; afterwards all walls act
+// again; the same on 1 and 2 ranks.
+
+#include "expect.h"
+
+#include <scree/scheme/wall_gaps.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <vector>
+
+using namespace dealii;
+using namespace scree;
+
+/// A box of 8 x 8 cells, 1 m wide, all of whose walls are fixed, with 2 points a cell along each axis: a point reaches
+/// .3 cells.
+struct Box
+{
+  static constexpr double h = 0.125, reach = 0.3 * h;
+
+  Box()
+      : grid(parameters(), MPI_COMM_WORLD)
+      , walls(grid, boundaries())
+      , water_walls(grid, WaterBoundaryParameters())
+      , constraints(grid, walls, &water_walls)
+      , gaps(grid, constraints, 2)
+      , points(grid.triangulation(), grid.mapping(), 1)
+      , soil(grid)
+      , water(grid)
+      , forcing(grid, { 0., -10. }, BodyForceParameters(), BaseMotionParameters())
+  {
+    forcing.set_start();
+  }
+
+  static GridParameters parameters()
+  {
+    GridParameters result;
+    result.upper_corner = { 1., 1. };
+    result.cell_size    = h;
+    return result;
+  }
+
+  static BoundaryParameters boundaries()
+  {
+    BoundaryParameters result;
+    for (std::string *wall : { &result.left, &result.right, &result.bottom, &result.top })
+      *wall = "fixed";
+    return result;
+  }
+
+  /// A point, m, whichever rank has its cell; all nodes around it move at `velocity`, m/s, with 3 kg of soil and 1 kg
+  /// of water.
+  void add(const Point<2> &x, const Tensor<1, 2> &velocity)
+  {
+    for (const auto &cell : grid.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && cell->bounding_box().point_inside(x))
+        points.add(cell, x, 0, { 0. });
+    points.finish_adding();
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      {
+        soil[node][NodalField<2>::mass]  = 3.;
+        water[node][NodalField<2>::mass] = 1.;
+        for (unsigned int c = 0; c < 2; ++c)
+          {
+            soil[node][NodalField<2>::momentum + c]  = 3. * velocity[c];
+            water[node][NodalField<2>::momentum + c] = velocity[c];
+          }
+      }
+  }
+
+  void release(const double time_step)
+  {
+    std::vector<unsigned int> nodes;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      nodes.push_back(node);
+    gaps.clear();
+    gaps.add(points);
+    gaps.release(nodes, soil, water, forcing, time_step);
+  }
+
+  /// Nodes of all ranks that walls hold, and the sum of their velocities towards walls.
+  std::pair<unsigned int, Tensor<1, 2>> held() const
+  {
+    unsigned int n = 0;
+    Tensor<1, 2> sum;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      {
+        n += constraints.at(node) != nullptr;
+        sum += gaps.closing_velocity(node);
+      }
+    return { Utilities::MPI::sum(n, MPI_COMM_WORLD), Utilities::MPI::sum(sum, MPI_COMM_WORLD) };
+  }
+
+  BackgroundGrid<2> grid;
+  const BoundaryConditions<2> walls;
+  const WaterBoundaryConditions<2> water_walls;
+  Constraints<2> constraints;
+  WallGaps<2> gaps;
+  PointSet<2> points;
+  NodalField<2> soil, water;
+  Forcing<2> forcing;
+};
+
+int main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool tells   = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  constexpr double h = Box::h, far_above = 0.9 * h, dt = 1e-3, fall = 10. * dt;
+  const Tensor<1, 2> rest;
+  const unsigned int n_all = Box().held().first;
+  if (tells)
+    std::cout << n_all << " nodes on walls" << std::endl;
+
+  // Cells without points tell of no gap: all walls are far from their nodes.
+  const auto test = [&](const std::string &what,
+                        const Point<2> &x,
+                        const Tensor<1, 2> &velocity,
+                        const unsigned int n_held,
+                        const Tensor<1, 2> &closing) {
+    Box box;
+    box.add(x, velocity);
+    box.release(dt);
+    const auto [n, sum] = box.held();
+    expect(n, n_held, 0., what + ": held nodes");
+    expect((sum - closing).norm(), 0., 1e-10, what + ": error of the closing velocities");
+    box.gaps.clear();
+    expect(box.held().first, n_all, 0., what + ": held nodes afterwards");
+    if (tells)
+      std::cout << what << ": " << n << " held" << std::endl;
+  };
+  const double middle = 3.5 * h;
+  test("no wall is near", Point<2>(middle, middle), rest, 0, rest);
+  test("a point rests on the bottom", Point<2>(middle, 0.25 * h), rest, 3, rest);
+  test("a point above the bottom", Point<2>(middle, far_above), rest, 0, rest);
+  test("a point in a corner", Point<2>(0.2 * h, 0.2 * h), rest, 5, rest);
+  test("a point on the bottom beside a wall", Point<2>(far_above, 0.2 * h), rest, 3, rest);
+  // One that would come through its gap of .1 cells within the step is let as far as that.
+  const double gap = 0.1 * h, limit = gap / dt;
+  test("a point that falls fast",
+       Point<2>(middle, Box::reach + gap),
+       Tensor<1, 2>({ 0., -1.01 * limit + fall }),
+       3,
+       Tensor<1, 2>({ 0., -3. * limit }));
+  test("a point that falls slowly",
+       Point<2>(middle, Box::reach + gap),
+       Tensor<1, 2>({ 0., -0.99 * limit + fall }),
+       0,
+       rest);
+  test("a point that rises fast",
+       Point<2>(middle, 1. - Box::reach - gap),
+       Tensor<1, 2>({ 0., 1.01 * limit + fall }),
+       3,
+       Tensor<1, 2>({ 0., 3. * limit }));
+
+  Box gated;
+  gated.constraints.close_gate(std::make_unique<Region<2>>("gate", "y < 0.01"));
+  gated.add({ middle, middle }, rest);
+  gated.release(dt);
+  expect(gated.held().first, 10, 0., "nodes that a gate holds");
+  if (tells)
+    std::cout << "gate: OK" << std::endl;
+}
