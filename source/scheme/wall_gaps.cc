@@ -9,9 +9,11 @@ namespace scree
 
   namespace
   {
-    /// Of the points' spacing: a little more than the half that a point fills, so that what rests on a wall stays held
-    /// however its points have settled.
-    constexpr double reach_of_a_point = 0.6;
+    /// Of the points' spacing: twice what a point fills, as points of water that flows along a wall leave gaps.
+    constexpr double reach_of_a_point = 1.;
+
+    /// Fill of a cell from which on it has no gap.
+    constexpr double full = 0.9;
   } // namespace
 
 
@@ -80,6 +82,18 @@ namespace scree
                   gap         = std::min(gap, (sides == 1 ? lowest[a] : 1. - highest[a]) - reach);
                 }
       }
+  }
+
+
+  template <int dim>
+  void WallGaps<dim>::add(const Mixture<dim> &mixture)
+  {
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.fill >= full)
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          if (const unsigned int node = grid.nodes(cell.cell)[i]; grid.node_faces(node) != 0)
+            for (NodeVector &gap : gaps)
+              gap.local_element(node) = 0.;
   }
 
 
