@@ -166,6 +166,7 @@ namespace scree
     soil.to_grid(time);
     gather();
     wall_gaps.clear();
+    wall_gaps.add(mixture);
     for (const PointSet<dim> *points : point_sets())
       wall_gaps.add(*points);
   }

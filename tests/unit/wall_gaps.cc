@@ -17,10 +17,10 @@ using namespace dealii;
 using namespace scree;
 
 /// A box of 8 x 8 cells, 1 m wide, all of whose walls are fixed, with 2 points a cell along each axis: a point reaches
-/// .3 cells.
+/// .5 cells.
 struct Box
 {
-  static constexpr double h = 0.125, reach = 0.3 * h;
+  static constexpr double h = 0.125, reach = 0.5 * h;
 
   Box()
       : grid(parameters(), MPI_COMM_WORLD)

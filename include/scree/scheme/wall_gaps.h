@@ -6,6 +6,7 @@
 #include <scree/grid/nodal_field.h>
 #include <scree/points/point_set.h>
 #include <scree/scheme/forcing.h>
+#include <scree/transfer/mixture.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -20,7 +21,7 @@ namespace scree
   /// into one of them, what falls would be stopped up to a cell before the wall, by stress of soil that is pressed
   /// together there and by pressure that grows as steps shrink. So walls whose gap to the points around a node is open
   /// do not act on it, unless it would close the gap within the step: then they hold it at the speed that just closes
-  /// it. A gap is from the nearest point, beside what a point reaches for itself.
+  /// it. A gap is that of the nearest point less the points' spacing, in cells that are not full.
   template <int dim>
   class WallGaps
   {
@@ -34,8 +35,9 @@ namespace scree
     /// All walls act on all nodes, and no gap is known, before a new step.
     void clear();
 
-    /// Heeds points.
+    /// Heeds points, and cells that are full of water and wet soil, which have no gap.
     void add(const PointSet<dim> &points);
+    void add(const Mixture<dim> &mixture);
 
     /// Frees nodes of walls for the step, s. `soil` and `water` hold mass, momentum and force of owned nodes.
     /// Collective.
