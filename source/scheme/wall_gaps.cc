@@ -2,6 +2,7 @@
 #include <scree/scheme/wall_gaps.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -9,8 +10,8 @@ namespace scree
 
   namespace
   {
-    /// Of the points' spacing: twice what a point fills, as points of water that flows along a wall leave gaps.
-    constexpr double reach_of_a_point = 1.;
+    /// Of the points' spacing: a little more than the half that a point fills.
+    constexpr double reach_of_a_point = 0.6;
 
     /// Fill of a cell from which on it has no gap.
     constexpr double full = 0.9;
@@ -107,7 +108,8 @@ namespace scree
     using Field = NodalField<dim>;
     for (NodeVector &gap : gaps)
       gap.compress(VectorOperation::min);
-    released = 0.;
+    released          = 0.;
+    const double slow = std::sqrt(forcing.gravity().norm() * grid.cell_size());
     for (const unsigned int node : nodes)
       {
         const std::uint8_t faces = grid.node_faces(node);
@@ -126,6 +128,8 @@ namespace scree
               const double speed      = (sum_of(Field::momentum + a) + time_step * sum_of(Field::force + a)) / mass +
                                    time_step * forcing.acceleration(node)[a];
               const double limit = -gap * grid.cell_size() / time_step;
+              if (to_inside * speed > -slow)
+                continue;
               if (to_inside * speed >= limit)
                 open |= side << 2 * a;
               else

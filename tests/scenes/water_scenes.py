@@ -951,17 +951,17 @@ def closing_gap(scree):
 def impact(scree):
     """A block of wet sand falls on a wall: freely until its points reach the wall, and then without a gain of energy, at any step.
 
-    If the wall acted on what comes into its cells, the block would have lost half of its speed by .04 s, and gain 2 and 4 % with the short steps.
+    If the wall acted on what comes into its cells, the block would have lost 16 and 46 % of its speed by .03 s, and gain 4 % with the short steps.
     """
-    for transfer, step in (("TPIC", "1e-3"), ("TPIC", "1e-4"), ("AFLIP", "1e-4")):
-        name = "impact, %s, steps of %s s" % (transfer, step)
-        table = run(scree, "column_saturated", ("impact_%s_%s" % (transfer, step)), {
+    for step in ("1e-3", "1e-4"):
+        name = "impact, steps of %s s" % step
+        table = run(scree, "column_saturated", "impact_" + step, {
             "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6",
             "Soil/Initial state/Type": "none", "Soil/Points per cell": "3", "Water/Points per cell": "3", "Water/Initial pressure": "none",
             "Water/Hydraulic conductivity": "1e-5", "Soil/Initial velocity": "0; -2", "Water/Initial velocity": "0; -2",
-            "Transfer/Method": transfer, "Time step/Maximum time step": step, "End time": "0.2", "Output/Statistics interval": "0.002"})
+            "Time step/Maximum time step": step, "End time": "0.2", "Output/Statistics interval": "0.002"})
         mass = table["Mass (kg)"][0] + table["Water mass (kg)"][0]
-        before = 0.04  # the lowest points are .03 m above the wall then
+        before = 0.03  # the lowest points are .05 m above the wall then
         fallen = -at(table, "Momentum y (N s)", before) / mass
         check(name + ": speed before it touches the wall over that of free fall, less 1", fallen / (2 + closed_forms.GRAVITY * before) - 1, -1e-9, 1e-9)
         check(name + ": largest p before, Pa", at(table, "Largest p (Pa)", before), -1, 1)
