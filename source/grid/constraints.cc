@@ -115,12 +115,7 @@ namespace scree
             if (inflow != free)
               add_inflow(inflows[inflow], constraints);
             if (constraints.any())
-              {
-                entry->second = sets.size();
-                sets.push_back(constraints);
-                inflow_of_set.push_back(inflow);
-                faces_of_set.push_back(is_rigid || inflow != free ? 0 : faces);
-              }
+              entry->second = add_set(constraints, inflow, is_rigid || inflow != free ? 0 : faces);
             if (!is_rigid && inflow == free)
               set_of_faces[faces] = entry->second;
           }
@@ -132,12 +127,22 @@ namespace scree
     for (unsigned int a = 0; a < dim; ++a)
       held.add({ Point<dim>::unit_vector(a) });
     held.water_held.hold_all();
+    const unsigned int set_of_gate = add_set(held, free, 0);
     for (unsigned int node = 0; node < set_of_node.size(); ++node)
       if (gate->contains(grid.node_position(node)))
-        set_of_node[node] = sets.size();
-    sets.push_back(held);
-    inflow_of_set.push_back(free);
-    faces_of_set.push_back(0);
+        set_of_node[node] = set_of_gate;
+  }
+
+
+  template <int dim>
+  unsigned int Constraints<dim>::add_set(const NodeConstraints<dim> &constraints,
+                                         const unsigned int inflow,
+                                         const std::uint8_t faces)
+  {
+    sets.push_back(constraints);
+    inflow_of_set.push_back(inflow);
+    faces_of_set.push_back(faces);
+    return sets.size() - 1;
   }
 
 
@@ -149,12 +154,7 @@ namespace scree
     const auto [entry, is_new] = set_of_faces.emplace(left, free);
     if (is_new && left != 0)
       if (const NodeConstraints<dim> constraints = of_faces(left, false, false); constraints.any())
-        {
-          entry->second = sets.size();
-          sets.push_back(constraints);
-          inflow_of_set.push_back(free);
-          faces_of_set.push_back(left);
-        }
+        entry->second = add_set(constraints, free, left);
     released.emplace_back(node, set);
     set_of_node[node] = entry->second;
   }

@@ -185,7 +185,7 @@ namespace scree
       soil.field.add_contributions();
       water_field.add_contributions();
       pores.add_contributions();
-      wall_gaps.release(pores.active_nodes(), soil.field, water_field, forcing, time_step);
+      wall_gaps.release(soil.field, water_field, forcing, time_step);
       step.predict(nodes, time_step, report.balance);
       soil.field.update_ghosts();
       water_field.update_ghosts();

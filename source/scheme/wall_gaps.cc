@@ -35,7 +35,10 @@ namespace scree
       gap.reinit(grid.numbering().partitioner());
     released.reinit(grid.numbering().partitioner());
     closing.assign(grid.n_owned_nodes(), Tensor<1, dim>());
-    closing_nodes.clear();
+    on_walls.clear();
+    for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
+      if (grid.node_faces(node) != 0)
+        on_walls.push_back(node);
     clear();
   }
 
@@ -44,12 +47,14 @@ namespace scree
   void WallGaps<dim>::clear()
   {
     constraints.hold_all();
-    for (NodeVector &gap : gaps)
-      for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
-        gap.local_element(node) = far;
-    for (const unsigned int node : closing_nodes)
-      closing[node] = Tensor<1, dim>();
-    closing_nodes.clear();
+    for (const unsigned int node : on_walls)
+      {
+        for (NodeVector &gap : gaps)
+          gap.local_element(node) = far;
+        released.local_element(node) = 0.;
+        if (node < grid.n_owned_nodes())
+          closing[node] = Tensor<1, dim>();
+      }
   }
 
 
@@ -75,13 +80,12 @@ namespace scree
               highest[a]         = std::max(highest[a], place);
             }
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          if (const std::uint8_t faces = grid.node_faces(nodes[i]); faces != 0)
-            for (unsigned int a = 0; a < dim; ++a)
-              if (const unsigned int sides = faces >> 2 * a & 3; sides != 0)
-                {
-                  double &gap = gaps[a].local_element(nodes[i]);
-                  gap         = std::min(gap, (sides == 1 ? lowest[a] : 1. - highest[a]) - reach);
-                }
+          for (unsigned int a = 0; a < dim; ++a)
+            if (const unsigned int side = side_across(a, nodes[i]); side != 0)
+              {
+                double &gap = gaps[a].local_element(nodes[i]);
+                gap         = std::min(gap, (side == 1 ? lowest[a] : 1. - highest[a]) - reach);
+              }
       }
   }
 
@@ -99,8 +103,7 @@ namespace scree
 
 
   template <int dim>
-  void WallGaps<dim>::release(const std::vector<unsigned int> &nodes,
-                              const NodalField<dim> &soil,
+  void WallGaps<dim>::release(const NodalField<dim> &soil,
                               const NodalField<dim> &water,
                               const Forcing<dim> &forcing,
                               const double time_step)
@@ -108,40 +111,38 @@ namespace scree
     using Field = NodalField<dim>;
     for (NodeVector &gap : gaps)
       gap.compress(VectorOperation::min);
-    released          = 0.;
     const double slow = std::sqrt(forcing.gravity().norm() * grid.cell_size());
-    for (const unsigned int node : nodes)
+    for (const unsigned int node : on_walls)
       {
-        const std::uint8_t faces = grid.node_faces(node);
-        const double mass        = soil[node][Field::mass] + water[node][Field::mass];
-        if (faces == 0 || mass <= 0. || !constraints.has_walls_alone(node))
+        if (node >= grid.n_owned_nodes() || !constraints.has_walls_alone(node))
           continue;
-        const auto sum_of = [&](const unsigned int component) {
-          return soil[node][component] + water[node][component];
-        };
+        const double *of_soil = soil[node], *of_water = water[node];
+        const double mass = of_soil[Field::mass] + of_water[Field::mass];
+        if (mass <= 0.)
+          continue;
+        const auto sum_of = [&](const unsigned int component) { return of_soil[component] + of_water[component]; };
         unsigned int open = 0;
         for (unsigned int a = 0; a < dim; ++a)
-          if (const double gap = gaps[a].local_element(node); (faces >> 2 * a & 3) != 0 && gap > 0.)
-            {
-              const unsigned int side = faces >> 2 * a & 3; // bits: lower, upper
-              const double to_inside  = side == 1 ? 1. : -1.;
-              const double speed      = (sum_of(Field::momentum + a) + time_step * sum_of(Field::force + a)) / mass +
-                                   time_step * forcing.acceleration(node)[a];
-              const double limit = -gap * grid.cell_size() / time_step;
-              if (to_inside * speed > -slow)
-                continue;
-              if (to_inside * speed >= limit)
-                open |= side << 2 * a;
-              else
-                {
-                  closing[node][a] = to_inside * limit;
-                  closing_nodes.push_back(node);
-                }
-            }
+          {
+            const unsigned int side = side_across(a, node);
+            const double gap        = gaps[a].local_element(node);
+            if (side == 0 || gap <= 0.)
+              continue;
+            const double to_inside = side == 1 ? 1. : -1.;
+            const double speed     = (sum_of(Field::momentum + a) + time_step * sum_of(Field::force + a)) / mass +
+                                 time_step * forcing.acceleration(node)[a];
+            const double limit = -gap * grid.cell_size() / time_step;
+            if (to_inside * speed > -slow)
+              continue;
+            if (to_inside * speed >= limit)
+              open |= side << 2 * a;
+            else
+              closing[node][a] = to_inside * limit;
+          }
         released.local_element(node) = open;
       }
     released.update_ghost_values();
-    for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
+    for (const unsigned int node : on_walls)
       if (released.local_element(node) != 0.)
         constraints.release(node, static_cast<std::uint8_t>(released.local_element(node)));
     released.zero_out_ghost_values();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Walls of a wet scene act on nodes whose points have reached them: which walls act where a point is near one, two or
-// no wall; the speed at which a gap closes within a step; a gate holds whatever is near; afterwards all walls act
-// again; the same on 1 and 2 ranks.
+// Walls of a wet scene and what falls on them: which walls act where a point has reached one, two or no wall; that they
+// act on what is slow; the speed at which a gap closes within a step; a gate holds whatever is near; afterwards all
+// walls act again; the same on 1 and 2 ranks.
 
 #include "expect.h"
 
@@ -11,7 +11,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
-#include <vector>
 
 using namespace dealii;
 using namespace scree;
@@ -74,12 +73,9 @@ struct Box
 
   void release(const double time_step)
   {
-    std::vector<unsigned int> nodes;
-    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-      nodes.push_back(node);
     gaps.clear();
     gaps.add(points);
-    gaps.release(nodes, soil, water, forcing, time_step);
+    gaps.release(soil, water, forcing, time_step);
   }
 
   /// Nodes of all ranks that walls hold, and the sum of their velocities towards walls.

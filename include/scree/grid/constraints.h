@@ -53,7 +53,7 @@ namespace scree
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
-    /// Whether nothing but walls holds a node: no inflow, rigid body or gate.
+    /// Whether walls hold a node, and nothing else does: no inflow, rigid body or gate.
     bool has_walls_alone(const unsigned int node) const
     {
       return set_of_node[node] != free && faces_of_set[set_of_node[node]] != 0;
@@ -78,6 +78,10 @@ namespace scree
 
   private:
     NodeConstraints<dim> of_faces(const std::uint8_t faces, const bool is_rigid, const bool is_moved) const;
+
+    /// Adds to `sets`; returns the number there.
+    /// @param faces see faces_of_set
+    unsigned int add_set(const NodeConstraints<dim> &constraints, const unsigned int inflow, const std::uint8_t faces);
 
     /// What an inflow does to a node.
     void add_inflow(const MovedByInflow &inflow, NodeConstraints<dim> &constraints) const;

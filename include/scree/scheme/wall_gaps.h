@@ -42,9 +42,7 @@ namespace scree
 
     /// Frees nodes of walls for the step, s. `soil` and `water` hold mass, momentum and force of owned nodes.
     /// Collective.
-    /// @param nodes owned ones on which points act
-    void release(const std::vector<unsigned int> &nodes,
-                 const NodalField<dim> &soil,
+    void release(const NodalField<dim> &soil,
                  const NodalField<dim> &water,
                  const Forcing<dim> &forcing,
                  const double time_step);
@@ -60,13 +58,19 @@ namespace scree
 
     static constexpr double far = 1.; // a cell without points
 
+    /// The wall that a node lies on across an axis: 1 the lower, 2 the upper one, 0 none.
+    unsigned int side_across(const unsigned int axis, const unsigned int node) const
+    {
+      return grid.node_faces(node) >> 2 * axis & 3;
+    }
+
     const BackgroundGrid<dim> &grid;
     Constraints<dim> &constraints;
     const double reach;                          // of a point, cells
     std::array<NodeVector, dim> gaps;            // to the wall that a node lies on across an axis, cells
     NodeVector released;                         // faces, bit f: face f
     std::vector<dealii::Tensor<1, dim>> closing; // by owned node
-    std::vector<unsigned int> closing_nodes;
+    std::vector<unsigned int> on_walls;          // nodes, ghosts included
   };
 } // namespace scree
 
