@@ -22,6 +22,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parent / "cases")]
 
@@ -80,7 +81,9 @@ def make_run(study, variant, folder, arguments):
     if variant.ranks > (os.cpu_count() or 1):
         launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
     command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
-    with open(screen, "w", encoding="utf-8") as output:
+    # Runs of Open MPI side by side share folders, which the last one to end removes under one that begins: each has its own.
+    with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_") as temporary:
+        environment["TMPDIR"] = temporary
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT)
         _, status, usage = os.wait4(process.pid, 0)
     code = os.waitstatus_to_exitcode(status)

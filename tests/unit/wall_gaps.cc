@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Walls of a wet scene and what falls on them: which walls act where a point has reached one, two or no wall; that they
-// act on what is slow; the speed at which a gap closes within a step; a gate holds whatever is near; afterwards all
-// walls act again; the same on 1 and 2 ranks.
+// act on what is slow; the speed at which a gap closes within a step; a full cell has no gap; a gate holds whatever is
+// near; afterwards all walls act again; the same on 1 and 2 ranks.
 
 #include "expect.h"
 
+#include <scree/points/water_seeding.h>
 #include <scree/scheme/wall_gaps.h>
+#include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -145,6 +147,36 @@ int main(int argc, char *argv[])
   test("it closes its gap", Point<2>(middle, Box::reach + gap), velocity(-1.01), n_all - 8 + 3, -sum);
   test("it does not", Point<2>(middle, Box::reach + gap), velocity(-0.99), n_all - 8, rest);
   test("it closes its gap at the top", Point<2>(middle, 1. - Box::reach - gap), velocity(1.01), n_all - 8 + 3, sum);
+
+  // Water below it, whose points are not looked at: cells that are full of it have no gap.
+  const auto test_fill = [&](const std::string &region, const unsigned int n_held) {
+    Box box;
+    WaterParameters parameters;
+    parameters.region          = region;
+    parameters.points_per_cell = 20;
+    WaterPhase<2> phase(1000., false, box.grid.triangulation(), box.grid.mapping());
+    seed_water(phase, parameters, {}, box.grid.triangulation(), h);
+    const WaterTransfer<2> transfer(box.grid, TransferParameters(), parameters, 1.);
+    Mixture<2> mixture(box.grid, 2);
+    PoreField<2> pores(box.grid);
+    NodalField<2> field(box.grid);
+    transfer.to_grid(phase, mixture, field, pores);
+    mixture.finish();
+    box.add({ middle, middle }, down);
+    box.gaps.clear();
+    box.gaps.add(box.points);
+    box.gaps.add(mixture);
+    box.gaps.release(box.soil, box.water, box.forcing, dt);
+    const unsigned int n = box.held().first;
+    expect(n, n_held, 0., region + ": held nodes");
+    if (tells)
+      std::cout << "water in " << region << ": " << n << " held" << std::endl;
+  };
+  test_fill("y < " + std::to_string(0.85 * h), n_all - 8);
+  test_fill("y < " + std::to_string(0.95 * h), n_all);
+  // The two full cells hold four of these nodes.
+  test_fill("x > " + std::to_string(3 * h) + " && x < " + std::to_string(5 * h) + " && y < " + std::to_string(0.95 * h),
+            n_all - 8 + 4);
 
   Box gated;
   gated.constraints.close_gate(std::make_unique<Region<2>>("gate", "y < 0.01"));
