@@ -82,7 +82,7 @@ def make_run(study, variant, folder, arguments):
         launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
     command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
     # Runs of Open MPI side by side share folders, which the last one to end removes under one that begins: each has its own.
-    with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_") as temporary:
+    with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_", ignore_cleanup_errors=True) as temporary:
         environment["TMPDIR"] = temporary
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT)
         _, status, usage = os.wait4(process.pid, 0)

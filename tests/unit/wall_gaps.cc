@@ -73,10 +73,13 @@ struct Box
       }
   }
 
-  void release(const double time_step)
+  /// @param mixture whose cells are looked at, too; may be null
+  void release(const double time_step, const Mixture<2> *mixture = nullptr)
   {
     gaps.clear();
     gaps.add(points);
+    if (mixture)
+      gaps.add(*mixture);
     gaps.release(soil, water, forcing, time_step);
   }
 
@@ -163,10 +166,7 @@ int main(int argc, char *argv[])
     transfer.to_grid(phase, mixture, field, pores);
     mixture.finish();
     box.add({ middle, middle }, down);
-    box.gaps.clear();
-    box.gaps.add(box.points);
-    box.gaps.add(mixture);
-    box.gaps.release(box.soil, box.water, box.forcing, dt);
+    box.release(dt, &mixture);
     const unsigned int n = box.held().first;
     expect(n, n_held, 0., region + ": held nodes");
     if (tells)

@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from charts import WorkPrecision
+from measures import energy_gain
 from precision import DEFAULTS, LimitFit, at_finest, costs, curve, listed, ratio
 from study import Claim, Study, axis, product
 
@@ -51,7 +52,7 @@ def measure(run):
             "error of centre of mass": errors[2], "front 99 % at the end, m": own[1, -1],
             "mean oscillation": np.mean(run.statistics("Stress oscillation (-)")[1:]),
             "numerical dissipation": dissipation[-1] / released,
-            "energy gained": np.max(np.maximum.accumulate(dissipation) - dissipation) / released}
+            "energy gained": energy_gain(run, released)}
 
 
 def verdict(rows):
