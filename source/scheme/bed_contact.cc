@@ -66,24 +66,30 @@ namespace scree
   void BedContact<dim>::add_contact(const SoilBody<dim> &body,
                                     const unsigned int surface,
                                     const PointView<dim, double> &point,
-                                    const SurfaceView<dim> &view,
+                                    const double distance,
                                     const double dt)
   {
-    const double depth = std::clamp(view.distance, 0., body.spacing);
+    // A point that keeps to the normal of its place leaves a curved surface, or gets below it, by v^2 dt^2 / (2 R) a
+    // step; with that of half its way in the step it keeps its distance.
+    const Tensor<1, dim> way =
+        dt * (vector_of<dim>(point.properties + PropertyLayout<dim>::velocity) - surfaces[surface].velocity);
+    const Tensor<1, dim> normal =
+        surfaces[surface].samples->view(point.cell, point.reference_location + 0.5 / grid.cell_size() * way).normal;
+    const double depth = std::clamp(distance, 0., body.spacing);
     Contact contact;
-    contact.force    = point.properties + body.layout.contact_force(surface);
-    contact.surface  = surface;
-    contact.friction = surfaces[surface].friction_at(point.location);
-    contact.place    = point.reference_location;
-    contact.to_foot  = -depth / grid.cell_size() * view.normal;
-    contact.foot     = point.location - depth * view.normal;
-    contact.normal   = view.normal;
-    contact.approach = least_approach(view.distance - point.properties[body.layout.touching_distance(surface)], dt);
+    contact.force          = point.properties + body.layout.contact_force(surface);
+    contact.surface        = surface;
+    contact.friction       = surfaces[surface].friction_at(point.location);
+    contact.place          = point.reference_location;
+    contact.to_foot        = -depth / grid.cell_size() * normal;
+    contact.foot           = point.location - depth * normal;
+    contact.normal         = normal;
+    contact.approach       = least_approach(distance - point.properties[body.layout.touching_distance(surface)], dt);
     const Tensor<1, dim> J = dt * vector_of<dim>(contact.force);
-    const double normal    = J * view.normal;
-    contact.normal_impulse = std::max(0., normal);
+    const double across    = J * normal;
+    contact.normal_impulse = std::max(0., across);
     contact.tangent_impulse =
-        coulomb_friction<dim>(J - normal * view.normal, available_friction(contact.friction, contact.normal_impulse))
+        coulomb_friction<dim>(J - across * normal, available_friction(contact.friction, contact.normal_impulse))
             .impulse;
     constexpr double irrational[3] = { 1., 0.7548776662466927, 0.5698402909980532 };
     contact.order                  = 0.;
@@ -198,8 +204,8 @@ namespace scree
           double touching_distances[batch_size];
           for (unsigned int l = 0; l < batch_size; ++l)
             touching_distances[l] = pointers.properties[l][touching];
-          const unsigned int far =
-              simd::bits_of(samples.distances(points.cell, places) - simd::load(touching_distances) > one.margin);
+          const Batch distances  = samples.distances(points.cell, places);
+          const unsigned int far = simd::bits_of(distances - simd::load(touching_distances) > one.margin);
           for (unsigned int l = 0; l < n; ++l)
             {
               if (far >> l & 1)
@@ -214,7 +220,7 @@ namespace scree
               const PointView<dim, double> point{
                 points.cell, points.properties_of(p), points.location_of(p), points.reference_location_of(p)
               };
-              add_contact(body, one.surface, point, samples.view(points.cell, point.reference_location), dt);
+              add_contact(body, one.surface, point, distances[l], dt);
             }
         }
     });

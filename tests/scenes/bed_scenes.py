@@ -83,6 +83,7 @@ def check_bed(name, table):
     released = max(np.ptp(table["Potential energy (J)"]), 1e-300)
     gain = largest_fall(table["Numerical dissipation (J)"])
     check(name + ": largest gain of energy over released energy", gain / released, 0, 1e-3)
+    check(name + ": energy that the bed makes over released energy", largest_fall(table["Bed dissipation (J)"]) / released, 0, 1e-3)
 
 
 def slope_of(table, values, start):

@@ -120,7 +120,7 @@ namespace scree
     void add_contact(const SoilBody<dim> &body,
                      const unsigned int surface,
                      const PointView<dim, double> &point,
-                     const SurfaceView<dim> &view,
+                     const double distance,
                      const double dt);
 
     /// The velocity along the normal that a point with this gap, m, must have at least.
