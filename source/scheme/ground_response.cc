@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <tuple>
+
 namespace scree
 {
   using namespace dealii;
@@ -104,31 +106,27 @@ namespace scree
         if (const DragPair<dim> pair = step.pair_at(of_mixture, node.node); pair.is_held())
           {
             node.held = held.size();
-            held.push_back(pair);
+            held.push_back(response_of(pair));
           }
       }
   }
 
 
   template <int dim>
-  void GroundResponse<dim>::write_message(const Node &node)
+  void GroundResponse<dim>::write_message(const unsigned int number)
   {
     for (unsigned int c = 0; c < dim; ++c)
-      {
-        messages[node.node][c]       = node.values[0][c];
-        messages[node.node][dim + c] = node.values[1][c];
-      }
+      for (unsigned int phase = 0; phase < 2; ++phase)
+        messages[nodes[number].node][phase * dim + c] = values[phase][number][c];
   }
 
 
   template <int dim>
-  void GroundResponse<dim>::read_message(Node &node) const
+  void GroundResponse<dim>::read_message(const unsigned int number)
   {
     for (unsigned int c = 0; c < dim; ++c)
-      {
-        node.values[0][c] = messages[node.node][c];
-        node.values[1][c] = messages[node.node][dim + c];
-      }
+      for (unsigned int phase = 0; phase < 2; ++phase)
+        values[phase][number][c] = messages[nodes[number].node][phase * dim + c];
   }
 
 
@@ -140,9 +138,10 @@ namespace scree
       {
         const Contact &contact         = contacts[k];
         const unsigned int *of_segment = &nodes_of_segments[contact.first];
+        NodeRow *of_phase              = values[unsigned(contact.phase)].data();
         const NodeRow impulse          = to_row(impulses[k]);
         for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
-          nodes[of_segment[i]].values[unsigned(contact.phase)] += contact.shapes[i] * impulse;
+          of_phase[of_segment[i]] += contact.shapes[i] * impulse;
       }
   }
 
@@ -150,8 +149,8 @@ namespace scree
   template <int dim>
   void GroundResponse<dim>::sum(const std::vector<Tensor<1, dim>> &impulses)
   {
-    for (Node &node : nodes)
-      node.values = {};
+    for (std::vector<NodeRow> &of_phase : values)
+      of_phase.assign(nodes.size(), NodeRow{});
     if (grid.n_nodes_1d() == 2)
       add_shares<2>(impulses);
     else
@@ -159,11 +158,11 @@ namespace scree
     if (!is_parallel)
       return;
     messages.clear_ghosts();
-    for (const Node &node : nodes)
+    for (unsigned int node = 0; node < nodes.size(); ++node)
       write_message(node);
     messages.add_contributions();
-    for (Node &node : nodes)
-      if (is_owned(node))
+    for (unsigned int node = 0; node < nodes.size(); ++node)
+      if (is_owned(nodes[node]))
         read_message(node);
   }
 
@@ -174,10 +173,11 @@ namespace scree
   {
     // Several sums, as each addition would wait for the one before.
     const unsigned int *of_segment = &nodes_of_segments[contact.first];
+    const NodeRow *of_phase        = values[unsigned(contact.phase)].data();
     NodeRow sums[n]                = {};
     for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; i += n)
       for (unsigned int j = 0; j < n; ++j)
-        sums[j] += contact.shapes[i + j] * nodes[of_segment[i + j]].values[unsigned(contact.phase)];
+        sums[j] += contact.shapes[i + j] * of_phase[of_segment[i + j]];
     NodeRow result = sums[0];
     for (unsigned int j = 1; j < n; ++j)
       result += sums[j];
@@ -193,12 +193,37 @@ namespace scree
 
 
   template <int dim>
-  std::array<NodeRow, 2> GroundResponse<dim>::motion_of_held(const Node &node,
-                                                             const std::array<NodeRow, 2> &impulses) const
+  std::pair<NodeRow, NodeRow>
+  GroundResponse<dim>::motion_of(const Node &node, const NodeRow &soil, const NodeRow &water) const
   {
-    const SoilAndWater<dim> velocity =
-        held[node.held].solve({ to_vector<dim>(impulses[0]), to_vector<dim>(impulses[1]) });
-    return { { to_row(velocity.soil), to_row(velocity.water) } };
+    if (!node.is_held())
+      return { node.mobility.soil * soil + node.mobility.other * water,
+               node.mobility.other * soil + node.mobility.water * water };
+    const HeldResponse &response = held[node.held];
+    std::pair<NodeRow, NodeRow> velocities{};
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        velocities.first += soil[c] * response[c][0] + water[c] * response[dim + c][0];
+        velocities.second += soil[c] * response[c][1] + water[c] * response[dim + c][1];
+      }
+    return velocities;
+  }
+
+
+  template <int dim>
+  typename GroundResponse<dim>::HeldResponse GroundResponse<dim>::response_of(const DragPair<dim> &pair)
+  {
+    HeldResponse response;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        Tensor<1, dim> impulse;
+        impulse[c]          = 1.;
+        const auto by_soil  = pair.solve({ impulse, Tensor<1, dim>() });
+        const auto by_water = pair.solve({ Tensor<1, dim>(), impulse });
+        response[c]         = { { to_row(by_soil.soil), to_row(by_soil.water) } };
+        response[dim + c]   = { { to_row(by_water.soil), to_row(by_water.water) } };
+      }
+    return response;
   }
 
 
@@ -206,16 +231,17 @@ namespace scree
   void GroundResponse<dim>::move_nodes(const std::vector<Tensor<1, dim>> &impulses)
   {
     sum(impulses);
-    for (Node &node : nodes)
-      node.values = node.is_held() ? motion_of_held(node, node.values) : motion_of_free(node);
+    NodeRow *soil = values[0].data(), *water = values[1].data();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      std::tie(soil[i], water[i]) = motion_of(nodes[i], soil[i], water[i]);
     if (is_parallel)
       {
-        for (const Node &node : nodes)
-          if (is_owned(node))
+        for (unsigned int node = 0; node < nodes.size(); ++node)
+          if (is_owned(nodes[node]))
             write_message(node);
         messages.update_ghosts();
-        for (Node &node : nodes)
-          if (!is_owned(node))
+        for (unsigned int node = 0; node < nodes.size(); ++node)
+          if (!is_owned(nodes[node]))
             read_message(node);
       }
   }
@@ -276,26 +302,16 @@ namespace scree
   {
     const Contact &of_impulse      = contacts[contact];
     const unsigned int *of_segment = &nodes_of_segments[of_impulse.first];
-    const unsigned int own = unsigned(of_impulse.phase), other = 1 - own;
-    const NodeRow whole        = to_row(impulse);
-    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    const bool is_soil             = of_impulse.phase == Phase::soil;
+    const NodeRow whole            = to_row(impulse);
+    const unsigned int n_nodes     = grid.n_nodes_per_cell();
     for (unsigned int i = 0; i < n_nodes; ++i)
       {
-        Node &node         = nodes[of_segment[i]];
+        const Node &node   = nodes[of_segment[i]];
         const NodeRow part = of_impulse.shapes[i] * whole;
-        if (!node.is_held())
-          {
-            node.values[own] += (own == 0 ? node.mobility.soil : node.mobility.water) * part;
-            node.values[other] += node.mobility.other * part;
-          }
-        else
-          {
-            std::array<NodeRow, 2> impulses{};
-            impulses[own]     = part;
-            const auto motion = motion_of_held(node, impulses);
-            node.values[0] += motion[0];
-            node.values[1] += motion[1];
-          }
+        const auto motion  = is_soil ? motion_of(node, part, NodeRow{}) : motion_of(node, NodeRow{}, part);
+        values[0][of_segment[i]] += motion.first;
+        values[1][of_segment[i]] += motion.second;
       }
   }
 
@@ -307,17 +323,24 @@ namespace scree
                                  StepBalance<dim> &balance)
   {
     sum(impulses);
-    const auto vectors = [](const std::array<NodeRow, 2> &rows) {
-      return SoilAndWater<dim>{ -to_vector<dim>(rows[0]), -to_vector<dim>(rows[1]) };
+    const auto vectors = [](const NodeRow &soil, const NodeRow &water) {
+      return SoilAndWater<dim>{ -to_vector<dim>(soil), -to_vector<dim>(water) };
     };
-    for (const Node &node : nodes)
-      if (is_owned(node) && node.is_pushed() && has_mass(of_mixture, node.node))
-        {
-          if (node.is_held())
-            step.push(of_mixture, node.node, vectors(node.values), balance);
-          else
-            step.add(of_mixture, node.node, vectors(motion_of_free(node)));
-        }
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        const Node &node   = nodes[i];
+        const NodeRow soil = values[0][i], water = values[1][i];
+        const bool is_pushed = scree::sum(soil * soil + water * water) > 0.;
+        if (!is_owned(node) || !is_pushed || !has_mass(of_mixture, node.node))
+          continue;
+        if (node.is_held())
+          step.push(of_mixture, node.node, vectors(soil, water), balance);
+        else
+          {
+            const auto motion = motion_of(node, soil, water);
+            step.add(of_mixture, node.node, vectors(motion.first, motion.second));
+          }
+      }
   }
 
   template class GroundResponse<2>;

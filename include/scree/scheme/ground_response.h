@@ -6,6 +6,7 @@
 #include <scree/transfer/node_rows.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace scree
@@ -81,22 +82,19 @@ namespace scree
       const double *shapes;
     };
 
+    /// Velocities of soil and water, m/s, at a node that walls hold, by impulses of 1 N s on soil, then on water, along
+    /// each axis.
+    using HeldResponse = std::array<std::array<NodeRow, 2>, 2 * dim>;
+
     struct Node
     {
-      std::array<NodeRow, 2> values; // of soil and water: impulses, N s; then what they do, m/s
-      DragMobility mobility;         // without walls
+      DragMobility mobility; // without walls
       unsigned int node;
       unsigned int held = dealii::numbers::invalid_unsigned_int; // number among those that walls hold
 
       bool is_held() const
       {
         return held != dealii::numbers::invalid_unsigned_int;
-      }
-
-      bool is_pushed() const
-      {
-        const NodeRow squares = values[0] * values[0] + values[1] * values[1];
-        return scree::sum(squares) > 0.;
       }
     };
 
@@ -112,7 +110,7 @@ namespace scree
       if (number == dealii::numbers::invalid_unsigned_int)
         {
           number = nodes.size();
-          nodes.push_back({ {}, {}, node });
+          nodes.push_back({ {}, node });
         }
       return number;
     }
@@ -134,20 +132,14 @@ namespace scree
     /// The same of one contact, whatever the number of nodes.
     dealii::Tensor<1, dim> mean_of(const Contact &contact) const;
 
-    /// What the impulses at a node do to it, if walls do not hold it.
-    std::array<NodeRow, 2> motion_of_free(const Node &node) const
-    {
-      const NodeRow soil = node.values[0], water = node.values[1];
-      return { { node.mobility.soil * soil + node.mobility.other * water,
-                 node.mobility.other * soil + node.mobility.water * water } };
-    }
+    /// What impulses on soil and water at a node do to it.
+    std::pair<NodeRow, NodeRow> motion_of(const Node &node, const NodeRow &soil, const NodeRow &water) const;
 
-    /// What impulses on soil and water at a node that walls hold do to it.
-    std::array<NodeRow, 2> motion_of_held(const Node &node, const std::array<NodeRow, 2> &impulses) const;
+    static HeldResponse response_of(const DragPair<dim> &pair);
 
     /// Copies values of nodes to and from what is exchanged with other ranks.
-    void write_message(const Node &node);
-    void read_message(Node &node) const;
+    void write_message(const unsigned int number);
+    void read_message(const unsigned int number);
 
     const BackgroundGrid<dim> &grid;
     const OpenCells<dim> &open_cells;
@@ -155,10 +147,11 @@ namespace scree
     NodeValues<dim, 2 * dim> messages;
     std::vector<unsigned int> numbers; // by node
     std::vector<Node> nodes;
+    std::array<std::vector<NodeRow>, 2> values; // of soil and water by node: impulses, N s; then what they do, m/s
     std::vector<Contact> contacts;
     std::vector<unsigned int> nodes_of_segments; // a cell's nodes behind each other
     std::vector<unsigned int> first_of_segment;  // of those, by segment
-    std::vector<DragPair<dim>> held;             // by walls, of this rank
+    std::vector<HeldResponse> held;              // by walls, of this rank
     unsigned int n_started = 0;                  // nodes that have been looked at in this step
   };
 } // namespace scree
