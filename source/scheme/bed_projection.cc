@@ -366,14 +366,14 @@ namespace scree
 
 
   template <int dim>
-  void BedProjection<dim>::put_back(PointSet<dim> &points) const
+  void BedProjection<dim>::put_back(PointSet<dim> &points, const double farthest) const
   {
     const double width         = grid.cell_size();
     const double inside        = 1e-6 * width; // where points are put
     const FineCells<dim> &fine = grid.fine_cells();
     for (const auto &cell : points.cells())
       {
-        if (ground.least_distance(cell.cell) > width) // no point moves farther in a step
+        if (ground.least_distance(cell.cell) > farthest)
           continue;
         const Point<dim> lower = fine.box().corner(fine.cells()[fine.of_index(cell.cell)].place);
         for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {

@@ -87,8 +87,8 @@ namespace scree
                         const double time_step,
                         StepBalance<dim> &balance) const;
 
-    /// Takes points that have come below the ground back to it.
-    void put_back(PointSet<dim> &points) const;
+    /// Takes points that have come below the ground back to it; none has moved `farthest` m.
+    void put_back(PointSet<dim> &points, const double farthest) const;
 
   private:
     /// What a segment knows.
