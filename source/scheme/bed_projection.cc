@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/points/batch_pointers.h>
 #include <scree/scheme/bed_projection.h>
-#include <scree/tensor/vector.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -117,12 +116,12 @@ namespace scree
   {
     const unsigned int *nodes     = grid.nodes(segment.cell);
     const unsigned int n_nodes_1d = grid.n_nodes_1d();
-    // Several sums, as each addition would wait for the one before.
-    std::array<Tensor<1, dim>, 3> sums;
+    static_assert(Field<dim>::velocity + 4 <= Field<dim>::n_components, "A row begins with the velocity.");
+    NodeRow sums[3] = {}; // Several, as each addition would wait for the one before.
     for (unsigned int i = 0; i < segment.shapes.size(); i += n_nodes_1d)
       for (unsigned int j = 0; j < n_nodes_1d; ++j)
-        sums[j] += segment.shapes[i + j] * vector_of<dim>(field[nodes[i + j]] + Field<dim>::velocity);
-    return sums[0] + sums[1] + sums[2];
+        sums[j] += segment.shapes[i + j] * load_row(field[nodes[i + j]] + Field<dim>::velocity);
+    return to_vector<dim>(sums[0] + sums[1] + sums[2]);
   }
 
 

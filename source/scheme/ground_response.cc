@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/ground_response.h>
-#include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,24 +15,6 @@ namespace scree
     bool has_mass(const MixtureNodes<dim> &nodes, const unsigned int node)
     {
       return nodes.soil[node][NodalField<dim>::mass] > 0. || nodes.water[node][NodalField<dim>::mass] > 0.;
-    }
-
-    template <int dim>
-    NodeRow to_row(const Tensor<1, dim> &vector)
-    {
-      NodeRow row{};
-      for (unsigned int c = 0; c < dim; ++c)
-        row[c] = vector[c];
-      return row;
-    }
-
-    template <int dim>
-    Tensor<1, dim> to_vector(const NodeRow &row)
-    {
-      Tensor<1, dim> vector;
-      for (unsigned int c = 0; c < dim; ++c)
-        vector[c] = row[c];
-      return vector;
     }
   } // namespace
 
@@ -308,8 +289,8 @@ namespace scree
     for (unsigned int i = 0; i < n_nodes; ++i)
       {
         const Node &node   = nodes[of_segment[i]];
-        const NodeRow part = of_impulse.shapes[i] * whole;
-        const auto motion  = is_soil ? motion_of(node, part, NodeRow{}) : motion_of(node, NodeRow{}, part);
+        const NodeRow part = of_impulse.shapes[i] * whole, none{};
+        const auto motion  = motion_of(node, is_soil ? part : none, is_soil ? none : part);
         values[0][of_segment[i]] += motion.first;
         values[1][of_segment[i]] += motion.second;
       }

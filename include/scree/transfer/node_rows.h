@@ -4,11 +4,21 @@
 
 #include <scree/grid/cell_basis.h>
 
+#include <cstring>
+
 namespace scree
 {
   /// The up to three nodes of a cell along the first axis, as one register (the fourth lane stays 0). A compiler vector
   /// because Debian builds deal.II's VectorizedArray with a single lane.
   using NodeRow = double __attribute__((vector_size(4 * sizeof(double))));
+
+  /// Four numbers that lie behind each other, on no boundary in particular.
+  inline NodeRow load_row(const double *values)
+  {
+    NodeRow row;
+    std::memcpy(&row, values, sizeof(row));
+    return row;
+  }
 
   inline double sum(const NodeRow &row)
   {
@@ -22,6 +32,26 @@ namespace scree
       return NodeRow{ values[0], values[1], 0., 0. };
     else
       return NodeRow{ values[0], values[1], values[2], 0. };
+  }
+
+  /// A vector in a row.
+  template <int dim>
+  NodeRow to_row(const dealii::Tensor<1, dim> &vector)
+  {
+    NodeRow row{};
+    for (unsigned int c = 0; c < dim; ++c)
+      row[c] = vector[c];
+    return row;
+  }
+
+  /// The vector that a row begins with.
+  template <int dim>
+  dealii::Tensor<1, dim> to_vector(const NodeRow &row)
+  {
+    dealii::Tensor<1, dim> vector;
+    for (unsigned int c = 0; c < dim; ++c)
+      vector[c] = row[c];
+    return vector;
   }
 
   /// The factors that the axes other than the first contribute to a row of nodes: product of their shape functions, and
