@@ -293,7 +293,7 @@ namespace scree
     if (bed)
       {
         const TimedPart part(timer, StepPart::bed);
-        // Nodes may be faster than points; volume correction and obstacles move by less than a quarter of a cell.
+        // Nodes may be faster than points, and volume correction shifts by a tenth of a cell along each axis.
         const double farthest = 0.25 * grid.cell_size() + 2. * time_step * report.speeds.points;
         for (PointSet<dim> *points : point_sets())
           bed->put_back(*points, farthest);

@@ -87,7 +87,7 @@ namespace scree
                         const double time_step,
                         StepBalance<dim> &balance) const;
 
-    /// Takes points that have come below the ground back to it; none has moved `farthest` m.
+    /// Takes points that have come below the ground back to it. None has moved farther than `farthest`, m.
     void put_back(PointSet<dim> &points, const double farthest) const;
 
   private:

@@ -132,7 +132,7 @@ namespace scree
     /// The same of one contact, whatever the number of nodes.
     dealii::Tensor<1, dim> mean_of(const Contact &contact) const;
 
-    /// What impulses on soil and water at a node do to it.
+    /// The velocities of soil and water at a node, m/s, that impulses on them, N s, give.
     std::pair<NodeRow, NodeRow> motion_of(const Node &node, const NodeRow &soil, const NodeRow &water) const;
 
     static HeldResponse response_of(const DragPair<dim> &pair);
