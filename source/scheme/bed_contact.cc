@@ -6,8 +6,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
 
 namespace scree
 {
@@ -19,6 +19,13 @@ namespace scree
 
     /// Cells as far apart along an axis share no nodes.
     constexpr unsigned int colours_1d = 3;
+
+    /// Of a node by its values, m^2/s^2; 0 without soil.
+    template <int dim>
+    double square_of_speed(const double *values)
+    {
+      return values[NodalField<dim>::mass] > 0. ? vector_of<dim>(values + NodalField<dim>::velocity).norm_square() : 0.;
+    }
   } // namespace
 
 
@@ -64,45 +71,35 @@ namespace scree
 
   template <int dim>
   void BedContact<dim>::add_contact(const SoilBody<dim> &body,
-                                    const unsigned int surface,
+                                    const Candidate &candidate,
                                     const PointView<dim, double> &point,
-                                    const double distance,
                                     const double dt)
   {
+    const RigidSurface<dim> &surface = surfaces[candidate.surface];
     // A point that keeps to the normal of its place leaves a curved surface, or gets below it, by v^2 dt^2 / (2 R) a
     // step; with that of half its way in the step it keeps its distance.
     const Tensor<1, dim> way =
-        dt * (vector_of<dim>(point.properties + PropertyLayout<dim>::velocity) - surfaces[surface].velocity);
+        dt * (vector_of<dim>(point.properties + PropertyLayout<dim>::velocity) - surface.velocity);
     const Tensor<1, dim> normal =
-        surfaces[surface].samples->view(point.cell, point.reference_location + 0.5 / grid.cell_size() * way).normal;
-    const double depth = std::clamp(distance, 0., body.spacing);
-    Contact contact;
-    contact.force          = point.properties + body.layout.contact_force(surface);
-    contact.surface        = surface;
-    contact.friction       = surfaces[surface].friction_at(point.location);
-    contact.place          = point.reference_location;
-    contact.to_foot        = -depth / grid.cell_size() * normal;
-    contact.foot           = point.location - depth * normal;
-    contact.normal         = normal;
-    contact.approach       = least_approach(distance - point.properties[body.layout.touching_distance(surface)], dt);
-    const Tensor<1, dim> J = dt * vector_of<dim>(contact.force);
-    const double across    = J * normal;
-    contact.normal_impulse = std::max(0., across);
-    contact.tangent_impulse =
+        surface.samples->view(point.cell, point.reference_location + 0.5 / grid.cell_size() * way).normal;
+    const double depth = std::clamp(candidate.distance, 0., body.spacing);
+    contacts.emplace_back();
+    Contact &contact         = contacts.back();
+    contact.force            = point.properties + body.layout.contact_force(candidate.surface);
+    contact.surface          = candidate.surface;
+    contact.friction         = surface.friction_at(point.location);
+    contact.place            = point.reference_location;
+    contact.to_foot          = -depth / grid.cell_size() * normal;
+    contact.foot             = point.location - depth * normal;
+    contact.normal           = to_row<dim>(normal);
+    contact.surface_velocity = to_row<dim>(surface.velocity);
+    contact.approach         = least_approach(candidate.gap, dt);
+    const Tensor<1, dim> J   = dt * vector_of<dim>(contact.force);
+    const double across      = J * normal;
+    contact.normal_impulse   = std::max(0., across);
+    contact.tangent_impulse  = to_row<dim>(
         coulomb_friction<dim>(J - across * normal, available_friction(contact.friction, contact.normal_impulse))
-            .impulse;
-    constexpr double irrational[3] = { 1., 0.7548776662466927, 0.5698402909980532 };
-    contact.order                  = 0.;
-    for (unsigned int a = 0; a < dim; ++a)
-      contact.order += irrational[a] * point.reference_location[a];
-
-    // In order among the cell's contacts.
-    Cell &cell         = cells.back();
-    unsigned int place = contacts.size();
-    while (place > cell.first && contacts[place - 1].order > contact.order)
-      --place;
-    contacts.insert(contacts.begin() + place, contact);
-    ++cell.n;
+            .impulse);
   }
 
 
@@ -117,6 +114,7 @@ namespace scree
     entry.number                = cell;
     entry.colour                = colour;
     entry.first                 = contacts.size();
+    entry.n                     = candidates.size();
     entry.nodes                 = nodes_of_cells.size();
     entry.most_mobility         = 2. / (body.density * Utilities::fixed_power<dim>(grid.cell_size()));
     const unsigned int *of_cell = grid.nodes(cell);
@@ -141,15 +139,22 @@ namespace scree
   template <int dim>
   double BedContact<dim>::fastest_node(const NodalField<dim> &field) const
   {
-    double square      = 0.;
-    const auto include = [&](const unsigned int node) {
-      if (const double *values = field[node]; values[NodalField<dim>::mass] > 0.)
-        square = std::max(square, vector_of<dim>(values + NodalField<dim>::velocity).norm_square());
-    };
+    double square = 0.;
     for (const unsigned int node : field.active_nodes())
-      include(node);
+      square = std::max(square, square_of_speed<dim>(field[node]));
     for (unsigned int ghost = grid.n_owned_nodes(); ghost < grid.numbering().n_local(); ++ghost)
-      include(ghost);
+      square = std::max(square, square_of_speed<dim>(field[ghost]));
+    return std::sqrt(square);
+  }
+
+
+  template <int dim>
+  double BedContact<dim>::fastest_node(const NodalField<dim> &field, const unsigned int cell) const
+  {
+    double square             = 0.;
+    const unsigned int *nodes = grid.nodes(cell);
+    for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+      square = std::max(square, square_of_speed<dim>(field[nodes[i]]));
     return std::sqrt(square);
   }
 
@@ -178,34 +183,26 @@ namespace scree
 
 
   template <int dim>
-  void BedContact<dim>::add_cell(const SoilBody<dim> &body,
-                                 const CellPoints<dim> &points,
-                                 const NodalField<dim> &field,
-                                 const double dt)
+  void BedContact<dim>::find_candidates(const SoilBody<dim> &body, const CellPoints<dim> &points)
   {
-    const unsigned int *of_cell = grid.nodes(points.cell);
-    double fastest              = 0.; // square of the speed
-    for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-      if (const double *values = field[of_cell[i]]; values[NodalField<dim>::mass] > 0.)
-        fastest = std::max(fastest, vector_of<dim>(values + NodalField<dim>::velocity).norm_square());
-    find_near_surfaces(body, points, std::sqrt(fastest), dt);
-    if (near.empty())
-      return;
-
-    bool is_new = true;
+    candidates.clear();
     for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
       const BatchPointers<dim> pointers(points, indices);
       std::array<Batch, dim> places;
       simd::load_records<dim>(pointers.places, places.data());
+      constexpr double irrational[3] = { 1., 0.7548776662466927, 0.5698402909980532 };
+      Batch orders                   = irrational[0] * places[0];
+      for (unsigned int a = 1; a < dim; ++a)
+        orders += irrational[a] * places[a];
       for (const Near &one : near)
         {
           const SampledSurface<dim> &samples = *surfaces[one.surface].samples;
           const unsigned int touching        = body.layout.touching_distance(one.surface);
-          double touching_distances[batch_size];
+          Batch touching_distances;
           for (unsigned int l = 0; l < batch_size; ++l)
             touching_distances[l] = pointers.properties[l][touching];
-          const Batch distances  = samples.distances(points.cell, places);
-          const unsigned int far = simd::bits_of(distances - simd::load(touching_distances) > one.margin);
+          const Batch distances = samples.distances(points.cell, places), gaps = distances - touching_distances;
+          const unsigned int far = simd::bits_of(gaps > one.margin);
           for (unsigned int l = 0; l < n; ++l)
             {
               if (far >> l & 1)
@@ -213,17 +210,39 @@ namespace scree
                   std::fill_n(pointers.properties[l] + body.layout.contact_force(one.surface), dim, 0.);
                   continue;
                 }
-              if (is_new)
-                open_cell(body, points.cell, field);
-              is_new               = false;
-              const unsigned int p = indices[l];
-              const PointView<dim, double> point{
-                points.cell, points.properties_of(p), points.location_of(p), points.reference_location_of(p)
-              };
-              add_contact(body, one.surface, point, distances[l], dt);
+              const Candidate candidate{ orders[l], indices[l], one.surface, distances[l], gaps[l] };
+              unsigned int place = candidates.size();
+              candidates.emplace_back();
+              for (; place > 0 && candidates[place - 1].order > candidate.order; --place)
+                candidates[place] = candidates[place - 1];
+              candidates[place] = candidate;
             }
         }
     });
+  }
+
+
+  template <int dim>
+  void BedContact<dim>::add_cell(const SoilBody<dim> &body,
+                                 const CellPoints<dim> &points,
+                                 const NodalField<dim> &field,
+                                 const double dt)
+  {
+    find_near_surfaces(body, points, fastest_node(field, points.cell), dt);
+    if (near.empty())
+      return;
+    find_candidates(body, points);
+    if (candidates.empty())
+      return;
+    open_cell(body, points.cell, field);
+    for (const Candidate &candidate : candidates)
+      {
+        const unsigned int p = candidate.point;
+        add_contact(body,
+                    candidate,
+                    { points.cell, points.properties_of(p), points.location_of(p), points.reference_location_of(p) },
+                    dt);
+      }
   }
 
 
@@ -247,59 +266,35 @@ namespace scree
           return true;
       return false;
     };
-    unsigned int number = 0;
     for (auto &body : bodies)
-      {
-        const unsigned int first = cells.size();
-        if (body.group == group && !body.is_rigid)
-          for (const auto &cell : body.points.cells())
-            if (may_touch(body, cell.cell))
-              add_cell(body, cell, field, time_step);
-        for (unsigned int c = first; c < cells.size(); ++c)
-          cells[c].body = number;
-        ++number;
-      }
+      if (body.group == group && !body.is_rigid)
+        for (const auto &cell : body.points.cells())
+          if (may_touch(body, cell.cell))
+            add_cell(body, cell, field, time_step);
   }
 
 
   template <int dim>
-  void BedContact<dim>::join_cells()
+  void BedContact<dim>::order_cells()
   {
     constexpr unsigned int n_colours = Utilities::pow(colours_1d, dim), any = n_colours;
     static_assert(any < 32, "A bit each.");
-    // Cells of two bodies may be the same one. Those with as many contacts lie together, as each lane waits for the
-    // last.
-    std::stable_sort(cells.begin(), cells.end(), [](const Cell &a, const Cell &b) {
-      return std::make_tuple(a.colour, a.body, a.n) < std::make_tuple(b.colour, b.body, b.n);
-    });
-    cell_lanes.clear();
     first_of_colour.assign(n_colours + 1, 0);
-    unsigned int own_bits = 0, n_contacts = 0;
-    for (unsigned int c = 0; c < cells.size();)
+    unsigned int own_bits = cells.empty() ? 0u : 1u << any;
+    for (const Cell &cell : cells)
       {
-        const Cell &first = cells[c];
-        CellLanes lanes{};
-        lanes.first = n_contacts;
-        for (; lanes.n_cells < batch_size && c < cells.size() && cells[c].colour == first.colour &&
-               cells[c].body == first.body;
-             ++c)
-          {
-            lanes.cells[lanes.n_cells++] = c;
-            lanes.n                      = cells[c].n;
-            lanes.is_held                = lanes.is_held || cells[c].is_held;
-            if (cells[c].is_shared)
-              own_bits |= 1u << first.colour;
-          }
-        std::fill(lanes.cells.begin() + lanes.n_cells, lanes.cells.end(), c - 1);
-        n_contacts += lanes.n;
-        own_bits |= 1u << any;
-        ++first_of_colour[first.colour + 1];
-        cell_lanes.push_back(lanes);
+        ++first_of_colour[cell.colour + 1];
+        if (cell.is_shared)
+          own_bits |= 1u << cell.colour;
       }
-    if (contact_lanes.size() < n_contacts)
-      contact_lanes.resize(n_contacts);
     for (unsigned int c = 0; c < n_colours; ++c)
       first_of_colour[c + 1] += first_of_colour[c];
+    // Cells of two bodies may be the same one: those of a colour stay in order.
+    std::array<unsigned int, n_colours> next;
+    std::copy_n(first_of_colour.begin(), n_colours, next.begin());
+    sequence.resize(cells.size());
+    for (unsigned int b = 0; b < cells.size(); ++b)
+      sequence[next[cells[b].colour]++] = b;
     unsigned int bits = 0;
     const int error =
         MPI_Allreduce(&own_bits, &bits, 1, MPI_UNSIGNED, MPI_BOR, grid.triangulation().get_communicator());
@@ -317,7 +312,7 @@ namespace scree
   {
     balance.obstacles.resize(n_obstacles);
     find_contacts(field, time_step);
-    join_cells();
+    order_cells();
     if (!any_contact)
       return;
     start<n>();

@@ -299,22 +299,26 @@ namespace scree
         if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
           continue;
         const GroundSegment<dim> &segment = open_cells.segments()[s];
+        const unsigned int *of_cell       = grid.nodes(segment.cell);
         Tensor<1, dim> impulse;
         double dissipation = 0.;
         const auto add     = [&](const NodalField<dim> &field, const Tensor<1, dim> &of_phase) {
           if (of_phase.norm_square() == 0.)
             return;
-          double share = 0.;
-          Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
+          constexpr unsigned int last = Field<dim>::n_components - 4; // The change of velocity ends a node's values.
+          double share                = 0.;
+          NodeRow motions{}, last_values{};
           for (unsigned int i = 0; i < segment.shapes.size(); ++i)
             {
-              const double *values = field[grid.nodes(segment.cell)[i]];
+              const double *values = field[of_cell[i]];
               const double shape   = values[Field<dim>::mass] > 0. ? segment.shapes[i] : 0.;
               share += shape;
-              for (unsigned int c = 0; c < dim; ++c)
-                velocity[c] +=
-                    shape * (values[Field<dim>::velocity + c] - 0.5 * values[Field<dim>::velocity_change + c]);
+              motions += shape * load_row(values + Field<dim>::velocity);
+              last_values += shape * load_row(values + last);
             }
+          Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
+          for (unsigned int c = 0; c < dim; ++c)
+            velocity[c] = motions[c] - 0.5 * last_values[Field<dim>::velocity_change - last + c];
           impulse -= share * of_phase;
           dissipation += of_phase * velocity;
         };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/grid/cell_basis.h>
 #include <scree/scheme/bed_contact.h>
-#include <scree/tensor/vector.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace scree
 {
@@ -10,123 +12,125 @@ namespace scree
 
   namespace
   {
-    template <int dim>
-    DEAL_II_ALWAYS_INLINE inline Batch product(const Batch *a, const Batch *b)
+    /// Scales an impulse along a surface to what Coulomb's law allows, coulomb_friction().
+    DEAL_II_ALWAYS_INLINE inline void limit(const double available, NodeRow &impulse)
     {
-      Batch sum = a[0] * b[0];
-      for (unsigned int c = 1; c < dim; ++c)
-        sum += a[c] * b[c];
-      return sum;
+      const double square = sum(impulse * impulse);
+      if (square > available * available)
+        impulse *= available / std::sqrt(square);
     }
 
-    /// Coulomb's law, coulomb_friction(), in lanes.
-    template <int dim>
-    DEAL_II_ALWAYS_INLINE inline void
-    limit_friction(const Batch &coefficient, const Batch &normal_impulse, Batch *impulse)
+    /// A cell's nodes while impulses act on them: copies that lie together.
+    template <int dim, int n>
+    class CellMotion
     {
-      const Batch none{}, one = simd::broadcast<Batch>(1.);
-      const Batch available = simd::select<Batch>(normal_impulse > 0., coefficient * normal_impulse, none);
-      const Batch size      = simd::sqrt(product<dim>(impulse, impulse));
-      const Batch part =
-          simd::select<Batch>(size < available, one, simd::select<Batch>(size > 0., available / size, none));
-      for (unsigned int a = 0; a < dim; ++a)
-        impulse[a] *= part;
-    }
+    public:
+      static constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
+
+      CellMotion(ContactNodes<dim> &nodes, const unsigned int *numbers)
+          : nodes(nodes)
+          , numbers(numbers)
+      {
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          motions[i] = nodes.motion(numbers[i]);
+      }
+
+      /// The velocity, m/s, at the foot of a contact with these shape functions, and their sum beside.
+      DEAL_II_ALWAYS_INLINE inline NodeRow velocity_at(const double *shape) const
+      {
+        // Several sums, as each addition would wait for the one before.
+        NodeRow sums[n];
+        for (unsigned int j = 0; j < n; ++j)
+          sums[j] = shape[j] * motions[j];
+        for (unsigned int i = n; i < n_nodes; i += n)
+          for (unsigned int j = 0; j < n; ++j)
+            sums[j] += shape[i + j] * motions[i + j];
+        for (unsigned int j = 1; j < n; ++j)
+          sums[0] += sums[j];
+        return sums[0];
+      }
+
+      /// Adds an impulse, N s, there, as far as walls let the nodes go; 0 beside it.
+      DEAL_II_ALWAYS_INLINE inline void push(const double *shape, const NodeRow &impulse)
+      {
+        if (!is_pushed)
+          for (unsigned int i = 0; i < n_nodes; ++i)
+            mobilities[i] = nodes.mobility(numbers[i]);
+        is_pushed = true;
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          motions[i] += shape[i] * mobilities[i] * impulse;
+      }
+
+      /// Gives the nodes the velocities.
+      void store()
+      {
+        if (is_pushed)
+          for (unsigned int i = 0; i < n_nodes; ++i)
+            nodes.motion(numbers[i]) = motions[i];
+      }
+
+    private:
+      ContactNodes<dim> &nodes;
+      const unsigned int *numbers;
+      bool is_pushed = false;
+      NodeRow motions[n_nodes];
+      NodeRow mobilities[n_nodes]; // once it is pushed
+    };
 
     constexpr double smallest = 1e-9; // of the free point's mobility: below, walls hold it
   }                                   // namespace
 
 
   template <int dim>
-  std::array<const unsigned int *, batch_size> BedContact<dim>::nodes_of(const CellLanes &lanes) const
-  {
-    std::array<const unsigned int *, batch_size> result;
-    for (unsigned int l = 0; l < batch_size; ++l)
-      result[l] = &nodes_of_cells[cells[lanes.cells[l]].nodes];
-    return result;
-  }
-
-
-  template <int dim>
-  void BedContact<dim>::fill_lanes(const CellLanes &lanes, const unsigned int k, ContactLanes<dim> &to) const
-  {
-    const Contact nothing{};
-    for (unsigned int l = 0; l < batch_size; ++l)
-      {
-        const Cell &cell       = cells[lanes.cells[l]];
-        const Contact &contact = k < cell.n ? contacts[cell.first + k] : nothing;
-        to.approach[l]         = contact.approach;
-        to.friction[l]         = contact.friction;
-        to.normal_impulse[l]   = contact.normal_impulse;
-        for (unsigned int a = 0; a < dim; ++a)
-          {
-            to.normal[a][l]           = contact.normal[a];
-            to.tangent_impulse[a][l]  = contact.tangent_impulse[a];
-            to.surface_velocity[a][l] = surfaces[contact.surface].velocity[a];
-          }
-      }
-  }
-
-
-  template <int dim>
   template <int n>
-  void BedContact<dim>::start(const CellLanes &lanes)
+  void BedContact<dim>::set_shapes(const Cell &cell, Contact &contact, double *shape) const
   {
-    using OfNodes                  = NodeLanes<dim, n>;
-    constexpr unsigned int n_nodes = OfNodes::n_nodes;
-    OfNodes of_nodes(nodes, nodes_of(lanes));
-    of_nodes.find_free_axes(lanes.is_held);
-    std::array<OpenKnots, batch_size> open;
-    Batch most_mobility;
-    for (unsigned int l = 0; l < batch_size; ++l)
+    using Basis                 = CellBasis<dim, n>;
+    const unsigned int *numbers = &nodes_of_cells[cell.nodes];
+    const OpenKnots open        = grid.open_knots(cell.number);
+    const auto set_mobility     = [&] {
+      NodeRow sums[n]{}; // Several, as each addition would wait for the one before.
+      for (unsigned int i = 0; i < Basis::n_nodes; i += n)
+        for (unsigned int j = 0; j < n; ++j)
+          sums[j] += shape[i + j] * shape[i + j] * nodes.mobility(numbers[i + j]);
+      contact.mobility = sums[0];
+      for (unsigned int j = 1; j < n; ++j)
+        contact.mobility += sums[j];
+    };
+    const auto set_row = [&](const unsigned int r, const NodeRow &row) {
+      for (unsigned int i = 0; i < n; ++i)
+        shape[r * n + i] = row[i];
+    };
+    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    const Basis at_foot(contact.place + contact.to_foot, open);
+    const RowFactors<dim, n> of_foot(at_foot);
+    for (unsigned int r = 0; r < n_rows; ++r)
+      set_row(r, of_foot.value[r] * make_row(at_foot.value[0]));
+    set_mobility();
+    if (contact.mobility[ContactNodes<dim>::beside] > cell.most_mobility)
       {
-        open[l]          = grid.open_knots(cells[lanes.cells[l]].number);
-        most_mobility[l] = cells[lanes.cells[l]].most_mobility;
+        const Basis at_point(contact.place, open);
+        const RowFactors<dim, n> of_point(at_point);
+        const NodeRow row       = make_row(at_point.value[0]);
+        const NodeRow first_row = row + contact.to_foot[0] * make_row(at_point.derivative[0]);
+        for (unsigned int r = 0; r < n_rows; ++r)
+          {
+            double slope = 0.;
+            for (unsigned int a = 1; a < dim; ++a)
+              slope += contact.to_foot[a] * of_point.derivative[a - 1][r];
+            set_row(r, of_point.value[r] * first_row + slope * row);
+          }
+        set_mobility();
       }
-    const Batch none{}, one = simd::broadcast<Batch>(1.);
-    bool is_changed = false;
-    for (unsigned int k = 0; k < lanes.n; ++k)
+    const double mobility = contact.mobility[ContactNodes<dim>::beside];
+    contact.inertia       = mobility > 0. ? 1. / mobility : 0.;
+    if (cell.is_held)
       {
-        ContactLanes<dim> &contact = contact_lanes[lanes.first + k];
-        fill_lanes(lanes, k, contact);
-        std::array<Batch, dim> place, to_foot;
-        simd::BatchBits is_there;
-        for (unsigned int l = 0; l < batch_size; ++l)
-          {
-            const Cell &cell = cells[lanes.cells[l]];
-            const Contact &c = contacts[cell.first + std::min(k, cell.n - 1)];
-            is_there[l]      = k < cell.n ? -1 : 0;
-            for (unsigned int a = 0; a < dim; ++a)
-              {
-                place[a][l]   = c.place[a];
-                to_foot[a][l] = c.to_foot[a];
-              }
-          }
-        set_shapes<dim, n>(place, to_foot, open, most_mobility, of_nodes, contact);
-        contact.inertia        = simd::select<Batch>(is_there, contact.inertia, none);
-        contact.normal_inertia = contact.inertia;
-        if (lanes.is_held)
-          {
-            Batch across{};
-            for (unsigned int a = 0; a < dim; ++a)
-              {
-                contact.mobility[a] = none;
-                for (unsigned int i = 0; i < n_nodes; ++i)
-                  contact.mobility[a] += contact.shape[i] * contact.shape[i] * of_nodes.inverse_mass(i, a);
-                across += contact.normal[a] * contact.normal[a] * contact.mobility[a];
-              }
-            contact.normal_inertia = simd::select<Batch>(across * contact.inertia >= smallest, one / across, none);
-          }
-        if (!simd::any(contact.normal_impulse > 0.))
-          continue;
-        is_changed = true;
-        Batch impulse[dim];
-        for (unsigned int a = 0; a < dim; ++a)
-          impulse[a] = contact.normal_impulse * contact.normal[a] + contact.tangent_impulse[a];
-        of_nodes.push(contact.shape, impulse);
+        const double across    = sum(contact.normal * contact.normal * contact.mobility);
+        contact.normal_inertia = across * contact.inertia >= smallest ? 1. / across : 0.;
       }
-    if (is_changed)
-      of_nodes.store();
+    else
+      contact.normal_inertia = contact.inertia;
   }
 
 
@@ -134,8 +138,22 @@ namespace scree
   template <int n>
   void BedContact<dim>::start()
   {
-    for (const CellLanes &lanes : cell_lanes)
-      start<n>(lanes);
+    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
+    if (shapes.size() < contacts.size() * n_nodes)
+      shapes.resize(contacts.size() * n_nodes);
+    for (const Cell &cell : cells)
+      {
+        CellMotion<dim, n> motion(nodes, &nodes_of_cells[cell.nodes]);
+        for (unsigned int k = cell.first; k < cell.first + cell.n; ++k)
+          {
+            Contact &contact = contacts[k];
+            double *shape    = &shapes[std::size_t(k) * n_nodes];
+            set_shapes<n>(cell, contact, shape);
+            if (contact.normal_impulse > 0.)
+              motion.push(shape, contact.normal_impulse * contact.normal + contact.tangent_impulse);
+          }
+        motion.store();
+      }
     if (std::find(is_colour_shared.begin(), is_colour_shared.end(), true) != is_colour_shared.end())
       nodes.exchange();
   }
@@ -143,60 +161,41 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void BedContact<dim>::sweep(const CellLanes &lanes, const bool is_forward)
+  void BedContact<dim>::sweep(const Cell &cell, const bool is_forward)
   {
-    NodeLanes<dim, n> of_nodes(nodes, nodes_of(lanes));
-    of_nodes.find_free_axes(lanes.is_held);
-    const Batch none{};
-    bool is_changed = false;
-    for (unsigned int k = 0; k < lanes.n; ++k)
+    using Motion = CellMotion<dim, n>;
+    Motion motion(nodes, &nodes_of_cells[cell.nodes]);
+    for (unsigned int k = 0; k < cell.n; ++k)
       {
-        ContactLanes<dim> &contact = contact_lanes[lanes.first + (is_forward ? k : lanes.n - 1 - k)];
-        Batch slip[dim]; // at the foot, from the surface
-        of_nodes.velocity_at(contact.shape, slip);
-        for (unsigned int a = 0; a < dim; ++a)
-          slip[a] -= contact.surface_velocity[a];
-        const Batch across = product<dim>(slip, contact.normal);
-        const Batch before = contact.normal_impulse;
-        const Batch normal = simd::max<Batch>(before - (across - contact.approach) * contact.normal_inertia, none);
-        if (!simd::any((normal > 0.) | (before > 0.)))
-          continue; // None of them touches.
-        const Batch more       = normal - before;
-        contact.normal_impulse = normal;
-        is_changed             = true;
-        for (unsigned int a = 0; a < dim; ++a)
-          slip[a] -= across * contact.normal[a];
+        const unsigned int number = cell.first + (is_forward ? k : cell.n - 1 - k);
+        Contact &contact          = contacts[number];
+        const double *shape       = &shapes[std::size_t(number) * Motion::n_nodes];
+        NodeRow slip              = motion.velocity_at(shape) - contact.surface_velocity;
+        const double across       = sum(slip * contact.normal);
+        const double before       = contact.normal_impulse;
+        const double normal       = std::max(before - (across - contact.approach) * contact.normal_inertia, 0.);
+        if (contact.normal_inertia == 0. || (normal == 0. && before == 0.))
+          continue; // Walls hold it, or it does not touch.
+        const double more = normal - before;
+        slip -= across * contact.normal;
+        slip[ContactNodes<dim>::beside] = 0.;
         // An impulse across the surface does nothing along it, but where walls hold nodes.
-        Batch inertia = contact.inertia;
-        if (lanes.is_held)
+        double inertia = contact.inertia;
+        if (cell.is_held)
           {
-            Batch gained[dim], along{};
-            for (unsigned int a = 0; a < dim; ++a)
-              gained[a] = more * contact.mobility[a] * contact.normal[a];
-            const Batch gained_across = product<dim>(gained, contact.normal);
-            for (unsigned int a = 0; a < dim; ++a)
-              {
-                slip[a] += gained[a] - gained_across * contact.normal[a];
-                along += slip[a] * slip[a] * contact.mobility[a];
-              }
-            const Batch square = product<dim>(slip, slip);
-            inertia            = simd::select<Batch>(
-                (square > 0.) & (along * contact.inertia >= smallest * square), square / along, none);
+            const NodeRow gained = more * contact.mobility * contact.normal;
+            slip += gained - sum(gained * contact.normal) * contact.normal;
+            const double along  = sum(slip * slip * contact.mobility);
+            const double square = sum(slip * slip);
+            inertia             = square > 0. && along * contact.inertia >= smallest * square ? square / along : 0.;
           }
-        Batch tangent[dim], change[dim];
-        for (unsigned int a = 0; a < dim; ++a)
-          tangent[a] = contact.tangent_impulse[a] - inertia * slip[a];
-        limit_friction<dim>(contact.friction, normal, tangent);
-        for (unsigned int a = 0; a < dim; ++a)
-          {
-            tangent[a] = simd::select<Batch>(contact.normal_inertia > 0., tangent[a], contact.tangent_impulse[a]);
-            change[a]  = more * contact.normal[a] + (tangent[a] - contact.tangent_impulse[a]);
-            contact.tangent_impulse[a] = tangent[a];
-          }
-        of_nodes.push(contact.shape, change);
+        NodeRow tangent = contact.tangent_impulse - inertia * slip;
+        limit(available_friction(contact.friction, normal), tangent);
+        motion.push(shape, more * contact.normal + (tangent - contact.tangent_impulse));
+        contact.normal_impulse  = normal;
+        contact.tangent_impulse = tangent;
       }
-    if (is_changed)
-      of_nodes.store();
+    motion.store();
   }
 
 
@@ -210,7 +209,7 @@ namespace scree
         const unsigned int colour = is_forward ? k : n_colours - 1 - k;
         const unsigned int first = first_of_colour[colour], last = first_of_colour[colour + 1];
         for (unsigned int i = first; i < last; ++i)
-          sweep<n>(cell_lanes[is_forward ? i : first + last - 1 - i], is_forward);
+          sweep<n>(cells[sequence[is_forward ? i : first + last - 1 - i]], is_forward);
         if (is_colour_shared[colour])
           nodes.exchange();
       }
@@ -219,30 +218,23 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void BedContact<dim>::add_reactions(const CellLanes &lanes, StepBalance<dim> &balance)
+  void BedContact<dim>::add_reactions(const Cell &cell, StepBalance<dim> &balance)
   {
-    const double *axes = nodes.free_axes();
-    for (unsigned int l = 0; l < lanes.n_cells; ++l)
+    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
+    for (unsigned int i = 0; i < n_nodes; ++i)
       {
-        const Cell &cell = cells[lanes.cells[l]];
-        for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes && cell.is_held; ++i)
-          {
-            const unsigned int number = nodes_of_cells[cell.nodes + i];
-            if (!nodes.is_held(number))
-              continue;
-            Tensor<1, dim> reaction;
-            for (unsigned int k = 0; k < cell.n; ++k)
-              {
-                const ContactLanes<dim> &contact = contact_lanes[lanes.first + k];
-                for (unsigned int a = 0; a < dim; ++a)
-                  reaction[a] -= contact.shape[i][l] *
-                                 (contact.normal_impulse[l] * contact.normal[a][l] + contact.tangent_impulse[a][l]);
-              }
-            for (unsigned int a = 0; a < dim; ++a)
-              reaction[a] *= 1. - axes[number * ContactNodes<dim>::n_doubles + a];
-            balance.wall_impulse += reaction;
-            balance.soil_walls.add(constraints.at(nodes.node(number))->soil_faces, reaction);
-          }
+        const unsigned int number = nodes_of_cells[cell.nodes + i];
+        const NodeRow &mobility   = nodes.mobility(number);
+        if (!nodes.is_held(number) || mobility[ContactNodes<dim>::beside] == 0.)
+          continue;
+        Tensor<1, dim> reaction;
+        for (unsigned int k = cell.first; k < cell.first + cell.n; ++k)
+          for (unsigned int a = 0; a < dim; ++a)
+            if (mobility[a] == 0.)
+              reaction[a] -= shapes[std::size_t(k) * n_nodes + i] *
+                             (contacts[k].normal_impulse * contacts[k].normal[a] + contacts[k].tangent_impulse[a]);
+        balance.wall_impulse += reaction;
+        balance.soil_walls.add(constraints.at(nodes.node(number))->soil_faces, reaction);
       }
   }
 
@@ -251,49 +243,35 @@ namespace scree
   template <int n>
   void BedContact<dim>::finish(const double time_step, StepBalance<dim> &balance)
   {
-    constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes;
-    for (const CellLanes &lanes : cell_lanes)
+    using Motion = CellMotion<dim, n>;
+    for (const Cell &cell : cells)
       {
-        const NodeLanes<dim, n> working(nodes, nodes_of(lanes));
-        for (unsigned int k = 0; k < lanes.n; ++k)
+        const Motion working(nodes, &nodes_of_cells[cell.nodes]);
+        for (unsigned int k = cell.first; k < cell.first + cell.n; ++k)
           {
-            const ContactLanes<dim> &in_lanes = contact_lanes[lanes.first + k];
-            Batch velocity[dim], impulses[dim], sum{};
-            working.velocity_at(in_lanes.shape, velocity);
-            for (unsigned int i = 0; i < n_nodes; ++i)
-              sum += in_lanes.shape[i];
+            const Contact &contact       = contacts[k];
+            const NodeRow velocity       = working.velocity_at(&shapes[std::size_t(k) * Motion::n_nodes]);
+            const NodeRow at_point       = contact.normal_impulse * contact.normal + contact.tangent_impulse;
+            const double work_at_nodes   = sum(at_point * velocity);
+            const Tensor<1, dim> impulse = to_vector<dim>(velocity[ContactNodes<dim>::beside] * at_point);
             for (unsigned int a = 0; a < dim; ++a)
-              impulses[a] = in_lanes.normal_impulse * in_lanes.normal[a] + in_lanes.tangent_impulse[a];
-            const Batch work_at_nodes = product<dim>(impulses, velocity);
-            for (unsigned int l = 0; l < lanes.n_cells; ++l)
+              contact.force[a] = at_point[a] / time_step;
+            const RigidSurface<dim> &surface = surfaces[contact.surface];
+            if (surface.obstacle == nullptr)
               {
-                const Cell &cell = cells[lanes.cells[l]];
-                if (k >= cell.n)
-                  continue;
-                const Contact &contact = contacts[cell.first + k];
-                Tensor<1, dim> impulse;
-                for (unsigned int a = 0; a < dim; ++a)
-                  {
-                    contact.force[a] = impulses[a][l] / time_step;
-                    impulse[a]       = sum[l] * impulses[a][l];
-                  }
-                const RigidSurface<dim> &surface = surfaces[contact.surface];
-                if (surface.obstacle == nullptr)
-                  {
-                    balance.bed_impulse += impulse;
-                    balance.bed_dissipation -= work_at_nodes[l];
-                    continue;
-                  }
-                ObstacleBalance<dim> &obstacle = balance.obstacles[contact.surface - (surfaces.size() - n_obstacles)];
-                const double work              = impulse * surface.velocity;
-                obstacle.impulse += impulse;
-                obstacle.add_moment(contact.foot - surface.obstacle->pivot, impulse);
-                obstacle.work += work;
-                obstacle.dissipation += work - work_at_nodes[l];
+                balance.bed_impulse += impulse;
+                balance.bed_dissipation -= work_at_nodes;
+                continue;
               }
+            ObstacleBalance<dim> &obstacle = balance.obstacles[contact.surface - (surfaces.size() - n_obstacles)];
+            const double work              = impulse * surface.velocity;
+            obstacle.impulse += impulse;
+            obstacle.add_moment(contact.foot - surface.obstacle->pivot, impulse);
+            obstacle.work += work;
+            obstacle.dissipation += work - work_at_nodes;
           }
-        if (lanes.is_held)
-          add_reactions<n>(lanes, balance);
+        if (cell.is_held)
+          add_reactions<n>(cell, balance);
       }
   }
 

@@ -60,8 +60,8 @@ namespace scree
     for (const Node &node : nodes)
       number_of_node[node.node] = free;
     nodes.clear();
-    motion_records.clear();
-    axis_records.clear();
+    motions.clear();
+    mobilities.clear();
     for (const unsigned int node : shared_owned)
       if (field[node][NodalField<dim>::mass] > 0.)
         add(node, field);
@@ -74,13 +74,14 @@ namespace scree
     number_of_node[node] = nodes.size();
     const double *values = field[node];
     const double mass    = values[NodalField<dim>::mass];
-    Record motion{}, axes{ { 1., 1., 1., 1. } };
+    NodeRow motion{}, mobility{};
     Tensor<1, dim> velocity;
     if (mass > 0.)
       {
-        motion[inverse_mass] = 1. / mass;
-        for (unsigned int c = 0; c < dim; ++c)
-          motion[c] = velocity[c] = values[NodalField<dim>::velocity + c];
+        velocity       = vector_of<dim>(values + NodalField<dim>::velocity);
+        motion         = to_row<dim>(velocity);
+        motion[beside] = 1.;
+        mobility       = NodeRow{} + 1. / mass;
       }
     bool is_held = false;
     if (const NodeConstraints<dim> *walls = constraints.at(node))
@@ -88,11 +89,11 @@ namespace scree
         const HeldDirections<dim> held = held_by_walls(*walls, velocity);
         is_held                        = held.any();
         for (unsigned int a = 0; a < dim; ++a)
-          axes[a] = held.free_part(Point<dim>::unit_vector(a))[a];
+          mobility[a] *= held.free_part(Point<dim>::unit_vector(a))[a];
       }
     nodes.push_back({ node, is_held, velocity, velocity });
-    motion_records.push_back(motion);
-    axis_records.push_back(axes);
+    motions.push_back(motion);
+    mobilities.push_back(mobility);
   }
 
 
@@ -119,17 +120,17 @@ namespace scree
     for (unsigned int k = 0; k < nodes.size(); ++k)
       if (nodes[k].node >= n_owned)
         for (unsigned int c = 0; c < dim; ++c)
-          messages[nodes[k].node][c] = motion_records[k][c] - nodes[k].known[c];
+          messages[nodes[k].node][c] = motions[k][c] - nodes[k].known[c];
     messages.add_contributions();
     for (const unsigned int node : shared_owned)
       if (const unsigned int number = number_of_node[node]; number != free)
         for (unsigned int c = 0; c < dim; ++c)
-          messages[node][c] = nodes[number].known[c] = motion_records[number][c] += messages[node][c];
+          messages[node][c] = nodes[number].known[c] = motions[number][c] += messages[node][c];
     messages.update_ghosts();
     for (unsigned int k = 0; k < nodes.size(); ++k)
       if (nodes[k].node >= n_owned)
         for (unsigned int c = 0; c < dim; ++c)
-          motion_records[k][c] = nodes[k].known[c] = messages[nodes[k].node][c];
+          motions[k][c] = nodes[k].known[c] = messages[nodes[k].node][c];
     messages.clear();
   }
 
@@ -138,11 +139,11 @@ namespace scree
   void ContactNodes<dim>::write(NodalField<dim> &field, StepBalance<dim> &balance)
   {
     for (unsigned int k = 0; k < nodes.size(); ++k)
-      if (const unsigned int node = nodes[k].node; node < grid.n_owned_nodes() && motion_records[k][inverse_mass] > 0.)
+      if (const unsigned int node = nodes[k].node; node < grid.n_owned_nodes() && mobilities[k][beside] > 0.)
         {
-          Tensor<1, dim> velocity = vector_of<dim>(motion_records[k].data());
+          Tensor<1, dim> velocity = to_vector<dim>(motions[k]);
           if (const NodeConstraints<dim> *walls = constraints.at(node))
-            stop_at_walls(*walls, motion_records[k][inverse_mass], velocity, balance);
+            stop_at_walls(*walls, mobilities[k][beside], velocity, balance);
           double *values = field[node];
           for (unsigned int c = 0; c < dim; ++c)
             {
@@ -158,14 +159,14 @@ namespace scree
   void ContactNodes<dim>::take_working_velocities(const NodalField<dim> &field)
   {
     for (unsigned int k = 0; k < nodes.size(); ++k)
-      if (motion_records[k][inverse_mass] > 0.)
+      if (mobilities[k][beside] > 0.)
         {
           const double *values         = field[nodes[k].node];
           const Tensor<1, dim> after   = vector_of<dim>(values + NodalField<dim>::velocity);
           const Tensor<1, dim> working = working_velocity(
               after, vector_of<dim>(values + NodalField<dim>::velocity_change), after - nodes[k].before);
           for (unsigned int c = 0; c < dim; ++c)
-            motion_records[k][c] = working[c];
+            motions[k][c] = working[c];
         }
   }
 

@@ -260,13 +260,11 @@ namespace scree
   double GroundResponse<dim>::mobility_at(const unsigned int contact) const
   {
     const Contact &of_impulse = contacts[contact];
+    const auto mobility_of    = of_impulse.phase == Phase::soil ? &DragMobility::soil : &DragMobility::water;
     double mobility           = 0.;
     for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-      {
-        const DragMobility &of_node = nodes[nodes_of_segments[of_impulse.first + i]].mobility;
-        mobility += of_impulse.shapes[i] * of_impulse.shapes[i] *
-                    (of_impulse.phase == Phase::soil ? of_node.soil : of_node.water);
-      }
+      mobility += of_impulse.shapes[i] * of_impulse.shapes[i] *
+                  (nodes[nodes_of_segments[of_impulse.first + i]].mobility.*mobility_of);
     return mobility;
   }
 
@@ -284,15 +282,25 @@ namespace scree
     const Contact &of_impulse      = contacts[contact];
     const unsigned int *of_segment = &nodes_of_segments[of_impulse.first];
     const bool is_soil             = of_impulse.phase == Phase::soil;
-    const NodeRow whole            = to_row(impulse);
-    const unsigned int n_nodes     = grid.n_nodes_per_cell();
+    NodeRow *own = values[is_soil ? 0 : 1].data(), *other = values[is_soil ? 1 : 0].data();
+    const NodeRow whole        = to_row(impulse), none{};
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
     for (unsigned int i = 0; i < n_nodes; ++i)
       {
-        const Node &node   = nodes[of_segment[i]];
-        const NodeRow part = of_impulse.shapes[i] * whole, none{};
-        const auto motion  = motion_of(node, is_soil ? part : none, is_soil ? none : part);
-        values[0][of_segment[i]] += motion.first;
-        values[1][of_segment[i]] += motion.second;
+        const unsigned int number = of_segment[i];
+        const Node &node          = nodes[number];
+        const NodeRow part        = of_impulse.shapes[i] * whole;
+        if (node.is_held())
+          {
+            const auto motion = motion_of(node, is_soil ? part : none, is_soil ? none : part);
+            values[0][number] += motion.first;
+            values[1][number] += motion.second;
+          }
+        else
+          {
+            own[number] += (is_soil ? node.mobility.soil : node.mobility.water) * part;
+            other[number] += node.mobility.other * part;
+          }
       }
   }
 

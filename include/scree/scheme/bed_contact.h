@@ -4,10 +4,9 @@
 
 #include <scree/grid/sampled_surface.h>
 #include <scree/points/soil_body.h>
-#include <scree/scheme/contact_lanes.h>
+#include <scree/scheme/contact_nodes.h>
 #include <scree/scheme/obstacle.h>
 
-#include <array>
 #include <list>
 #include <vector>
 
@@ -64,20 +63,33 @@ namespace scree
     void solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
 
   private:
-    /// A point that may touch a surface.
+    /// A point of the current cell that may touch a surface.
+    struct Candidate
+    {
+      double order; ///< of the points in a cell, the same on any rank
+      unsigned int point;
+      unsigned int surface;
+      double distance; ///< m
+      double gap;      ///< m: how much that is more than its touching distance
+    };
+
+    /// A point that may touch a surface, and what it has felt of it. Vectors have 0 beside them.
     struct Contact
     {
-      double *force; ///< the point's slots
+      NodeRow normal;           ///< of the surface, unit, into the open
+      NodeRow surface_velocity; ///< m/s
+      NodeRow tangent_impulse;  ///< N s
+      NodeRow mobility;         ///< sum A_i^2/m_i over the nodes that are free along an axis; beside: over all, 1/kg
+      double normal_impulse;    ///< N s, not negative
+      double normal_inertia;    ///< 1 over the mobility along the normal, kg; 0 where walls hold it
+      double inertia;           ///< 1 over that without walls, kg; 0 where nothing can move
+      double approach;          ///< least velocity along the normal from the surface, m/s
+      double friction;          ///< coefficient
+      double *force;            ///< the point's slots
       unsigned int surface;
-      double friction;                ///< coefficient
       dealii::Point<dim> place;       ///< of the point in its cell
       dealii::Tensor<1, dim> to_foot; ///< from there, cell widths
       dealii::Point<dim> foot;        ///< m
-      dealii::Tensor<1, dim> normal;
-      double approach;                        ///< least velocity along the normal from the surface, m/s
-      double normal_impulse;                  ///< N s, not negative
-      dealii::Tensor<1, dim> tangent_impulse; ///< N s
-      double order;                           ///< of the points in a cell, the same on any rank
     };
 
     /// The contacts of a body's points in a cell; its nodes lie behind each other.
@@ -85,21 +97,11 @@ namespace scree
     {
       unsigned int number; ///< active cell index
       unsigned int colour;
-      unsigned int body;
       unsigned int first, n; ///< contacts
       unsigned int nodes;    ///< first of its nodes
       bool is_held;          ///< whether walls hold one of its nodes
       bool is_shared;        ///< whether other ranks know one
       double most_mobility;  ///< of a contact with the foot's own shape functions, 1/kg
-    };
-
-    /// Cells that share no nodes, a lane each. Without enough of them the last one is repeated.
-    struct CellLanes
-    {
-      unsigned int n_cells;                       ///< that count
-      std::array<unsigned int, batch_size> cells; ///< numbers in the list
-      unsigned int first, n;                      ///< contacts in lanes, as many as the cell with the most has
-      bool is_held;                               ///< whether walls hold nodes of any
     };
 
     /// The gap, m, up to which points beside nodes as fast, m/s, may touch a surface in the step.
@@ -108,43 +110,50 @@ namespace scree
     /// The speed of the fastest node that this rank knows, m/s.
     double fastest_node(const NodalField<dim> &field) const;
 
-    /// Finds the surfaces that points of the cell may touch, with their margins.
-    void
-    find_near_surfaces(const SoilBody<dim> &body, const CellPoints<dim> &points, const double fastest, const double dt);
+    /// The same among the nodes of a cell.
+    double fastest_node(const NodalField<dim> &field, const unsigned int cell) const;
 
     /// Lists the contacts.
     void find_contacts(const NodalField<dim> &field, const double time_step);
-    void open_cell(const SoilBody<dim> &body, const unsigned int cell, const NodalField<dim> &field);
+
+    /// Lists the surfaces that points of the cell may touch beside nodes as fast, m/s.
+    void
+    find_near_surfaces(const SoilBody<dim> &body, const CellPoints<dim> &points, const double fastest, const double dt);
+
+    /// Lists the points of the cell that may touch them, in order.
+    void find_candidates(const SoilBody<dim> &body, const CellPoints<dim> &points);
+
     void
     add_cell(const SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field, const double dt);
+
+    /// Adds a cell for the contacts of the candidates.
+    void open_cell(const SoilBody<dim> &body, const unsigned int cell, const NodalField<dim> &field);
     void add_contact(const SoilBody<dim> &body,
-                     const unsigned int surface,
+                     const Candidate &candidate,
                      const PointView<dim, double> &point,
-                     const double distance,
                      const double dt);
 
     /// The velocity along the normal that a point with this gap, m, must have at least.
     double least_approach(const double gap, const double dt) const;
 
-    /// Puts cells of a colour together in lanes, and tells which colours concern several ranks. Collective.
-    void join_cells();
+    /// Puts the cells into the sequence of the sweeps, and tells which colours concern several ranks. Collective.
+    void order_cells();
 
-    /// Numbers of the nodes of the cells in lanes.
-    std::array<const unsigned int *, batch_size> nodes_of(const CellLanes &lanes) const;
-
-    /// Puts the contacts into lanes and gives the nodes the impulses of the step before.
+    /// Finds the contacts' shape functions and mobilities, and gives the nodes the impulses of the step before.
     template <int n>
     void start();
-    template <int n>
-    void start(const CellLanes &lanes);
 
-    /// Copies a contact of each cell.
-    void fill_lanes(const CellLanes &lanes, const unsigned int k, ContactLanes<dim> &contact) const;
+    /// Sets the shape functions A_i at the contact's foot, and its mobility.
+    ///
+    /// They are the functions of the point's own cell, also where the foot is outside: A_i = phi_i(x - d n). Beside
+    /// light nodes these would let a small impulse do much; then A_i = phi_i(x) - d n . grad phi_i(x).
+    template <int n>
+    void set_shapes(const Cell &cell, Contact &contact, double *shape) const;
 
     template <int n>
     void sweep(const bool is_forward);
     template <int n>
-    void sweep(const CellLanes &lanes, const bool is_forward);
+    void sweep(const Cell &cell, const bool is_forward);
 
     /// Stores the forces in the points and adds up what the surfaces did.
     template <int n>
@@ -152,7 +161,7 @@ namespace scree
 
     /// Adds what walls bear of the impulses on the nodes that they hold.
     template <int n>
-    void add_reactions(const CellLanes &lanes, StepBalance<dim> &balance);
+    void add_reactions(const Cell &cell, StepBalance<dim> &balance);
 
     template <int n>
     void solve(NodalField<dim> &field, const double time_step, StepBalance<dim> &balance);
@@ -172,15 +181,16 @@ namespace scree
       unsigned int surface;
       double margin;
     };
-    std::vector<Near> near; // of the current cell
-    std::vector<Cell> cells;
-    std::vector<unsigned int> nodes_of_cells; // numbers in `nodes`
+    std::vector<Near> near;            // of the current cell
+    std::vector<Candidate> candidates; // of the current cell
     std::vector<Contact> contacts;
-    std::vector<CellLanes> cell_lanes;
-    std::vector<ContactLanes<dim>> contact_lanes; // room for those of the step with the most
-    std::vector<unsigned int> first_of_colour;    // in lanes
-    std::vector<char> is_colour_shared;           // by ranks
-    bool any_contact = false;                     // on any rank
+    std::vector<double> shapes; // A_i of each contact; room for those of the step with the most
+    std::vector<Cell> cells;
+    std::vector<unsigned int> nodes_of_cells;  // numbers in `nodes`
+    std::vector<unsigned int> sequence;        // of the cells in a sweep
+    std::vector<unsigned int> first_of_colour; // in it
+    std::vector<char> is_colour_shared;        // by ranks
+    bool any_contact = false;                  // on any rank
   };
 } // namespace scree
 

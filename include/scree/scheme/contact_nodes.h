@@ -5,8 +5,8 @@
 #include <scree/grid/constraints.h>
 #include <scree/grid/nodal_field.h>
 #include <scree/scheme/step_balance.h>
+#include <scree/transfer/node_rows.h>
 
-#include <array>
 #include <vector>
 
 namespace scree
@@ -27,9 +27,8 @@ namespace scree
   class ContactNodes
   {
   public:
-    /// What impulses change of a node, as a record that lanes load and store: velocity, m/s, and 1/mass, 1/kg, 0
-    /// without soil.
-    static constexpr unsigned int n_doubles = 4, inverse_mass = 3;
+    /// The lane beside a vector in a row.
+    static constexpr unsigned int beside = 3;
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
@@ -55,16 +54,17 @@ namespace scree
       return nodes[number].node;
     }
 
-    /// The records of all nodes.
-    double *motions()
+    /// The velocity, m/s, which impulses change, and beside it 1 where there is soil, else 0.
+    NodeRow &motion(const unsigned int number)
     {
-      return motion_records.data()->data();
+      return motions[number];
     }
 
-    /// Records as long: 0 for the axes along which walls hold the node, else 1. (Walls are faces of the box.)
-    double *free_axes()
+    /// What an impulse along each axis does to it, 1/kg: 1/mass, but 0 where walls hold the node (walls are faces of
+    /// the box); and 1/mass beside. All are 0 without soil.
+    const NodeRow &mobility(const unsigned int number) const
     {
-      return axis_records.data()->data();
+      return mobilities[number];
     }
 
     bool is_held(const unsigned int number) const
@@ -97,8 +97,6 @@ namespace scree
       dealii::Tensor<1, dim> known;  // velocity as all ranks know it, m/s
     };
 
-    using Record = std::array<double, n_doubles>;
-
     void append(const unsigned int node, const NodalField<dim> &field);
 
     /// The axes along which walls hold a node with this velocity, m/s.
@@ -109,10 +107,10 @@ namespace scree
     const bool is_parallel;
     NodeValues<dim, dim> messages;
     std::vector<Node> nodes;
-    std::vector<Record> motion_records, axis_records; // by number
-    std::vector<unsigned int> number_of_node;         // of the grid's nodes; `free`: not there
-    std::vector<unsigned int> shared_owned;           // nodes of this rank that others know
-    std::vector<char> shared;                         // whether others know a node
+    std::vector<NodeRow> motions, mobilities; // by number
+    std::vector<unsigned int> number_of_node; // of the grid's nodes; `free`: not there
+    std::vector<unsigned int> shared_owned;   // nodes of this rank that others know
+    std::vector<char> shared;                 // whether others know a node
   };
 } // namespace scree
 
