@@ -95,7 +95,9 @@ namespace scree
   template class NodeValues<3, 6>;
   template class NodeValues<3, 7>;
   template class NodeValues<2, 8>; // normals to choose from, between bodies
+  template class NodeValues<2, 9>; // faces of soil
   template class NodeValues<3, 11>;
+  template class NodeValues<3, 13>;
   template class NodeValues<2, 18>; // moments of the points of two bodies
   template class NodeValues<3, 28>;
 } // namespace scree

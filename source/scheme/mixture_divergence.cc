@@ -66,19 +66,12 @@ namespace scree
   template <int dim>
   Tensor<1, dim> MixtureDivergence<dim>::off_middle(const MixtureCell<dim> &cell) const
   {
-    Point<dim> moment; // in cells
-    double volume = 0;
-    for (unsigned int v = 0; v < n_corners; ++v)
-      {
-        const double filled = cell.water_at_corner[v] + cell.effective_saturation * cell.grains_at_corner[v];
-        volume += filled;
-        moment += filled * GeometryInfo<dim>::unit_cell_vertex(v);
-      }
-    const double fill  = cell.fill * cell.volume / Utilities::fixed_power<dim>(grid.cell_size()); // of the whole
-    const double share = std::clamp((full - fill) / (full - partly_full), 0., 1.);
+    const Point<dim> centre = cell.centre();
+    const double fill       = cell.fill * cell.volume / Utilities::fixed_power<dim>(grid.cell_size()); // of the whole
+    const double share      = std::clamp((full - fill) / (full - partly_full), 0., 1.);
     Tensor<1, dim> off;
     for (unsigned int a = 0; a < dim; ++a)
-      off[a] = share * (moment[a] / volume - 0.5);
+      off[a] = share * (centre[a] - 0.5);
     return off;
   }
 
@@ -282,17 +275,21 @@ namespace scree
                                                   const NodalField<dim> &soil,
                                                   const NodalField<dim> &water,
                                                   const PoreField<dim> &pores,
+                                                  const SoilGaps<dim> &gaps,
                                                   const double time_step) const
   {
-    for (MixtureCell<dim> &cell : mixture.cells())
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       {
-        if (cell.effective_saturation < 1. || cell.soil_mass == 0. || cell.is_rigid || !surface.has_unknown(cell.cell))
+        MixtureCell<dim> &cell   = mixture.cells()[record];
+        const bool is_beside_gap = gaps.is_beside(record);
+        if (cell.soil_mass == 0. || cell.is_rigid || !surface.has_unknown(cell.cell) ||
+            (cell.effective_saturation < 1. && !is_beside_gap))
           continue;
         const double rate = mean_divergence<n>(cell, flow_in<n>(cell.cell, soil, water, pores));
         if (rate >= 0.)
           continue;
         const double drag = cell.drag * time_step, square = rate * rate;
-        const double part  = drag / (drag + cell.water_mass) * square / (square + square_of_slow);
+        const double part  = is_beside_gap ? 1. : drag / (drag + cell.water_mass) * square / (square + square_of_slow);
         cell.volume_factor = std::exp(-part * rate * time_step);
       }
   }
@@ -303,12 +300,13 @@ namespace scree
                                                    const NodalField<dim> &soil,
                                                    const NodalField<dim> &water,
                                                    const PoreField<dim> &pores,
+                                                   const SoilGaps<dim> &gaps,
                                                    const double time_step) const
   {
     if (grid.n_nodes_1d() == 2)
-      set_volume_factors<2>(mixture, soil, water, pores, time_step);
+      set_volume_factors<2>(mixture, soil, water, pores, gaps, time_step);
     else
-      set_volume_factors<3>(mixture, soil, water, pores, time_step);
+      set_volume_factors<3>(mixture, soil, water, pores, gaps, time_step);
   }
 
   template class MixtureDivergence<2>;

@@ -89,6 +89,7 @@ namespace scree
       , timer(timer)
       , corners(numbered(grid))
       , surface(grid, corners, walls, parameters.free_surface_kind(), gravity, open_cells)
+      , gaps(grid, corners, surface)
       , divergence(grid, corners, surface, parameters.divergence_kind(), gravity.norm(), open_cells)
       , solver(grid, corners, parameters)
       , memory(corners,
@@ -115,6 +116,7 @@ namespace scree
     const std::map<std::uint64_t, double> kept = grid_pressure();
     corners.distribute(grid.fine_cells());
     surface.reinit();
+    gaps.reinit();
     solver.reinit();
     memory.reinit();
     reinit_vectors();

@@ -111,6 +111,15 @@ namespace scree
       });
     }
 
+    /// Whether all corners of a cell of this rank are unknown.
+    bool is_within(const unsigned int cell) const
+    {
+      const unsigned int *nodes = corners.nodes(cell);
+      return std::all_of(nodes, nodes + (1 << dim), [this](const unsigned int corner) {
+        return kinds[corner] == CornerKind::unknown;
+      });
+    }
+
     /// The owned corners of cells with water.
     const std::vector<unsigned int> &wet_corners() const
     {

@@ -2,7 +2,7 @@
 #ifndef scree_scheme_mixture_divergence_h
 #define scree_scheme_mixture_divergence_h
 
-#include <scree/scheme/free_surface.h>
+#include <scree/scheme/soil_gaps.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <cmath>
@@ -45,6 +45,7 @@ namespace scree
                              const NodalField<dim> &soil,
                              const NodalField<dim> &water,
                              const PoreField<dim> &pores,
+                             const SoilGaps<dim> &gaps,
                              const double time_step) const;
 
   private:
@@ -90,6 +91,7 @@ namespace scree
                             const NodalField<dim> &soil,
                             const NodalField<dim> &water,
                             const PoreField<dim> &pores,
+                            const SoilGaps<dim> &gaps,
                             const double time_step) const;
 
     template <int n>

@@ -66,9 +66,10 @@ namespace scree
                              const NodalField<dim> &soil,
                              const NodalField<dim> &water,
                              const PoreField<dim> &pores,
-                             const double time_step) const
+                             const double time_step)
     {
-      divergence.find_volume_factors(mixture, soil, water, pores, time_step);
+      gaps.find(mixture);
+      divergence.find_volume_factors(mixture, soil, water, pores, gaps, time_step);
     }
 
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
@@ -145,6 +146,7 @@ namespace scree
 
     NodeNumbering<dim> corners;
     FreeSurfaceLocator<dim> surface;
+    SoilGaps<dim> gaps;
     MixtureDivergence<dim> divergence;
     PressureSolver<dim> solver;
     PressureMemory<dim> memory;

@@ -7,6 +7,8 @@
 #include <scree/transfer/node_rows.h>
 #include <scree/transfer/porosity_of_parts.h>
 
+#include <deal.II/base/geometry_info.h>
+
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -65,6 +67,20 @@ namespace scree
         : cell(cell)
         , volume(volume)
     {
+    }
+
+    /// Centre of the water and the wet grains, from 0 to 1 along each axis.
+    dealii::Point<dim> centre() const
+    {
+      dealii::Point<dim> moment;
+      double volume = 0;
+      for (unsigned int v = 0; v < n_corners; ++v)
+        {
+          const double filled = water_at_corner[v] + effective_saturation * grains_at_corner[v];
+          volume += filled;
+          moment += filled * dealii::GeometryInfo<dim>::unit_cell_vertex(v);
+        }
+      return dealii::Point<dim>(moment / volume);
     }
 
     /// Effective saturation and fill from the volumes.
