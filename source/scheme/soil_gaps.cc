@@ -93,7 +93,7 @@ namespace scree
       }
     for (const Face &face : faces)
       {
-        for_nodes_before(face, mixture, [&](const unsigned int node) { at_nodes[node][next + face.side] += 1.; });
+        for_nodes_ahead(face, mixture, [&](const unsigned int node) { at_nodes[node][ahead + face.side] += 1.; });
         if (has_middle && face.is_away)
           for_nodes(mixture.cells()[face.record].cell, face.side, 1, [&](const unsigned int node) {
             at_nodes[node][own + face.side] += 1.;
@@ -103,10 +103,10 @@ namespace scree
     at_nodes.update_ghosts();
     for (const Face &face : faces)
       if (face.is_full || face.is_away)
-        for_nodes_before(face, mixture, [&](const unsigned int node) {
+        for_nodes_ahead(face, mixture, [&](const unsigned int node) {
           const double *of_node       = at_nodes[node];
           const unsigned int opposite = face.side ^ 1u;
-          if ((of_node[soil] == 0. && of_node[next + opposite] > 0.) || (face.is_away && of_node[own + opposite] > 0.))
+          if ((of_node[soil] == 0. && of_node[ahead + opposite] > 0.) || (face.is_away && of_node[own + opposite] > 0.))
             beside[face.record] = true;
         });
   }

@@ -15,9 +15,9 @@ namespace scree
   /// their soil does not have: up to a cell before they touch, it would be pressed together and throw them back. So the
   /// closing of a gap is no strain of the soil beside it.
   ///
-  /// A side of a cell with soil is a face if the corners opposite are within the water, those on it at its surface or
-  /// beyond, and what fills the cell lies away from it by a tenth of a cell, if it is not full. Beside a gap are faces
-  /// that look at each other across one cell without soil, or from one partly full cell to the next.
+  /// A side of a cell with soil is a face if the corners opposite are within the water and those on it at its surface
+  /// or beyond. Soil is beside a gap if a face of its cell looks at another one across a cell without soil, or from one
+  /// partly full cell to the next; in a partly full cell only if what fills it lies away from the face.
   template <int dim>
   class SoilGaps
   {
@@ -46,15 +46,16 @@ namespace scree
     {
       unsigned int record, side;
       bool is_full; // its cell
-      bool is_away; // what fills the cell, if that is not full
+      bool is_away; // what fills the cell, which is not full
     };
 
-    /// What acts on a node, by numbers; without linear functions it lies in the middle of a cell.
+    /// Numbers of what is around a node, which lies in the middle of a cell (linear functions: at a corner, where `own`
+    /// and `soil` stay 0).
     enum Slots : unsigned int
     {
-      next = 0,       // from here on, side by side: faces of the cell before the node's, which look at it
-      own  = n_sides, // the same: faces of the node's cell, if that is partly full
-      soil = 2 * n_sides,
+      ahead = 0,           // from here on, side by side: faces that look at the node from the next cell
+      own   = n_sides,     // the same: faces of its cell that what fills it lies away from
+      soil  = 2 * n_sides, // its cell, if that has soil at the surface
       n_slots
     };
 
@@ -67,9 +68,9 @@ namespace scree
     void
     for_nodes(const unsigned int cell, const unsigned int side, const unsigned int place, const Function &act) const;
 
-    /// The same for the nodes that a side of a cell looks at.
+    /// The same for the nodes that a face looks at.
     template <typename Function>
-    void for_nodes_before(const Face &face, const Mixture<dim> &mixture, const Function &act) const
+    void for_nodes_ahead(const Face &face, const Mixture<dim> &mixture, const Function &act) const
     {
       const unsigned int last = face.side % 2 == 1 ? grid.n_nodes_1d() - 1 : 0;
       for_nodes(mixture.cells()[face.record].cell, face.side, last, act);
