@@ -80,6 +80,6 @@ STUDY = Study(title="Closure of an air gap", base="prm/column_saturated.prm", ne
               variants=with_case(product(axis("old p", PRESSURES.get, list(PRESSURES)),
                                          axis("pair", lambda _: {}, PAIRS), axis("gap", lambda _: {}, [0.5, 1., 2., 4.]),
                                          axis("v", lambda _: {}, [0., 1., 5.]))),
-              quick=lambda labels: labels["pair"] in PAIRS[0:3:2] and labels["gap"] in (1., 4.) and labels["v"] in (0., 5.),
+              quick=lambda labels: labels["pair"] != PAIRS[1] and labels["gap"] in (1., 4.) and labels["v"] in (0., 5.),
               measure=measure, verdict=verdict, default={"old p": "default"},
               chart=StabilityMap("v", "gap", panels=["old p", "pair"], number="air left, cells", xlabel="speed, m/s", ylabel="gap, cells"))
