@@ -928,7 +928,7 @@ def water_on_soil(scree):
 
 
 def closing_gap(scree):
-    """Water and saturated soil fall on saturated soil, .05 and .2 m below, and come to rest; water with fading, too.
+    """Water and saturated soil fall on saturated soil, .05 to .2 m below, and come to rest; water with fading, too.
 
     Were p at the soil's face that of a free surface, the gains of water would be 9 and 8 %; were the closing of the gap a strain of the soil,
     that of the last case would be 1.3 %.

@@ -41,6 +41,7 @@ namespace scree
     /// one cell takes too much its neighbour takes too little. Soil that falls on a wall would be pressed together by
     /// this for ever. So the part of d that water cannot leave by, the drag's share C/(C + m_w) for the drag C of the
     /// step, is no strain where it is fast: times d^2/(d^2 + g/h). A slow one is left in, as consolidation needs it.
+    /// Beside a gap between bodies all of d is the gap's. Closing cells only.
     void find_volume_factors(Mixture<dim> &mixture,
                              const NodalField<dim> &soil,
                              const NodalField<dim> &water,
