@@ -49,8 +49,8 @@ namespace scree
       bool is_away; // what fills the cell, which is not full
     };
 
-    /// Numbers of what is around a node, which lies in the middle of a cell (linear functions: at a corner, where `own`
-    /// and `soil` stay 0).
+    /// Numbers of what is around a node. A spline's lies in the middle of a cell; those of the other bases that a face
+    /// looks at lie on its side, where `own` and `soil` stay 0, so that with these faces of neighbours alone meet.
     enum Slots : unsigned int
     {
       ahead = 0,           // from here on, side by side: faces that look at the node from the next cell
