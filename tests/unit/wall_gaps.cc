@@ -136,7 +136,8 @@ int main(int argc, char *argv[])
   const double middle = 3.5 * h;
   const Tensor<1, 2> down({ 0., -2. }), down_left({ -2., -2. });
   test("at rest", Point<2>(middle, middle), rest, n_all, rest);
-  test("as after a fall through less than half a cell", Point<2>(middle, middle), 0.5 * down, n_all, rest);
+  test("as after a fall through less than an eighth of a cell", Point<2>(middle, middle), 0.25 * down, n_all, rest);
+  test("through more", Point<2>(middle, middle), 0.3 * down, n_all - 8, rest);
   test("a point falls", Point<2>(middle, middle), down, n_all - 8, rest);
   test("a point falls, not far above the bottom", Point<2>(middle, 0.9 * h), down, n_all - 8, rest);
   test("a point that has reached the bottom", Point<2>(middle, 0.25 * h), down, n_all - 8 + 3, rest);

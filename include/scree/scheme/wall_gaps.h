@@ -20,9 +20,9 @@ namespace scree
   /// A node on a wall moves with all that is in the cells beside it. Were it held from the moment that a point comes
   /// into one of them, what falls would be stopped up to a cell before the wall, by stress of soil that is pressed
   /// together there and by pressure that grows as steps shrink. So a wall does not act on a node that comes towards it
-  /// faster than after a fall through half a cell, v^2 > g h, while their gap is open; if it would close within the
-  /// step, the wall holds the node at the speed that just closes it. The gap is that of the nearest point less .6 of
-  /// the points' spacing; beside a cell that is full there is none.
+  /// faster than after a fall through an eighth of a cell, v^2 > g h/4, while their gap is open; if it would close
+  /// within the step, the wall holds the node at the speed that just closes it. The gap is that of the nearest point
+  /// less .6 of the points' spacing; beside a cell that is full there is none.
   template <int dim>
   class WallGaps
   {
