@@ -5,10 +5,9 @@
 // not where a body is no deeper than a cell; linear functions, which do not reach across a cell, know the second kind
 // alone; the same on 1 and 2 ranks.
 
+#include "elastic_soil.h"
 #include "expect.h"
 
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
 #include <scree/scheme/soil_gaps.h>
 #include <scree/transfer/water_transfer.h>
@@ -38,28 +37,18 @@ unsigned int n_beside(const std::string &basis, const unsigned int axis, std::st
   NodeNumbering<dim> corners(Basis::linear);
   corners.distribute(grid.fine_cells());
 
-  MaterialParameters material;
-  material.law = "linear elastic";
-  SeedingParameters seeding;
-  seeding.region           = region;
-  seeding.points_per_cell  = 4;
-  seeding.initial_porosity = 0.4;
-  SoilBody<dim> soil("Soil",
-                     1500.,
-                     2500.,
-                     make_material<dim>(material),
-                     PropertyLayout<dim>(0, false),
-                     grid.triangulation(),
-                     grid.mapping());
-  seed(soil, seeding, grid.triangulation(), grid.cell_size());
+  constexpr unsigned int n_points = 4; // of the soil in a cell along each axis
+  constexpr double porosity       = 0.4;
+  ElasticSoil<dim> soil(grid, region, n_points, porosity);
   WaterParameters water_parameters;
   water_parameters.region = region;
   WaterPhase<dim> water(1000., false, grid.triangulation(), grid.mapping());
-  seed_water(water, water_parameters, { { "Soil", region, 0.4, 1500. } }, grid.triangulation(), grid.cell_size());
+  seed_water(
+      water, water_parameters, { { "Soil", region, porosity, soil.density } }, grid.triangulation(), grid.cell_size());
 
-  soil.drag.emplace(water_parameters, seeding.initial_porosity);
+  soil.drag.emplace(water_parameters, porosity);
   const WaterTransfer<dim> transfer(grid, TransferParameters(), water_parameters, 1.);
-  Mixture<dim> mixture(grid, seeding.points_per_cell);
+  Mixture<dim> mixture(grid, n_points);
   PoreField<dim> pores(grid);
   NodalField<dim> field(grid);
   transfer.soil_to_grid(soil, mixture, pores);

@@ -3,8 +3,6 @@
 // part of the box with oblique edges: it is symmetric, takes energy, adds up to nothing with its moments, does not feel
 // rigid motion, dissipates mu V of unit shear, and no motion is slowed faster than largest_rate() says.
 
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
 #include <scree/transfer/viscous_force.h>
 
@@ -14,6 +12,7 @@
 #include <functional>
 #include <iostream>
 
+#include "elastic_soil.h"
 #include "expect.h"
 #include "pattern.h"
 
@@ -191,20 +190,7 @@ void test(const std::string &basis, std::ostream &out)
   WaterPhase<dim> water(1000., false, grid.triangulation(), grid.mapping());
   seed_water(water, parameters, {}, grid.triangulation(), grid.cell_size());
 
-  MaterialParameters material;
-  material.law = "linear elastic";
-  SeedingParameters seeding;
-  seeding.region           = parameters.region;
-  seeding.points_per_cell  = 2;
-  seeding.initial_porosity = 0.6;
-  SoilBody<dim> soil("Soil",
-                     1000.,
-                     2500.,
-                     make_material<dim>(material),
-                     PropertyLayout<dim>(0, false),
-                     grid.triangulation(),
-                     grid.mapping());
-  seed(soil, seeding, grid.triangulation(), grid.cell_size());
+  ElasticSoil<dim> soil(grid, parameters.region, 2, 0.6);
   double water_volume = 0, part = 0;
   for_each_point(water.points(), [&](const auto &point) { water_volume += point.properties[water.layout.volume]; });
   for_each_point(soil.points, [&](const auto &point) {

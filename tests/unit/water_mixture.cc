@@ -5,10 +5,9 @@
 // exact for linear motion, and a mixture that moves as one draws nothing, wherever its surface is; the solver finds the
 // pressure whose flux it is given.
 
+#include "elastic_soil.h"
 #include "pattern.h"
 
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
 #include <scree/points/water_seeding.h>
 #include <scree/scheme/mixture_divergence.h>
 #include <scree/scheme/pressure_solver.h>
@@ -49,25 +48,18 @@ void test(const std::string &basis, std::ostream &out)
   corners.distribute(grid.fine_cells());
 
   // Soil stands in water; the surface of the water lies inside the cells.
-  MaterialParameters material;
-  material.law = "linear elastic";
-  SeedingParameters seeding;
-  seeding.region           = "x < 0.33";
-  seeding.points_per_cell  = 2;
-  seeding.initial_porosity = 0.4;
-  SoilBody<dim> soil("Soil",
-                     1500.,
-                     2500.,
-                     make_material<dim>(material),
-                     PropertyLayout<dim>(0, false),
-                     grid.triangulation(),
-                     grid.mapping());
-  seed(soil, seeding, grid.triangulation(), grid.cell_size());
+  constexpr unsigned int n_points = 2; // of the soil in a cell along each axis
+  constexpr double porosity       = 0.4;
+  ElasticSoil<dim> soil(grid, "x < 0.33", n_points, porosity);
   WaterParameters water_parameters;
   water_parameters.region          = "y < 0.44";
   water_parameters.points_per_cell = 3;
   WaterPhase<dim> water(1000., false, grid.triangulation(), grid.mapping());
-  seed_water(water, water_parameters, { { "Soil", "x < 0.33", 0.4, 1500. } }, grid.triangulation(), grid.cell_size());
+  seed_water(water,
+             water_parameters,
+             { { "Soil", "x < 0.33", porosity, soil.density } },
+             grid.triangulation(),
+             grid.cell_size());
 
   const auto shake = [&](PointSet<dim> &points) {
     for_each_point(points, [&](const auto &point) {
@@ -90,9 +82,9 @@ void test(const std::string &basis, std::ostream &out)
   });
 
   TransferParameters transfer_parameters;
-  soil.drag.emplace(water_parameters, seeding.initial_porosity);
+  soil.drag.emplace(water_parameters, porosity);
   const WaterTransfer<dim> transfer(grid, transfer_parameters, water_parameters, 1.);
-  Mixture<dim> mixture(grid, seeding.points_per_cell);
+  Mixture<dim> mixture(grid, n_points);
   PoreField<dim> pores(grid);
   NodalField<dim> soil_field(grid), water_field(grid);
   transfer.soil_to_grid(soil, mixture, pores);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_tests_unit_elastic_soil_h
+#define scree_tests_unit_elastic_soil_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/material/table.h>
+#include <scree/points/seeding.h>
+
+#include <string>
+
+/// Linear elastic soil of grains of 2500 kg/m^3 in a region of a grid.
+template <int dim>
+struct ElasticSoil : scree::SoilBody<dim>
+{
+  ElasticSoil(const scree::BackgroundGrid<dim> &grid,
+              const std::string &region,
+              const unsigned int points_per_cell,
+              const double porosity)
+      : scree::SoilBody<dim>("Soil",
+                             grain_density * (1. - porosity),
+                             grain_density,
+                             scree::make_material<dim>(material()),
+                             scree::PropertyLayout<dim>(0, false),
+                             grid.triangulation(),
+                             grid.mapping())
+  {
+    scree::SeedingParameters seeding;
+    seeding.region           = region;
+    seeding.points_per_cell  = points_per_cell;
+    seeding.initial_porosity = porosity;
+    scree::seed(*this, seeding, grid.triangulation(), grid.cell_size());
+  }
+
+  static constexpr double grain_density = 2500.;
+
+private:
+  static scree::MaterialParameters material()
+  {
+    scree::MaterialParameters parameters;
+    parameters.law = "linear elastic";
+    return parameters;
+  }
+};
+
+#endif
