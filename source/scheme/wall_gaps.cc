@@ -16,8 +16,8 @@ namespace scree
     /// Fill of a cell from which on it has no gap.
     constexpr double full = 0.9;
 
-    /// Square of the speed, over g and the width of a cell, up to which walls act as soon as a point is beside them.
-    constexpr double square_of_slow = 0.25;
+    /// Height of a fall, cells, up to the speed of which walls act as soon as a point is beside them.
+    constexpr double least_fall = 0.125;
   } // namespace
 
 
@@ -114,7 +114,7 @@ namespace scree
     using Field = NodalField<dim>;
     for (NodeVector &gap : gaps)
       gap.compress(VectorOperation::min);
-    const double slow = std::sqrt(square_of_slow * forcing.gravity().norm() * grid.cell_size());
+    const double slow = std::sqrt(2. * least_fall * forcing.gravity().norm() * grid.cell_size());
     for (const unsigned int node : on_walls)
       {
         if (node >= grid.n_owned_nodes() || !constraints.has_walls_alone(node))
