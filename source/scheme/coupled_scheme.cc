@@ -94,7 +94,7 @@ namespace scree
     pores.clear();
     water_field.clear();
     for (const auto &body : soil.all_bodies())
-      transfer.soil_to_grid(body, mixture, pores);
+      transfer.soil_to_grid(body, mixture);
     for (const auto &part : water)
       transfer.to_grid(part, mixture, water_field, pores);
     for (const Inflow<dim> &inflow : inflows)
@@ -118,15 +118,18 @@ namespace scree
           continue;
         const unsigned int *nodes = grid.nodes(cell.cell);
         const unsigned int n = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
-        const double inertial  = cell.inertial / cell.grain_volume;
+        const double drag      = cell.drag_share * cell.drag / cell.water_volume;
+        const double inertial  = cell.drag_share * cell.inertial / cell.water_volume;
         const double wet_pores = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int i = 0; i < n; ++i)
             {
               const double grains = mixture.grain_volumes(record, r)[i];
+              const double water  = mixture.water_volumes(record, r)[i];
               double *pore        = pores[nodes[r * n + i]];
               pore[PoreField<dim>::grain_volume] += cell.effective_saturation * grains;
-              pore[PoreField<dim>::inertial_drag] += inertial * grains;
+              pore[PoreField<dim>::drag] += drag * water;
+              pore[PoreField<dim>::inertial_drag] += inertial * water;
               pore[PoreField<dim>::wet_pores] += wet_pores * grains;
             }
       }

@@ -165,6 +165,13 @@ namespace scree
 
 
   template <int dim>
+  bool FreeSurfaceLocator<dim>::is_among_wet_cells(const unsigned int corner) const
+  {
+    return filling[corner][wet_cells] > (1. - 0.5 / (1 << dim)) * open_cells_around(corner);
+  }
+
+
+  template <int dim>
   bool FreeSurfaceLocator<dim>::is_unknown(const unsigned int corner, const double fill) const
   {
     switch (rule)
@@ -173,8 +180,8 @@ namespace scree
         return distances[corner] >= least_depth - 1e-9;
       case FreeSurface::half_full:
         return fill >= 0.5 - 1e-9;
-      default: // all cells around it hold water
-        return filling[corner][wet_cells] > (1. - 0.5 / (1 << dim)) * open_cells_around(corner);
+      default:
+        return is_among_wet_cells(corner);
       }
   }
 
@@ -194,6 +201,8 @@ namespace scree
               double *node = filling[nodes[v]];
               node[water] += cell.water_at_corner[v];
               node[filled] += cell.water_at_corner[v] + cell.effective_saturation * cell.grains_at_corner[v];
+              if (cell.pore_volume > 0.)
+                node[by_scatter] += cell.effective_saturation * cell.grains_at_corner[v] - cell.wet_grains_at(v);
               node[weighted_pressure] += cell.pressure_at_corner[v];
               node[weighted_forgotten] += cell.forgotten_at_corner[v];
               node[wet_cells] += open;
@@ -203,6 +212,10 @@ namespace scree
       for (unsigned int v = 0; v < entering.at_corner.size(); ++v)
         filling[corners.nodes(entering.cell)[v]][filled] += entering.at_corner[v];
     filling.add_contributions();
+    // Where water comes to an end, as at a wetting front, what cells lack is no scatter.
+    for (const unsigned int corner : filling.active_nodes())
+      if (!is_among_wet_cells(corner))
+        filling[corner][filled] -= filling[corner][by_scatter];
     filling.update_ghosts();
   }
 

@@ -3,6 +3,7 @@
 #include <scree/tensor/vector.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace scree
 {
@@ -15,7 +16,7 @@ namespace scree
     /// porosity, which is too small: the tip of a wetting front would run ahead.
     double between_grains(const double water, const double wet_pores)
     {
-      constexpr double scatter = 0.15, sure = 0.25; // of the wet pores
+      static const double scatter = std::getenv("T_SC") ? atof(getenv("T_SC")) : .15, sure = std::getenv("T_SU") ? atof(getenv("T_SU")) : .25; // of the wet pores
       if (wet_pores <= 0.)
         return water;
       const double lack  = (wet_pores - water) / wet_pores;
@@ -160,18 +161,17 @@ namespace scree
   void
   MixtureStep<dim>::finish_pores(const MixtureNodes<dim> &nodes, const unsigned int node, const double time_step) const
   {
-    double *pore             = nodes.pores[node];
-    const double soil_mass   = nodes.soil[node][Field<dim>::mass];
-    const double water_mass  = nodes.water[node][Field<dim>::mass];
-    const double volume      = water_mass / water_density;
-    const double pore_volume = pore[PoreField<dim>::pore_volume];
-    const double share       = soil_mass <= 0. || water_mass <= 0. ? 0. : time_step * drag_share(volume, pore_volume);
-    pore[PoreField<dim>::drag] *= share;
-    pore[PoreField<dim>::inertial_drag] *= share;
-    const double grains = pore[PoreField<dim>::grain_volume];
-    pore[PoreField<dim>::grain_fraction] =
-        grains > 0. ? grains / (grains + between_grains(volume, pore[PoreField<dim>::wet_pores])) : 0.;
-    pore[PoreField<dim>::soil_share] = soil_share(grains, pore[PoreField<dim>::grains_about_water]);
+    double *pore            = nodes.pores[node];
+    const double soil_mass  = nodes.soil[node][Field<dim>::mass];
+    const double water_mass = nodes.water[node][Field<dim>::mass];
+    const double volume     = water_mass / water_density;
+    const double grains     = pore[PoreField<dim>::grain_volume];
+    const double wet_pores  = pore[PoreField<dim>::wet_pores];
+    const double porosity   = soil_mass <= 0. || water_mass <= 0. ? 0. : flow_porosity(grains, volume, wet_pores);
+    pore[PoreField<dim>::drag] *= time_step * porosity;
+    pore[PoreField<dim>::inertial_drag] *= time_step * porosity * porosity;
+    pore[PoreField<dim>::grain_fraction] = grains > 0. ? grains / (grains + between_grains(volume, wet_pores)) : 0.;
+    pore[PoreField<dim>::soil_share]     = soil_share(grains, pore[PoreField<dim>::grains_about_water]);
   }
 
 

@@ -199,16 +199,16 @@ namespace scree
     for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       if (MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
         {
-          if (cell.inertial > 0)
-            cell.drag += cell.inertial * mean_slip(grid, mixture, record, soil, water);
           const double V_s = cell.effective_saturation * cell.grain_volume, V_w = cell.water_volume;
           const double a = cell.soil_mass, b = cell.water_mass;
           double mobility = V_w * V_w / b;
           if (a > 0.)
             {
-              const double C = splitting == Splitting::classical
-                                   ? 0.
-                                   : drag_share(cell.water_volume, cell.pore_volume) * cell.drag * time_step;
+              const double porosity = flow_porosity(V_s, V_w, cell.effective_saturation * cell.pore_volume);
+              if (cell.inertial > 0)
+                cell.drag += porosity * cell.inertial * mean_slip(grid, mixture, record, soil, water);
+              cell.drag *= cell.drag_share * porosity;
+              const double C = splitting == Splitting::classical ? 0. : cell.drag * time_step;
               mobility       = cell.is_rigid
                                    ? V_w * V_w / (b + C) // an endless mass a
                                    : (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));

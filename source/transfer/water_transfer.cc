@@ -77,20 +77,17 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void WaterTransfer<dim>::add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const
+  void WaterTransfer<dim>::add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const
   {
-    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-    const auto &layout            = soil.layout;
-    const DragLaw &law            = *soil.drag;
+    const auto &layout = soil.layout;
+    const DragLaw &law = *soil.drag;
     for (const auto &cell : soil.points.cells())
       {
-        const OpenKnots open          = grid.open_knots(cell.cell);
-        const unsigned int record     = mixture.record(cell.cell);
-        NodeRow *moments              = mixture.grain_moments(record);
-        MixtureCell<dim> sums         = mixture.cells()[record];
-        auto *parts                   = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
-        const double grains_of_others = sums.grain_volume;
-        NodeRow pore_sums[n_rows] = {}, drag_sums[n_rows] = {};
+        const OpenKnots open      = grid.open_knots(cell.cell);
+        const unsigned int record = mixture.record(cell.cell);
+        NodeRow *moments          = mixture.grain_moments(record);
+        MixtureCell<dim> sums     = mixture.cells()[record];
+        auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
 
         for_each_record(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, open);
@@ -100,25 +97,19 @@ namespace scree
           const double grains         = mass / soil.grain_density;
           const double porosity       = std::max(1. - grains / volume, smallest_porosity);
           const double pores_of_point = porosity * volume;
-          const double drag           = volume * law.linear(porosity);
 
           add_moments(shape, grains, moments);
-          add_row_sums(shape, pores_of_point, pore_sums);
-          add_row_sums(shape, drag, drag_sums);
           if (parts != nullptr)
             parts->add_soil(shape.x, grains, volume);
           add_row<dim>(grains * corner_values(shape.x), sums.grains_at_corner);
           sums.soil_mass += mass;
           sums.grain_volume += grains;
           sums.pore_volume += pores_of_point;
-          sums.drag += drag;
+          sums.drag += volume * law.linear(porosity);
+          sums.inertial += grains * law.inertial(porosity);
         });
-        sums.is_rigid = sums.is_rigid || soil.is_rigid;
-        sums.inertial += (sums.grain_volume - grains_of_others) * law.inertial();
+        sums.is_rigid           = sums.is_rigid || soil.is_rigid;
         mixture.cells()[record] = sums;
-        pores.activate_cell(cell.cell);
-        scatter<dim, n>(pore_sums, grid.nodes(cell.cell), PoreField<dim>::pore_volume, pores);
-        scatter<dim, n>(drag_sums, grid.nodes(cell.cell), PoreField<dim>::drag, pores);
       }
   }
 
@@ -167,7 +158,10 @@ namespace scree
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
         if (porosity != nullptr)
-          scatter<dim, n>(grains_about, grid.nodes(cell.cell), PoreField<dim>::grains_about_water, pores);
+          {
+            pores.activate_cell(cell.cell);
+            scatter<dim, n>(grains_about, grid.nodes(cell.cell), PoreField<dim>::grains_about_water, pores);
+          }
       }
   }
 
@@ -261,12 +255,12 @@ namespace scree
 
 
   template <int dim>
-  void WaterTransfer<dim>::soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const
+  void WaterTransfer<dim>::soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture) const
   {
     if (grid.n_nodes_1d() == 2)
-      add_soil<2>(soil, mixture, pores);
+      add_soil<2>(soil, mixture);
     else
-      add_soil<3>(soil, mixture, pores);
+      add_soil<3>(soil, mixture);
   }
 
 

@@ -31,7 +31,7 @@ void compare_with_ergun(const double n)
   double error = 0;
   for (double U = 1e-8; U < 100.; U *= 2.)
     {
-      const double slip = U / n, drag = law.linear(n) + (1. - n) * law.inertial() * slip;
+      const double slip = U / n, drag = (law.linear(n) + (1. - n) * law.inertial(n) * n * slip) * n;
       const double gradient = drag * slip / n;
       error                 = std::max(error, std::abs(gradient / ergun(n, 3e-3, 1.3e-3, 998., U) - 1.));
     }
@@ -87,7 +87,7 @@ int main()
   WaterParameters water;
   water.conductivity = 2e-2;
   std::cout << "constant: " << 100. * DragLaw(water, 0.4).conductivity(0.5) << " cm/s, inertial "
-            << DragLaw(water, 0.4).inertial() << std::endl;
+            << DragLaw(water, 0.4).inertial(0.4) << std::endl;
   water.conductivity_law = "Kozeny-Carman";
   std::cout << "Kozeny-Carman: " << 100. * DragLaw(water, 0.4).conductivity(0.4) << " cm/s at the start, "
             << 100. * DragLaw(water, 0.4).conductivity(0.5) << " cm/s looser" << std::endl;

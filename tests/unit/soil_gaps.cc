@@ -51,7 +51,7 @@ unsigned int n_beside(const std::string &basis, const unsigned int axis, std::st
   Mixture<dim> mixture(grid, n_points);
   PoreField<dim> pores(grid);
   NodalField<dim> field(grid);
-  transfer.soil_to_grid(soil, mixture, pores);
+  transfer.soil_to_grid(soil, mixture);
   transfer.to_grid(water, mixture, field, pores);
   mixture.finish();
 

@@ -87,7 +87,7 @@ void test(const std::string &basis, std::ostream &out)
   Mixture<dim> mixture(grid, n_points);
   PoreField<dim> pores(grid);
   NodalField<dim> soil_field(grid), water_field(grid);
-  transfer.soil_to_grid(soil, mixture, pores);
+  transfer.soil_to_grid(soil, mixture);
   transfer.to_grid(water, mixture, water_field, pores);
   mixture.finish();
 

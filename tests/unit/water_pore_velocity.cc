@@ -80,7 +80,7 @@ namespace
     /// Points to nodes, summed over ranks; soil at rest, water with its velocity; the nodes' change is their velocity.
     void gather()
     {
-      transfer->soil_to_grid(soil, mixture, pores);
+      transfer->soil_to_grid(soil, mixture);
       transfer->to_grid(water, mixture, water_field, pores);
       for (const auto &cell : mixture.cells())
         {

@@ -8,10 +8,11 @@ namespace scree
 {
   constexpr double smallest_porosity = 1e-3; ///< keeps the drag finite where grains overlap
 
-  /// The drag of water on the grains that it flows past, per volume of saturated soil: (Q + (1-n) b |v_w - v_s|)
-  /// (v_w - v_s), N/m^3. Darcy: Q = n^2 rho_w g/k and b = 0 with a given conductivity k. Ergun (1952), who found the
-  /// gradient 150 mu (1-n)^2/(n^3 d^2) U + 1.75 rho_w (1-n)/(n^3 d) U^2 of the pressure with U = n |v_w - v_s| in beds
-  /// of grains of diameter d: Q = 150 mu (1-n)^2/(n d^2), b = 1.75 rho_w/d, as the drag is n times that gradient.
+  /// The drag of water on the grains that it flows past, per volume of saturated soil: (R + (1-n) b |q|) q, N/m^3, with
+  /// the superficial velocity q = n (v_w - v_s). Darcy: R = n rho_w g/k and b = 0 with a given conductivity k. Ergun
+  /// (1952), who found the gradient 150 mu (1-n)^2/(n^3 d^2) q + 1.75 rho_w (1-n)/(n^3 d) q^2 of the pressure in beds
+  /// of grains of diameter d: R = 150 mu (1-n)^2/(n^2 d^2), b = 1.75 rho_w/(n^2 d), as the drag is n times that
+  /// gradient.
   class DragLaw
   {
   public:
@@ -24,16 +25,16 @@ namespace scree
       return is_constant ? factor : factor * kozeny_carman(porosity);
     }
 
-    /// Q, N s/m^4.
+    /// R, N s/m^4.
     double linear(const double porosity) const
     {
-      return porosity * porosity * unit_weight / conductivity(porosity);
+      return porosity * unit_weight / conductivity(porosity);
     }
 
     /// b, N s^2/m^5: per volume of grains.
-    double inertial() const
+    double inertial(const double porosity) const
     {
-      return per_grains;
+      return per_grains / (porosity * porosity);
     }
 
   private:
@@ -44,8 +45,8 @@ namespace scree
 
     const double unit_weight; // of water, N/m^3, at standard gravity: what defines the conductivity
     const bool is_constant;
-    double factor; // the conductivity, m/s; or what n^3/(1-n)^2 is multiplied with
-    const double per_grains;
+    double factor;           // the conductivity, m/s; or what n^3/(1-n)^2 is multiplied with
+    const double per_grains; // n^2 b, N s^2/m^5
   };
 } // namespace scree
 

@@ -135,7 +135,8 @@ namespace scree
       filled,             // by water and wet grains, m^3
       weighted_pressure,  // Pa m^3
       weighted_forgotten, // m^3
-      wet_cells
+      wet_cells,
+      by_scatter // of `filled`: grains that are wet because the scatter of points explains what water lacks, m^3
     };
 
     /// Of the neighbours inside the water of a corner beside the surface.
@@ -181,6 +182,8 @@ namespace scree
     /// The fill of a corner's linear function with what ground below free water takes of it, from that of the open
     /// part.
     double fill_with_ground(const unsigned int corner, const double fill) const;
+    /// Whether all cells around a corner hold water.
+    bool is_among_wet_cells(const unsigned int corner) const;
     bool is_unknown(const unsigned int corner, const double fill) const;
     void sum_filling(const Mixture<dim> &mixture);
 
@@ -213,7 +216,7 @@ namespace scree
     const FreeSurface rule;
     const dealii::Tensor<1, dim> down; // unit, or 0
     const OpenCells<dim> *open_cells;  // may be null
-    NodeValues<dim, 5> filling;        // Filling
+    NodeValues<dim, 6> filling;        // Filling
     NodeValues<dim, 3> neighbours;     // Neighbours
     NodeValues<dim, 2 * dim> sides;    // number of neighbours that press, on each side along each axis
     std::vector<CornerKind> kinds;

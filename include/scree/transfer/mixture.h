@@ -29,12 +29,27 @@ namespace scree
     return water_volume < full ? water_volume / full : (water_volume > 0 ? 1. : 0.);
   }
 
-  /// Drag on water over that on water that fills the pores: in proportion to its volume, as the force of the pressure
-  /// on it is, within the scatter of points; water beyond is outside the soil. Bounded by 1, soil consolidates 4 % too
-  /// fast, since a surplus then flows faster and a lack does not flow more slowly.
-  inline double drag_share(const double water_volume, const double pore_volume)
+  /// Drag on the water of a cell's soil over that on water that fills its pores: in proportion to the water's volume,
+  /// as the force of the pressure on it is, within the scatter of points. Water outside the soil has no part in it:
+  /// that of the room that the soil leaves of a full cell, and none where the scatter of grains explains what a cell
+  /// lacks. Bounded by 1, soil consolidates 4 % too fast, since a surplus then flows faster and a lack does not flow
+  /// more slowly.
+  inline double
+  drag_share_of(const double cell_volume, const double grains, const double pore_volume, const double water_volume)
   {
-    return pore_volume > 0 ? std::min(1. + point_scatter, water_volume / pore_volume) : 0.;
+    if (pore_volume <= 0.)
+      return 0.;
+    const double soil    = (grains + pore_volume) * std::max(1., (cell_volume - water_volume) / grains);
+    const double outside = std::max(0., cell_volume - soil);
+    return std::clamp((water_volume - outside) / pore_volume, 0., 1. + point_scatter);
+  }
+
+  /// Porosity of what water flows through at a node or in a cell, for q = n (v_w - v_s): with the water beyond the
+  /// soil's face; where water lacks, the soil's own.
+  inline double flow_porosity(const double grains, const double water_volume, const double wet_pores)
+  {
+    const double open = std::max(water_volume, wet_pores);
+    return open > 0. ? open / (open + grains) : 0.;
   }
 
   /// What the points of a cell weigh and fill (2D: per m).
@@ -50,14 +65,15 @@ namespace scree
     double grain_volume = 0, water_volume = 0; ///< m^3
     double pore_volume = 0;                    ///< of the soil, m^3
     bool is_rigid      = false;                ///< whether the soil is held at its place
-    double drag        = 0;                    ///< of saturated soil in slow flow: sum V Q, N s/m
-    double inertial    = 0;                    ///< what drag grows by with the slip: sum V_grains b, N s^2/m^2
+    double drag        = 0;                    ///< of saturated soil in slow flow, sum V R; then dt^-1 C, N s/m
+    double inertial    = 0;                    ///< what sum V R grows by with |q|: sum V_grains b, N s^2/m^2
 
     // Sums weighted with the linear functions of the corners.
     AtCorners grains_at_corner{}, water_at_corner{}; ///< volume, m^3
     AtCorners pressure_at_corner{};                  ///< volume of water times pressure there, Pa m^3
     AtCorners forgotten_at_corner{};                 ///< volume of water times what its pressure has lost, m^3
 
+    double drag_share           = 0; ///< of the drag of soil full of water, see drag_share_of()
     double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
     double fill                 = 0; ///< volume of water and wet grains over `volume`
     double mobility             = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
@@ -83,11 +99,19 @@ namespace scree
       return dealii::Point<dim>(moment / volume);
     }
 
-    /// Effective saturation and fill from the volumes.
+    /// Volume of grains at a corner that are wet as far as water fills the pores, m^3; with the effective saturation
+    /// more of them are.
+    double wet_grains_at(const unsigned int corner) const
+    {
+      return std::min(1., water_volume / pore_volume) * grains_at_corner[corner];
+    }
+
+    /// Effective saturation, fill and share of the drag from the volumes.
     void find_fill()
     {
       effective_saturation = effective_saturation_of(water_volume, pore_volume);
       fill                 = (water_volume + effective_saturation * grain_volume) / volume;
+      drag_share           = drag_share_of(volume, grain_volume, pore_volume, water_volume);
     }
   };
 
@@ -189,6 +213,12 @@ namespace scree
     const NodeRow &grain_volumes(const unsigned int record, const unsigned int row) const
     {
       return grain_moments(record)[row * n_moments];
+    }
+
+    /// The same of water.
+    const NodeRow &water_volumes(const unsigned int record, const unsigned int row) const
+    {
+      return water[std::size_t(record) * moments_per_cell + row * n_moments];
     }
 
     /// Soil in the parts of a cell: room for it is made. Records of cells with soil have to come before the others.

@@ -14,23 +14,22 @@ namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
   template <int dim>
-  class PoreField : public NodeValues<dim, 6>
+  class PoreField : public NodeValues<dim, 5>
   {
   public:
-    static constexpr unsigned int pore_volume    = 0; ///< sum n V phi_i of the soil, m^3
-    static constexpr unsigned int drag           = 1; ///< sum V Q phi_i of slow flow, N s/m; then of the step's, kg
+    static constexpr unsigned int drag           = 0; ///< of slow flow over q, N s/m; then C of the step, kg
+    static constexpr unsigned int inertial_drag  = 1; ///< the same over q^2, N s^2/m^2; then over the slip, kg s/m
     static constexpr unsigned int grain_volume   = 2; ///< sum S V_grains phi_i, m^3
     static constexpr unsigned int grain_fraction = 2; ///< then: volume of grains over that of grains and water
-    static constexpr unsigned int inertial_drag  = 4; ///< sum V_grains b phi_i, N s^2/m^2; then times the step, kg s/m
 
     /// sum V_w (1/n_p - 1) phi_i, n_p the porosity about a point of water, m^3
     static constexpr unsigned int grains_about_water = 3;
 
-    static constexpr unsigned int wet_pores  = 5; ///< sum S n V phi_i of the soil in cells with water, m^3
-    static constexpr unsigned int soil_share = 5; ///< then: soil_share(), -
+    static constexpr unsigned int wet_pores  = 4; ///< sum S n V phi_i of the soil in cells with water, m^3
+    static constexpr unsigned int soil_share = 4; ///< then: soil_share(), -
 
     explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 6>(grid.numbering())
+        : NodeValues<dim, 5>(grid.numbering())
     {
     }
   };
@@ -73,8 +72,8 @@ namespace scree
                   const WaterParameters &water,
                   const double pressure_slope);
 
-    /// Adds pores, drag and grains of a body's points to the mixture and to `pores`.
-    void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
+    /// Adds pores, drag and grains of a body's points to the mixture.
+    void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
 
     /// Adds mass and momentum of the water's points to `field`, volume and pressure to the mixture, and
     /// the grains about points of the water's own to `pores`. All soil has to be in.
@@ -96,7 +95,7 @@ namespace scree
 
   private:
     template <int n>
-    void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture, PoreField<dim> &pores) const;
+    void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
 
     template <int n, TransferMethod method>
     void
