@@ -3,7 +3,6 @@
 #include <scree/tensor/vector.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace scree
 {
@@ -11,20 +10,6 @@ namespace scree
 
   namespace
   {
-    /// Volume between the grains of a node for the mixture's velocity, m^3: the water's, but that of the wet pores
-    /// where water lacks more of it than the scatter of points explains. There few points would lend the flow their own
-    /// porosity, which is too small: the tip of a wetting front would run ahead.
-    double between_grains(const double water, const double wet_pores)
-    {
-      static const double scatter = std::getenv("T_SC") ? atof(getenv("T_SC")) : .15, sure = std::getenv("T_SU") ? atof(getenv("T_SU")) : .25; // of the wet pores
-      if (wet_pores <= 0.)
-        return water;
-      const double lack  = (wet_pores - water) / wet_pores;
-      const double share = std::clamp((lack - scatter) / (sure - scatter), 0., 1.);
-      return water + share * (wet_pores - water);
-    }
-
-
     template <int dim>
     using Field = NodalField<dim>;
 
@@ -166,11 +151,11 @@ namespace scree
     const double water_mass = nodes.water[node][Field<dim>::mass];
     const double volume     = water_mass / water_density;
     const double grains     = pore[PoreField<dim>::grain_volume];
-    const double wet_pores  = pore[PoreField<dim>::wet_pores];
-    const double porosity   = soil_mass <= 0. || water_mass <= 0. ? 0. : flow_porosity(grains, volume, wet_pores);
+    const double fraction   = grain_fraction_of(grains, volume, pore[PoreField<dim>::wet_pores]);
+    const double porosity   = soil_mass <= 0. || water_mass <= 0. ? 0. : 1. - fraction;
     pore[PoreField<dim>::drag] *= time_step * porosity;
     pore[PoreField<dim>::inertial_drag] *= time_step * porosity * porosity;
-    pore[PoreField<dim>::grain_fraction] = grains > 0. ? grains / (grains + between_grains(volume, wet_pores)) : 0.;
+    pore[PoreField<dim>::grain_fraction] = fraction;
     pore[PoreField<dim>::soil_share]     = soil_share(grains, pore[PoreField<dim>::grains_about_water]);
   }
 

@@ -204,7 +204,7 @@ namespace scree
           double mobility = V_w * V_w / b;
           if (a > 0.)
             {
-              const double porosity = flow_porosity(V_s, V_w, cell.effective_saturation * cell.pore_volume);
+              const double porosity = 1. - grain_fraction_of(V_s, V_w, cell.effective_saturation * cell.pore_volume);
               if (cell.inertial > 0)
                 cell.drag += porosity * cell.inertial * mean_slip(grid, mixture, record, soil, water);
               cell.drag *= cell.drag_share * porosity;

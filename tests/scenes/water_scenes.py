@@ -643,7 +643,7 @@ def submerged(scree):
 
 def seepage(scree):
     """Mean discharge through a dam with vertical faces: Dupuit's, exact for any free surface (closed_forms), of an elastic dam within
-    5 % (ours), of a rigid one within 1 %."""
+    5 % (ours), of a rigid one within 1 %. The level of a tank is what its pressure tells: its volume changes by rows that cross faces."""
     conductivity, length = 1e-2, 1.
     rigid = {"Soil/Material": "rigid", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "0.5",
              "Time step/Maximum time step": "4e-3"}
@@ -656,9 +656,9 @@ def seepage(scree):
             if time < 2:
                 continue
             water = render.read_points(folder, time, "water")
-            x, volume = water.positions[:, 0], water.arrays["volume"]
-            # The levels on both sides, each 1 m wide; the dam lets nothing but seepage through.
-            upstream, downstream = np.sum(volume[x < 1]), np.sum(volume[x > 2])
+            (x, y), volume = water.positions[:, :2].T, water.arrays["volume"]
+            head = y + water.arrays["pressure"] / WATER
+            upstream, downstream = (np.average(head[tank], weights=volume[tank]) for tank in ((x < 0.8) & (y < 0.8), (x > 2.3) & (y < 0.3)))
             inside = (x > 1) & (x < 2)
             measured.append(np.sum(volume[inside] * water.arrays["velocity"][inside, 0]) / length)
             expected.append(closed_forms.dupuit_discharge(conductivity, upstream, downstream, length))
@@ -677,28 +677,37 @@ def check_rigid(name, folder, table):
 
 
 def filter_layers(scree):
-    """Two rigid layers of other conductivity and porosity in series: flow and head lost in each within 1 % of Darcy's (.6 % at most)."""
-    table = run(scree, "filter", "filter", pictures())
-    conductivities, thickness, head = {"sand": 1e-3, "gravel": 3e-3}, 0.5, 2.
-    darcy = head / sum(thickness / k for k in conductivities.values())
-    for time in render.read_times("filter", "water")[2:]:
-        water = render.read_points("filter", time, "water")
-        y = water.positions[:, 1]
-        for layer, low in (("sand", 0.5), ("gravel", 0.)):
-            inside = (y > low + 0.1) & (y < low + thickness - 0.1)
-            label = "%s at %.1f s: " % (layer, time)
-            flow = -np.mean(water.arrays["seepage_velocity"][inside, 1])
-            check(label + "flow over Darcy's", flow / darcy, 0.99, 1.01)
-            slope = np.polyfit(y[inside], water.arrays["pressure"][inside] / WATER + y[inside], 1)[0]
-            check(label + "loss of head over Darcy's", slope * conductivities[layer] / darcy, 0.99, 1.01)
-    check_water("filter", table)
+    """Two rigid layers of other conductivity and porosity in series: flow and head lost in each within 1 % of Darcy's, while rows of water
+    cross the faces of cells and layers; with a face .4 of a cell above one of cells the flow within 2 %."""
+    conductivities = {"sand": 1e-3, "gravel": 3e-3}
+    for cell, top, bound in ((0.05, 1., 0.01), (0.1, 1., 0.01), (0.1, 1.04, 0.02)):
+        name = "filter to %g m, cells of %g m" % (top, cell)
+        table = run(scree, "filter", "filter", pictures({"End time": "4", "Output/Interval": "0.5", "Mesh/Cell size": str(cell),
+                                                         "Sand/Region": "y >= 0.5 && y < %g" % top}))
+        flows, slopes = {"sand": [], "gravel": []}, {"sand": [], "gravel": []}
+        for time in render.read_times("filter", "water")[1:]:
+            water = render.read_points("filter", time, "water")
+            y = water.positions[:, 1]
+            # The pond is 2 m deep at first and falls with what seeps.
+            darcy = (2 - 3e-3 * time) / ((top - 0.5) / conductivities["sand"] + 0.5 / conductivities["gravel"])
+            for layer, low, high in (("sand", 0.5, top), ("gravel", 0., 0.5)):
+                inside = (y > low + 0.1) & (y < high - 0.1)
+                flows[layer].append(-np.mean(water.arrays["seepage_velocity"][inside, 1]) / darcy)
+                slopes[layer].append(np.polyfit(y[inside], water.arrays["pressure"][inside] / WATER + y[inside], 1)[0] * conductivities[layer] / darcy)
+        for layer, ratios in flows.items():
+            check("%s: flow in the %s over Darcy's, mean" % (name, layer), np.mean(ratios), 1 - bound, 1 + bound)
+            check("%s: flow in the %s over Darcy's, smallest" % (name, layer), min(ratios), 1 - 2 * bound, 1 + 2 * bound)
+            check("%s: flow in the %s over Darcy's, largest" % (name, layer), max(ratios), 1 - 2 * bound, 1 + 2 * bound)
+        for layer, ratios in slopes.items():
+            check("%s: loss of head in the %s over Darcy's, mean" % (name, layer), np.mean(ratios), 1 - bound, 1 + bound)
+        check_water(name, table)
     check_rigid("filter", "filter", table)
 
 
 def net(scree):
     """A net two cells thick, rigid soil of its own conductivity: elastic soil lies on it, and water seeps through both, as by Darcy; a saturated
     column that collapses against it stays before it, and its water goes on."""
-    for cell, bound in ((0.05, 0.03), (0.025, 0.01)):
+    for cell in (0.05, 0.025):
         run(scree, "filter", "net", pictures({
             "Mesh/Cell size": str(cell), "End time": "0.4", "Sand/Region": "y >= 1 && y < 1.5", "Sand/Material": "linear elastic",
             "Sand/Grain density": "2650", "Sand/Linear elastic/Young's modulus": "1e7", "Sand/Linear elastic/Poisson's ratio": "0.3",
@@ -707,7 +716,7 @@ def net(scree):
         water, soil = render.read_points("net", None, "water"), render.read_points("net")
         y = water.positions[:, 1]
         discharge = -np.mean(water.arrays["velocity"][(y > 0.2) & (y < 0.6), 1])
-        check("net below soil, cells of %g m: discharge over Darcy's" % cell, discharge * (0.5 / 1e-3 + 0.1 / 2e-4), 1 - bound, 1 + bound)
+        check("net below soil, cells of %g m: discharge over Darcy's" % cell, discharge * (0.5 / 1e-3 + 0.1 / 2e-4), 0.99, 1.01)
         check("net below soil, cells of %g m: lowest point of the soil that moves, m" % cell,
               np.min(soil.positions[soil.arrays["body"].ravel() == 0, 1]), 1., 1.01)
     table = run(scree, "net", "wall", pictures({"End time": "2", "Output/Interval": "2"}))
@@ -745,7 +754,7 @@ def porous_block(scree):
                          ("last soil cell", 19), ("first free cell behind", 20)):
         check("porous block: fill of the %s, mean of 0.5 to 2.5 s" % name, columns[column], 0.95, 1.05)
     check("porous block: volume error by corners, largest", max(volume_errors), 0, 0.01)
-    check("porous block: discharge over Dupuit's, mean of 0.5 to 2.5 s", discharge / expected, 0.98, 1.02)
+    check("porous block: discharge over Dupuit's, mean of 0.5 to 2.5 s", discharge / expected, 0.99, 1.01)
     check_water("porous block", table)
     weight = (table["Mass (kg)"][0] + table["Water mass (kg)"][0]) * closed_forms.GRAVITY
     check("porous block: momentum residual over weight times time",

@@ -44,12 +44,22 @@ namespace scree
     return std::clamp((water_volume - outside) / pore_volume, 0., 1. + point_scatter);
   }
 
-  /// Porosity of what water flows through at a node or in a cell, for q = n (v_w - v_s): with the water beyond the
-  /// soil's face; where water lacks, the soil's own.
-  inline double flow_porosity(const double grains, const double water_volume, const double wet_pores)
+  /// Part of a node or cell that grains take of the mixture there: its velocity is this part of the soil's, the rest of
+  /// the water's. Between the grains is the water, but the wet pores where water lacks more of these than the scatter
+  /// of points explains. There few points would lend the flow their own porosity, which is too small: the tip of a
+  /// wetting front would run ahead.
+  inline double grain_fraction_of(const double grains, const double water_volume, const double wet_pores)
   {
-    const double open = std::max(water_volume, wet_pores);
-    return open > 0. ? open / (open + grains) : 0.;
+    constexpr double scatter = 0.15, sure = 0.25; // of the wet pores
+    if (grains <= 0.)
+      return 0.;
+    double between = water_volume;
+    if (wet_pores > 0.)
+      {
+        const double lack = wet_pores - water_volume;
+        between += lack * std::clamp((lack / wet_pores - scatter) / (sure - scatter), 0., 1.);
+      }
+    return grains / (grains + between);
   }
 
   /// What the points of a cell weigh and fill (2D: per m).
