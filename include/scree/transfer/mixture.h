@@ -30,17 +30,19 @@ namespace scree
   }
 
   /// Drag on the water of a cell's soil over that on water that fills its pores: in proportion to the water's volume,
-  /// as the force of the pressure on it is, within the scatter of points. Water outside the soil has no part in it:
-  /// that of the room that the soil leaves of a full cell, and none where the scatter of grains explains what a cell
-  /// lacks. Bounded by 1, soil consolidates 4 % too fast, since a surplus then flows faster and a lack does not flow
-  /// more slowly.
+  /// as the force of the pressure on it is, within the scatter of points. Bounded by 1, soil consolidates 4 % too fast,
+  /// since a surplus then flows faster and a lack does not flow more slowly. Water outside the soil has no part in it:
+  /// that of the room that soil leaves of a full cell, but none where grains lack that no water has taken the place of.
   inline double
   drag_share_of(const double cell_volume, const double grains, const double pore_volume, const double water_volume)
   {
+    constexpr double whole = 0.9, part = 0.75; // of a cell, which soil fills from and up to, as far as scatter can tell
     if (pore_volume <= 0.)
       return 0.;
-    const double soil    = (grains + pore_volume) * std::max(1., (cell_volume - water_volume) / grains);
-    const double outside = std::max(0., cell_volume - soil);
+    const double soil    = grains + pore_volume;
+    const double room    = cell_volume - soil * std::max(1., (cell_volume - water_volume) / grains);
+    const double ends    = std::clamp((whole - soil / cell_volume) / (whole - part), 0., 1.);
+    const double outside = ends * std::max(0., room);
     return std::clamp((water_volume - outside) / pore_volume, 0., 1. + point_scatter);
   }
 
@@ -110,10 +112,10 @@ namespace scree
     }
 
     /// Volume of grains at a corner that are wet as far as water fills the pores, m^3; with the effective saturation
-    /// more of them are.
+    /// more of them are. The last twentieth of the pores may be empty, as strain opens them.
     double wet_grains_at(const unsigned int corner) const
     {
-      return std::min(1., water_volume / pore_volume) * grains_at_corner[corner];
+      return std::min(1., water_volume / (0.95 * pore_volume)) * grains_at_corner[corner];
     }
 
     /// Effective saturation, fill and share of the drag from the volumes.
