@@ -92,9 +92,11 @@ void show_shares()
 {
   double off = 0;
   for (const double n : { 0.3, 0.4, 0.8 })
-    for (double soil = 0.05; soil <= 1.; soil += 0.05)
+    for (double soil = 0.05; soil < 0.76; soil += 0.05)
       off = std::max(off, std::abs(share(n, soil, 1., 1.) - 1.));
-  std::cout << "face anywhere in a full cell: water outside has no part in the drag: " << (off < 1e-14 ? "yes" : "NO")
+  std::cout << "face in a full cell, soil in up to .75 of it: water outside has no part in the drag: "
+            << (off < 1e-14 ? "yes" : "NO") << "; soil in .8, .85, .9, .95 of it: " << share(0.4, 0.8, 1., 1.) << ' '
+            << share(0.4, 0.85, 1., 1.) << ' ' << share(0.4, 0.9, 1., 1.) << ' ' << share(0.4, 0.95, 1., 1.)
             << std::endl;
   std::cout << "soil everywhere, water .75, 1.25, 1.5 times: " << share(0.4, 1., 1., 0.75) << ' '
             << share(0.4, 1., 1., 1.25) << ' ' << share(0.4, 1., 1., 1.5)
