@@ -138,6 +138,16 @@ namespace scree
 
 
   template <int dim>
+  std::uint8_t WaterBoundaryConditions<dim>::closed_faces() const
+  {
+    std::uint8_t faces = 0;
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      faces |= (is_drained(f) ? 0u : 1u) << f;
+    return faces;
+  }
+
+
+  template <int dim>
   std::pair<std::string, bool> WaterBoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
   {
     const unsigned int face = nearest_face(grid, location);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/scheme/box_walls.h>
 #include <scree/scheme/coupled_scheme.h>
 
 #include <algorithm>
@@ -35,6 +36,7 @@ namespace scree
             stabilisation.f_bar_kind() != FBar::none && forcing.gravity().norm() > 0. &&
             water_parameters.bulk_modulus == 0. &&
             std::all_of(water.begin(), water.end(), [](const auto &one) { return one.carrier() == nullptr; }))
+      , closed_faces(water_walls.closed_faces())
       , inflows(inflows)
       , timer(timer)
       , soil(grid, transfer_parameters, stabilisation, bodies, loads)
@@ -289,8 +291,11 @@ namespace scree
               time_step));
           if (volume_correction)
             volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
-          if (const PointSet<dim> *own = one.own_points())
-            report.n_updates += own->n_points();
+          if (PointSet<dim> *own = one.own_points())
+            {
+              hold_in_box(grid, closed_faces, *own);
+              report.n_updates += own->n_points();
+            }
         }
     }
     if (bed)

@@ -9,6 +9,12 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// V/V_0 from which on soil has come apart: most of its points are alone or soon will be.
+    constexpr double loose = 1.2;
+  } // namespace
+
 
   template <int dim>
   Transfer<dim>::Transfer(const BackgroundGrid<dim> &grid,
@@ -48,6 +54,12 @@ namespace scree
       simd::load_records<dim + 2>(as_constant(points.properties), own);
       simd::load_records<dim>(as_constant(points.locations), location);
       largest.include(at_points.template update<method>(own, affine, keep, time_step), n_used);
+      if constexpr (method == TransferMethod::tpic) // AFLIP carries all of them.
+        {
+          const simd::Mask<Batch> is_loose = body.density * own[Layout::volume] > loose * own[Layout::mass];
+          if (simd::bits_of(is_loose) != 0)
+            carry_along<dim>(affine, time_step, is_loose);
+        }
       for (unsigned int c = 0; c < dim; ++c)
         location[c] += time_step * at_points.velocity[c];
       simd::store_records<dim>(own, points.slots_at(Layout::velocity));

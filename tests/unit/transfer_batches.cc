@@ -84,7 +84,8 @@ Reference<dim> moved(const CellPoints<dim> &cell,
   for (unsigned int c = 0; c < dim; ++c)
     point.properties[c] = keeps ? keep * (old[c] + change[c]) + (1 - keep) * velocity[c] : velocity[c];
   Tensor<2, dim> affine = method == "APIC" ? moment : gradient;
-  if (method == "AFLIP")
+  const bool is_loose   = density * point.properties[layout.volume] > 1.2 * point.properties[layout.mass];
+  if (method == "AFLIP" || (method == "TPIC" && is_loose))
     {
       const Tensor<2, dim> carried = gradient * invert(point.increment);
       if (carried.norm() < gradient.norm())
@@ -170,6 +171,7 @@ void start(SoilBody<dim> &body, RandomNumbers &random)
                               properties + body.layout.internal_variables);
     for (unsigned int a = 0; a < dim; ++a)
       properties[a] = random.uniform(-1, 1);
+    properties[body.layout.volume] *= random.uniform(0.9, 1.3); // Some are loose.
   });
 }
 

@@ -2,11 +2,13 @@
 
 // Walls of a wet scene and what falls on them: which walls act where a point has reached one, two or no wall; that they
 // act on what is slow; the speed at which a gap closes within a step; a full cell has no gap; a gate holds whatever is
-// near; afterwards all walls act again; the same on 1 and 2 ranks.
+// near; afterwards all walls act again; points just outside come back, through closed faces only; the same on 1 and 2
+// ranks.
 
 #include "expect.h"
 
 #include <scree/points/water_seeding.h>
+#include <scree/scheme/box_walls.h>
 #include <scree/scheme/wall_gaps.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -186,4 +188,24 @@ int main(int argc, char *argv[])
   expect(gated.held().first, n_all, 0., "nodes that a gate and walls hold");
   if (tells)
     std::cout << "gate: OK" << std::endl;
+
+  // By default the top is drained.
+  const auto test_hold =
+      [&](const std::string &what, const Point<2> &start, const Point<2> &moved, const Point<2> &end) {
+        Box box;
+        box.add(start, rest);
+        for_each_point(box.points, [&](const auto &point) { point.location = moved; });
+        hold_in_box(box.grid, box.water_walls.closed_faces(), box.points);
+        double error = 0;
+        for_each_point(box.points, [&](const auto &point) { error = point.location.distance(end); });
+        expect(Utilities::MPI::max(error, MPI_COMM_WORLD), 0., 2e-6 * h, what + ": error of the place");
+        if (tells)
+          std::cout << what << ": OK" << std::endl;
+      };
+  const double low = 0.5 * h, out = 0.09 * h, far_out = 0.11 * h;
+  test_hold("below the bottom", { middle, low }, { middle, -out }, { middle, 0. });
+  test_hold("beyond a corner", { 1. - low, low }, { 1. + out, -out }, { 1., 0. });
+  test_hold("far below the bottom", { middle, low }, { middle, -far_out }, { middle, -far_out });
+  test_hold("above the drained top", { middle, 1. - low }, { middle, 1. + out }, { middle, 1. + out });
+  test_hold("inside", { middle, low }, { middle, 1e-3 * h }, { middle, 1e-3 * h });
 }

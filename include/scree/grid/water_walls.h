@@ -66,6 +66,9 @@ namespace scree
       return wall_list[face].type == WaterWallType::drained;
     }
 
+    /// The faces that are not drained.
+    std::uint8_t closed_faces() const;
+
     /// Name of the face of the box nearest to a point outside, and whether it is drained.
     std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const;
 

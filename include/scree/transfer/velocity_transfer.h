@@ -41,8 +41,10 @@ namespace scree
   /// From the velocity gradient L over the places of a step's start, 1/s, to that over the places of its end,
   /// L (I + dt L)^-1, if it is smaller: so a lone point, to which no node says anything new, does not stretch for ever
   /// at the same rate, and one that is compressed does not shrink to nothing in a finite time.
+  ///
+  /// @param where points concerned
   template <int dim>
-  void carry_along(Batch *gradient, const double time_step)
+  void carry_along(Batch *gradient, const double time_step, const simd::Mask<Batch> &where)
   {
     Batch stretch[dim * dim], inverse[dim * dim], carried[dim * dim];
     Batch square = simd::broadcast<Batch>(0.), carried_square = square;
@@ -59,7 +61,7 @@ namespace scree
           carried_square += sum * sum;
           square += gradient[c * dim + a] * gradient[c * dim + a];
         }
-    const simd::Mask<Batch> is_smaller = (determinant_of_rows<dim>(stretch) > 0.) & (carried_square < square);
+    const simd::Mask<Batch> is_smaller = where & (determinant_of_rows<dim>(stretch) > 0.) & (carried_square < square);
     for (unsigned int c = 0; c < dim * dim; ++c)
       gradient[c] = simd::select<Batch>(is_smaller, carried[c], gradient[c]);
   }
@@ -114,7 +116,7 @@ namespace scree
       if constexpr (carries_gradient(method))
         std::copy_n(gradient, dim * dim, affine);
       if constexpr (method == TransferMethod::aflip)
-        carry_along<dim>(affine, time_step);
+        carry_along<dim>(affine, time_step, simd::first_lanes(batch_size));
       return square;
     }
   };

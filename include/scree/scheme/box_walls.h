@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_scheme_box_walls_h
+#define scree_scheme_box_walls_h
+
+#include <scree/grid/background_grid.h>
+#include <scree/points/point_set.h>
+
+namespace scree
+{
+  /// Puts points that have passed a closed face of the box by less than a tenth of a cell back to it. No velocity of
+  /// the nodes carries a point through a wall within a stable step, but that of water in pores may be a multiple of
+  /// theirs (PoreVelocity). What is farther out stays there, as a sign of a step that is not stable.
+  ///
+  /// @param closed_faces bit f: face f, as in BackgroundGrid::node_faces()
+  template <int dim>
+  void hold_in_box(const BackgroundGrid<dim> &grid, const std::uint8_t closed_faces, PointSet<dim> &points);
+} // namespace scree
+
+#endif
