@@ -58,7 +58,7 @@ def verdict(rows):
         Claim(f"The impulse converges, the peak does not: from h = 0.1 to 0.05 m the impulse changes by up to {max(changes):.2g} of the momentum (in the mean by "
               f"{sum(changes) / len(changes):.2g}), the peak of p by a factor of {min(ratios):.2g} to {max(ratios):.2g}. Report the impulse.",
               max(changes) < min(ratios) - 1, quick=False),
-        Claim(f"Single points of soil open without bound in the spray of {max(row['v'] for row in rows):g} m/s (J up to {max(row['largest J'] for row in spray):.0f}, {len(spray)} of "
+        Claim(f"Single points of soil open beyond the bound in the spray of {max(row['v'] for row in rows):g} m/s (J up to {max(row['largest J'] for row in spray):.0f}, {len(spray)} of "
               f"{len(rows)} runs); up to {rest:g} m/s none does.", len(spray) > 0 and all(row["v"] > rest for row in spray), quick=False) if spray else
         Claim("No point's volume leaves its bounds.", True),
         Claim(f"{len(ended)} of {len(rows)} impacts run to their end, up to {max(row['v'] for row in rows):g} m/s; none gains more than "

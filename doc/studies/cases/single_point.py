@@ -38,8 +38,8 @@ def verdict(rows):
     gains = sum(row["gain"] > 0.005 for row in single)
     return [
         Claim(f"Double-point water keeps its mass in all {len(double)} runs, which come to their end, and gains no energy (at most {max(row['gain'] for row in double):.1g} of the "
-              f"released one). What is not stable there is the spray: single points of soil open without bound in {len(open_)} runs, from "
-              f"{min((row['speed'] for row in open_), default=math.nan):g} m/s on, and p scatters by up to {max(row['oscillation of p'] for row in double):.2g}.",
+              f"released one). What is not stable there is the spray: single points of soil open up to {max(row['largest J'] for row in double):.0f} times, beyond the bound in "
+              f"{len(open_)} runs, from {min((row['speed'] for row in open_), default=math.nan):g} m/s on, and p scatters by up to {max(row['oscillation of p'] for row in double):.2g}.",
               all(row["ended"] and row["error"] < 1e-6 and row["gain"] < measures.BOUNDS["gain"] and row["oscillation of p"] < 0.3 for row in double)),
         Claim(f"Single-point water makes {100 * min(made):.0f} % and more in each of {len(made)} runs; a column that only collapses makes "
               f"{100 * min(rest):.0f} to {100 * max(rest):.0f} %.", min(made) > 0.01),
