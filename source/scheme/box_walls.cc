@@ -7,9 +7,12 @@ namespace scree
 
   namespace
   {
-    constexpr double farthest = 0.1;  // that a point is outside, cells
-    constexpr double inside   = 1e-6; // where it is put, cells
-  }                                   // namespace
+    /// How far a point may be outside, cells.
+    constexpr double farthest = 0.1;
+
+    /// Where it is put, cells.
+    constexpr double inside = 1e-6;
+  } // namespace
 
 
   template <int dim>
