@@ -10,7 +10,7 @@ namespace scree
 
   namespace
   {
-    constexpr char pattern_text[] = "fixed | free slip | friction ANGLE (degrees, 0 to below 90) | open";
+    constexpr char accepted_walls[] = "fixed | free slip | friction ANGLE (degrees, 0 to below 90) | open";
 
     /// Reads one wall, or throws with the words that are allowed.
     Wall wall_from_text(const std::string &name, const std::string &text)
@@ -36,7 +36,7 @@ namespace scree
           if (end == rest.size() && angle >= 0. && angle < 90.)
             return { WallType::friction, std::tan(angle * numbers::PI / 180.) };
         }
-      throw EntryError(entry_name("Boundaries", name) + " = " + text + ": write one of: " + pattern_text + '.');
+      throw EntryError(entry_name("Boundaries", name) + " = " + text + ": write one of: " + accepted_walls + '.');
     }
   } // namespace
 
@@ -50,7 +50,7 @@ namespace scree
   void BoundaryParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Boundaries");
-    FaceEntries::add_parameters(prm, std::string(" of the box: ") + pattern_text + ".");
+    FaceEntries::add_parameters(prm, std::string(" of the box: ") + accepted_walls + ".");
     prm.leave_subsection();
   }
 

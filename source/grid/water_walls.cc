@@ -11,7 +11,7 @@ namespace scree
 
   namespace
   {
-    constexpr char pattern_text[] = "impermeable | no slip | drained | drained PRESSURE (Pa)";
+    constexpr char accepted_water_walls[] = "impermeable | no slip | drained | drained PRESSURE (Pa)";
 
     /// Reads one wall, or throws with the words that are allowed.
     WaterWall wall_from_text(const std::string &name, const std::string &text)
@@ -39,7 +39,7 @@ namespace scree
           if (is_a_number)
             return { WaterWallType::drained, pressure };
         }
-      throw EntryError(entry_name("Boundaries/Water", name) + " = " + text + ": write one of: " + pattern_text + '.');
+      throw EntryError(entry_name("Boundaries/Water", name) + " = " + text + ": write one of: " + accepted_water_walls + '.');
     }
   } // namespace
 
@@ -54,7 +54,7 @@ namespace scree
   {
     prm.enter_subsection("Boundaries");
     prm.enter_subsection("Water");
-    FaceEntries::add_parameters(prm, std::string(" of the box, for the water: ") + pattern_text + ".");
+    FaceEntries::add_parameters(prm, std::string(" of the box, for the water: ") + accepted_water_walls + ".");
     prm.leave_subsection();
     prm.leave_subsection();
   }

@@ -158,14 +158,14 @@ namespace scree
     }
 
     /// What a pattern of deal.II asks for, in words.
-    std::string pattern_text(const std::string &pattern)
+    std::string pattern_as_words(const std::string &pattern)
     {
       const auto starts_with = [&](const std::string &begin) { return pattern.rfind(begin, 0) == 0; };
       if (starts_with("[List of <"))
         {
           const std::string tail  = pattern.substr(pattern.rfind(">") + 1);
           const std::string least = between(tail, "length ", "..."), most = between(tail, "...", " ");
-          const std::string each = pattern_text(pattern.substr(10, pattern.rfind(">") - 10));
+          const std::string each = pattern_as_words(pattern.substr(10, pattern.rfind(">") - 10));
           return least +
                  (most.size() > 9 ? " or more"
                   : least == most ? ""
@@ -224,7 +224,7 @@ namespace scree
 
   std::string value_remedy(const DeclaredNames::Name &entry, const std::string &value)
   {
-    std::string remedy = "write " + pattern_text(entry.pattern) + '.';
+    std::string remedy = "write " + pattern_as_words(entry.pattern) + '.';
     if (entry.pattern.rfind("[Selection ", 0) == 0)
       {
         std::vector<Name> choices;

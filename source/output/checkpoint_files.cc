@@ -19,7 +19,7 @@ namespace scree
     namespace fs = std::filesystem;
 
     const std::string name_of_manifest = "manifest", name_of_step = "step-";
-    const std::string first_line     = "Scree checkpoint, format 10";
+    const std::string format_line     = "Scree checkpoint, format 10";
     const std::string checksum_label = "checksum: ";
 
     /// CRC-64 as of ECMA-182, reflected: that of xz.
@@ -84,7 +84,7 @@ namespace scree
   void Manifest::write(const std::string &folder) const
   {
     std::ostringstream text;
-    text << std::setprecision(std::numeric_limits<double>::max_digits10) << first_line << "\nprogram: " << program
+    text << std::setprecision(std::numeric_limits<double>::max_digits10) << format_line << "\nprogram: " << program
          << "\ndimension: " << dimension << "\ntime: " << time << "\nstep: " << step << '\n';
     for (const CheckedFile &file : files)
       text << "file: " << file.name << ' ' << file.size << ' ' << std::hex << file.checksum << std::dec << '\n';
@@ -103,8 +103,8 @@ namespace scree
     std::istringstream in(head);
     std::string line, label;
     std::getline(in, line);
-    if (line != first_line)
-      throw FileError(path + ": begins with \"" + line + "\", but this program reads \"" + first_line + '"');
+    if (line != format_line)
+      throw FileError(path + ": begins with \"" + line + "\", but this program reads \"" + format_line + '"');
     Manifest manifest;
     in >> label >> std::ws;
     std::getline(in, manifest.program);

@@ -18,7 +18,7 @@ namespace scree
 {
   namespace
   {
-    std::string date()
+    std::string utc_date()
     {
       const std::time_t now = std::time(nullptr);
       char text[32];
@@ -76,7 +76,7 @@ namespace scree
     std::string lock_text()
     {
       std::ostringstream text;
-      text << Process::myself() << ' ' << date() << '\n';
+      text << Process::myself() << ' ' << utc_date() << '\n';
       return text.str();
     }
   } // namespace
