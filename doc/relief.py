@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws maps of a run over the shaded relief of its ground.
 
-/usr/bin/python3 doc/relief.py results/kot_dry --maps thickness_0s,largest_thickness,largest_speed
+/usr/bin/python3 doc/relief.py results/mountain_dry --maps thickness_0s,largest_thickness,largest_speed
 
 Reads the run's `maps` and, for the relief, the raster of its bed. Writes relief.png into the run folder. Needs Debian's python3-matplotlib.
 """
@@ -105,7 +105,7 @@ def draw(run, names, output):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("run", type=pathlib.Path, help="run folder with a folder maps, for instance results/kot_dry")
+    parser.add_argument("run", type=pathlib.Path, help="run folder with a folder maps, for instance results/mountain_dry")
     parser.add_argument("--maps", default="largest_thickness", help="names of maps without .asc, separated by commas; default: largest_thickness")
     parser.add_argument("--output", type=pathlib.Path, help="picture; default: relief.png in the run folder")
     arguments = parser.parse_args()

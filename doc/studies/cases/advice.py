@@ -8,7 +8,7 @@ What the advice says comes from half a core-second of the case's first steps, a 
 at least twice as wide, which tells how many steps there will be and how much dearer they get; nothing in it is set on these cases but what a checkpoint costs.
 
 Factors that had been set on cases (solves twice as dear in motion, with volume correction 2.5 times, ...) stood in place of that run before: all cases of `prm/` and `prm/benchmarks` were within
-1.33, but `bed/bore`, whose piston drives level water, was predicted at .56 of what it takes, and `terrain/kot_saturated`, which spreads from 376 cells to many times as many, at .55."""
+1.33, but `bed/bore`, whose piston drives level water, was predicted at .56 of what it takes, and `terrain/mountain_saturated`, which spreads from 376 cells to many times as many, at .55."""
 
 import math
 import re
@@ -35,8 +35,8 @@ NEW = {
     "slow_bore": ("bed/bore", {"End time": 6, "Mesh/Cell size": 0.1, "Obstacle Piston/Velocity": "min(0.8, t); 0"}),
     "wide_column": ("column_dense", {"End time": 2, "Soil/Region": "x < 1.6 && y < 0.6"}),
     "stiff_slope": ("slope_saturated_mohr_coulomb", {"End time": 3, "Mesh/Cell size": 0.1, "Soil/Mohr-Coulomb/Young's modulus": 3e7}),
-    "kot_fine": ("terrain/kot_dry", {"End time": 15, "Mesh/Cell size": 5, "Soil/Points per cell": 2}),
-    "kot_rough": ("terrain/kot_saturated", {"End time": 30, "Bed/Friction angle": 12}),
+    "mountain_fine": ("terrain/mountain_dry", {"End time": 15, "Mesh/Cell size": 5, "Soil/Points per cell": 2}),
+    "mountain_rough": ("terrain/mountain_saturated", {"End time": 30, "Bed/Friction angle": 12}),
     "block_against_piers": ("bed/slit_dam", {"End time": 3, "Soil/Mohr-Coulomb/Friction angle": 22}),
     "soaking": ("water_on_soil", {"End time": 2, "Mesh/Cell size": 0.1, "Soil/Mohr-Coulomb/Young's modulus": 5e6}),
     "tall_column": ("column_saturated_3d", {"End time": 0.5, "Soil/Region": "x < 0.4 && y < 0.4 && z < 0.7", "Water/Hydraulic conductivity": 5e-2}),
