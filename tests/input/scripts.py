@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""scripts.py DOC SCREE ELEMENT: what variants.py, plot_element.py, render.py and relief.py say of wrong arguments, and which pictures they write."""
+"""scripts.py DOC SCREE ELEMENT: what variants.py, plot_element.py, render.py, relief.py and mountain.py say of wrong arguments, and which files they write."""
 
 import os
 import pathlib
@@ -116,12 +116,25 @@ def check_relief(scripts):
     scripts.writes(["run/relief.png"], "relief.py", "run", "--maps", "deposit")
 
 
+def check_mountain(scripts):
+    """The rasters of prm/terrain are those that the generator makes, to the digits that it writes."""
+    scripts.refuses("^mountain.py: .*case.prm", "mountain.py", "1", "case.prm/folder")
+    files = [f"mountain/{name}" for name in ("terrain.asc", "release.asc", "case.prm")]
+    scripts.writes(files, "mountain.py", "1", "mountain", "--size", "small")
+    terrain = pathlib.Path(scripts.doc).parent / "prm" / "terrain"
+    for shipped, made in (("mountain.asc", files[0]), ("release.asc", files[1])):
+        texts = [path.read_text(encoding="utf-8").split() for path in (terrain / shipped, pathlib.Path(made))]
+        if texts[0][:12] != texts[1][:12] or any(abs(float(a) - float(b)) > 0.011 for a, b in zip(texts[0][12:], texts[1][12:], strict=True)):
+            scripts.faults.append(f"{shipped} is not what mountain.py makes")
+    scripts.writes(files, "mountain.py", "2", "mountain", "--rim", "cut", "--relief", "smooth", "--feature", "cliff", "--cell", "20", "--spacing", "20")
+
+
 def check_interpreter(scripts):
     """A Python without the modules names the one that has them."""
     bare = pathlib.Path("bare_python")
     bare.write_text("#!/bin/sh\nexec /usr/bin/python3 -I -S \"$@\"\n", encoding="utf-8")  # -S: no installed packages
     bare.chmod(0o755)
-    for script in ("render.py", "plot_element.py", "relief.py"):
+    for script in ("render.py", "plot_element.py", "relief.py", "mountain.py"):
         scripts.refuses(f"^{script}: .* has no module .*: start this with /usr/bin/python3", script, "run", interpreter="./bare_python")
     readme = pathlib.Path(scripts.doc).parent / "README.md"
     for word in re.findall(r"\S*python3 \S+", readme.read_text(encoding="utf-8")):
@@ -143,6 +156,7 @@ def main():
     check_plot_element(scripts)
     check_render(scripts)
     check_relief(scripts)
+    check_mountain(scripts)
     check_interpreter(scripts)
     print("\n".join(scripts.faults) or "all as they should be")
     sys.exit(bool(scripts.faults))
