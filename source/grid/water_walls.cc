@@ -14,7 +14,7 @@ namespace scree
     constexpr char accepted_water_walls[] = "impermeable | no slip | drained | drained PRESSURE (Pa)";
 
     /// Reads one wall, or throws with the words that are allowed.
-    WaterWall wall_from_text(const std::string &name, const std::string &text)
+    WaterWall water_wall_from_text(const std::string &name, const std::string &text)
     {
       if (text == "impermeable")
         return { WaterWallType::impermeable, 0. };
@@ -72,7 +72,7 @@ namespace scree
     const auto faces = names(dim), entries = texts(dim);
     std::vector<WaterWall> result;
     for (unsigned int f = 0; f < faces.size(); ++f)
-      result.push_back(wall_from_text(faces[f], entries[f]));
+      result.push_back(water_wall_from_text(faces[f], entries[f]));
     return result;
   }
 

@@ -12,7 +12,7 @@ namespace scree
 
   namespace
   {
-    using Clock = std::chrono::steady_clock;
+    using WallClock = std::chrono::steady_clock;
 
     constexpr unsigned int steps_between_looks        = 50;
     constexpr unsigned int steps_between_measurements = 10;
@@ -28,7 +28,7 @@ namespace scree
       , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
       , typical_costs(sets.size(), cost_of_unmeasured_point)
       , weight_signal(mesh.signals.weight.connect([this](const auto &cell, const auto) { return weight_of(cell); }))
-      , last(Clock::now())
+      , last(WallClock::now())
   {
   }
 
@@ -41,7 +41,7 @@ namespace scree
     if (n_steps++ % steps_between_measurements == 0)
       for (PointSet<dim> *points : sets)
         points->costs().time_next_pass();
-    last = Clock::now();
+    last = WallClock::now();
   }
 
 
@@ -50,7 +50,7 @@ namespace scree
   {
     if (n_ranks == 1)
       return;
-    const auto now = Clock::now();
+    const auto now = WallClock::now();
     add(finished, std::chrono::duration<double>(now - last).count());
     last = now;
   }
@@ -70,7 +70,7 @@ namespace scree
   template <int dim>
   void Partition<dim>::resume()
   {
-    last = Clock::now();
+    last = WallClock::now();
   }
 
 
@@ -181,7 +181,7 @@ namespace scree
   template <int dim>
   void Partition<dim>::repartition(const std::function<void()> &fit)
   {
-    const auto start = Clock::now();
+    const auto start = WallClock::now();
     find_typical_costs();
     for (PointSet<dim> *points : sets)
       points->handler().prepare_for_coarsening_and_refinement();
@@ -196,7 +196,7 @@ namespace scree
     n_changes += sum_of_mean > 0.;
     surplus = to_points  = 0.;
     n_steps_in_partition = 0;
-    duration = Utilities::MPI::max(std::chrono::duration<double>(Clock::now() - start).count(), communicator);
+    duration = Utilities::MPI::max(std::chrono::duration<double>(WallClock::now() - start).count(), communicator);
   }
 
 
