@@ -49,7 +49,7 @@ namespace scree
       require_apart(soil, points_per_cell().second, grid.triangulation(), grid.cell_size());
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
-      seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get());
+      seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water);
     for (auto &part : water)
       seed_water(part,
                  parameters.water,

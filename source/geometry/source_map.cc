@@ -198,4 +198,39 @@ namespace scree
     // Less than a thickness above the ground is what would be below it by that much less.
     return !ground || (ground->is_open(x) && (!thickness || !ground->is_open({ x[0], x[1], x[2] - part })));
   }
+
+
+  double SourceMap::ground_between(const double x, const double y, const double lower, const double upper) const
+  {
+    if (!ground || ground->is_open({ x, y, lower }))
+      return lower;
+    if (!ground->is_open({ x, y, upper }))
+      return upper;
+    constexpr unsigned int n_halvings = 24;
+    double below = lower, above = upper;
+    for (unsigned int i = 0; i < n_halvings; ++i)
+      {
+        const double middle                                    = 0.5 * (below + above);
+        (ground->is_open({ x, y, middle }) ? above : below) = middle;
+      }
+    return above;
+  }
+
+
+  std::pair<double, double>
+  SourceMap::part_of_line(const double x, const double y, const double lower, const double upper) const
+  {
+    const std::pair<double, double> nothing{ lower, lower };
+    const double part = thickness ? thickness->value_or_zero_at(x, y) : 0.;
+    const double over = upper_surface ? upper_surface->value_at(x, y) : upper;
+    if ((thickness && !(part > 0.)) || !(over > lower) || (outline && !outline->contains({ x, y })))
+      return nothing;
+    const double under = lower_surface ? lower_surface->value_at(x, y) : lower;
+    if (!(under < upper))
+      return nothing;
+    double top = std::min(upper, over);
+    if (thickness)
+      top = std::min(top, part + (lower_surface ? under : ground_between(x, y, lower - part, upper - part)));
+    return { std::max(under, ground_between(x, y, lower, upper)), top };
+  }
 } // namespace scree

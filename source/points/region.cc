@@ -84,7 +84,32 @@ namespace scree
     for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
       if (contains(corner(lower, width, v)))
         return true;
-    return contains(middle(lower, width));
+    return contains(middle(lower, width)) || (map && map->is_layer() && part_by_lines(lower, width).first > 0.);
+  }
+
+
+  template <int dim>
+  std::pair<double, Point<dim>> Region<dim>::part_by_lines(const Point<dim> &lower, const double width) const
+  {
+    constexpr unsigned int n = 6, n_parts = 4; // lines along an axis; parts of each, where the expression is asked
+    constexpr double least = 1e-9; // of the width: what rounding leaves
+    double length = 0.;
+    Tensor<1, dim> moment;
+    if constexpr (dim == 3)
+      for (unsigned int i = 0; i < n * n; ++i)
+        {
+          const double x = lower[0] + width * (i % n + 0.5) / n, y = lower[1] + width * (i / n + 0.5) / n;
+          const auto [bottom, top] = map->part_of_line(x, y, lower[2], lower[2] + width);
+          const double part        = (top - bottom) / n_parts;
+          for (unsigned int k = 0; k < n_parts && part > least * width; ++k)
+            if (const Point<dim> place(x, y, bottom + part * (k + 0.5)); function->value(place) != 0.)
+              {
+                length += part;
+                moment += part * (place - lower);
+              }
+        }
+    return { length * width * width / (n * n),
+             length > 0. ? Point<dim>(lower + moment / length) : middle(lower, width) };
   }
 
 
@@ -109,6 +134,8 @@ namespace scree
     const double volume     = Utilities::fixed_power<dim>(width);
     if (in_both == n_corners && contains(middle))
       return { volume, middle };
+    if (map && map->is_layer())
+      return part_by_lines(lower, width);
     if (ground != nullptr && in_region + in_open < 2 * n_corners && in_region > 0 && in_open > 0)
       {
         auto simplices =

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/points/lattice.h>
 #include <scree/points/seeding.h>
+#include <scree/points/slivers.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -130,7 +130,8 @@ namespace scree
             const SeedingParameters &parameters,
             const Triangulation<dim> &triangulation,
             const double cell_size,
-            const LevelSet<dim> *ground)
+            const LevelSet<dim> *ground,
+            const bool in_water)
   {
     const Region<dim> region(entry_name(body.name, "Region"), parameters.expression(), parameters.map);
     const auto velocity =
@@ -150,6 +151,8 @@ namespace scree
                                  });
       require_velocities(velocity.get(), seeds);
     });
+    if (in_water)
+      keep_slivers_at(ground, seeds);
     join_slivers(triangulation, ground, seeds);
     double volume = 0;
     for (const Seed<dim> &one : seeds)
@@ -206,10 +209,18 @@ namespace scree
   require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<2> &, const double);
   template void
   require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<3> &, const double);
-  template void
-  seed(SoilBody<2> &, const SeedingParameters &, const Triangulation<2> &, const double, const LevelSet<2> *);
-  template void
-  seed(SoilBody<3> &, const SeedingParameters &, const Triangulation<3> &, const double, const LevelSet<3> *);
+  template void seed(SoilBody<2> &,
+                     const SeedingParameters &,
+                     const Triangulation<2> &,
+                     const double,
+                     const LevelSet<2> *,
+                     const bool);
+  template void seed(SoilBody<3> &,
+                     const SeedingParameters &,
+                     const Triangulation<3> &,
+                     const double,
+                     const LevelSet<3> *,
+                     const bool);
   template void set_velocity_gradient(PointSet<2> &, const std::string &, const unsigned int, const double);
   template void set_velocity_gradient(PointSet<3> &, const std::string &, const unsigned int, const double);
 } // namespace scree

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/points/lattice.h>
+#include <scree/points/slivers.h>
 #include <scree/points/water_seeding.h>
 
 #include <deal.II/base/mpi.h>
@@ -83,6 +83,7 @@ namespace scree
             triangulation, cell_size, { parameters.points_per_cell, parameters.jitter, 1 }, part_of_cube);
         require_velocities(velocity.get(), seeds);
       });
+      keep_slivers_at(ground, seeds);
       join_slivers(triangulation, ground, seeds);
 
       Utilities::MPI::sum(filled, communicator, filled);

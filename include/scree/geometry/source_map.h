@@ -64,12 +64,26 @@ namespace scree
 
     bool contains(const dealii::Point<3> &x) const;
 
+    /// Whether maps alone bound the body below and above, so that part_of_line() may be asked.
+    bool is_layer() const
+    {
+      return (thickness || upper_surface) && !solid;
+    }
+
+    /// The heights, m, between which the body is above x, y of the map and above ground, as far as they are between two
+    /// others; nothing is there if the second is not larger. The ground must not overhang.
+    std::pair<double, double>
+    part_of_line(const double x, const double y, const double lower, const double upper) const;
+
     /// Entry and value, for messages.
     const std::pair<std::string, std::string> entry;
 
   private:
     /// Throws EntryError unless every place with a value that counts lies in the box and on ground.
     void check(const std::string &body, const dealii::Point<3> &lower, const dealii::Point<3> &upper) const;
+
+    /// The height, m, between two others from which on a place above x, y of the map is above ground.
+    double ground_between(const double x, const double y, const double lower, const double upper) const;
 
     const std::shared_ptr<const LevelSet<3>> ground;
     std::optional<Raster> thickness, upper_surface, lower_surface;

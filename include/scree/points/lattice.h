@@ -2,7 +2,6 @@
 #ifndef scree_points_lattice_h
 #define scree_points_lattice_h
 
-#include <scree/geometry/level_set.h>
 #include <scree/points/point_set.h>
 
 #include <deal.II/base/function.h>
@@ -33,6 +32,21 @@ namespace scree
     double volume;               ///< m^3 (2D: per m)
     double filled = 1.;          ///< part of a cube of the lattice that its region covers, of several the sum
     bool stays    = false;       ///< see CubePart
+
+    static constexpr double least_filled = 0.25; ///< seeds that fill less are slivers
+
+    bool is_sliver() const
+    {
+      return filled < least_filled;
+    }
+
+    /// Takes the volume, m^3, and what it fills from another place and moves to the common centroid.
+    void take_in(const dealii::Point<dim> &from, const double more_volume, const double more_filled)
+    {
+      volume += more_volume;
+      filled += more_filled;
+      location += more_volume / volume * (from - location);
+    }
   };
 
   /// The lattice of a set of points.
@@ -56,16 +70,6 @@ namespace scree
                                        const double cell_size,
                                        const Lattice &lattice,
                                        const PartOfCube<dim> &part_of_cube);
-
-  /// Seeds that fill less than a quarter of a cube, alone in their cells, join the nearest fuller one of the cells that
-  /// share a face with theirs, if there is one; that moves towards the common centroid, at most half of its way to a
-  /// face of its cell. Those that need not stay and are not beside the ground, which has to feel them. The same on any
-  /// number of ranks. Collective.
-  /// @param ground null: none
-  template <int dim>
-  void join_slivers(const dealii::Triangulation<dim> &triangulation,
-                    const LevelSet<dim> *ground,
-                    std::vector<Seed<dim>> &seeds);
 
   /// Throws ValueError if the velocity of a seed is no number.
   /// @param velocity null: at rest

@@ -38,7 +38,8 @@ namespace scree
     /// Whether part_of_cube() may find any of the region there.
     bool touches_cube(const dealii::Point<dim> &lower, const double width) const;
 
-    /// Volume, m^3, and centroid, m, of the part of the region that lies in a small cube, by sampling.
+    /// Volume, m^3, and centroid, m, of the part of the region that lies in a small cube, by sampling; where maps bound
+    /// it, by vertical lines.
     /// @param ground only what is in its open counts, cut exactly where ground and region are plane; null: all
     std::pair<double, dealii::Point<dim>>
     part_of_cube(const dealii::Point<dim> &lower, const double width, const LevelSet<dim> *ground = nullptr) const;
@@ -47,6 +48,9 @@ namespace scree
     /// Corners of the cube, a little inside it: a region may end at its face.
     static dealii::Point<dim> corner(const dealii::Point<dim> &lower, const double width, const unsigned int vertex);
     static dealii::Point<dim> middle(const dealii::Point<dim> &lower, const double width);
+
+    /// part_of_cube() where maps bound the region: by vertical lines, so that it may be thinner than the cube.
+    std::pair<double, dealii::Point<dim>> part_by_lines(const dealii::Point<dim> &lower, const double width) const;
 
     std::unique_ptr<Expression<dim>> function;
     std::shared_ptr<const SourceMap> map;

@@ -76,12 +76,14 @@ namespace scree
   /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
   /// holds no volume, or an expression is no number at one of the places.
   /// @param ground only what is in its open is filled; null: all
+  /// @param in_water slivers beside the ground stay, see keep_slivers_at()
   template <int dim>
   void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,
             const dealii::Triangulation<dim> &triangulation,
             const double cell_size,
-            const LevelSet<dim> *ground = nullptr);
+            const LevelSet<dim> *ground = nullptr,
+            const bool in_water         = false);
 
   /// Sets the gradient of an initial velocity at the points, 1/s, by differences over a cell: what the nodes see of it.
   ///
