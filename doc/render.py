@@ -89,6 +89,20 @@ def read_times(run, collection="points"):
     return np.array(sorted(_pictures(run, collection)))
 
 
+def pictures_at(run, times, collection="points"):
+    """The times of the pictures at `times`, s, to a millionth of the run. Throws a ValueError that lists those there are if one is missing."""
+    available = read_times(run, collection)
+    tolerance = 1e-6 * max(abs(available[-1]), abs(available[0]))
+    nearest = [min(available, key=lambda one, wanted=wanted: abs(one - wanted)) for wanted in times]
+    for wanted, found in zip(times, nearest):
+        if not abs(found - wanted) <= tolerance:
+            shown = [f"{time:.6g}" for time in available]
+            shown = shown if len(shown) <= 20 else shown[:10] + ["..."] + shown[-10:]
+            raise ValueError(f"{run} has no picture at t = {wanted:g} s; there are {len(available)}, at {', '.join(shown)} s. "
+                             f"The next is at {found:.6g} s; entry \"Interval\" in subsection Output sets them.")
+    return np.unique(nearest)
+
+
 def read_points(run, time=None, collection="points"):
     """The points of the picture next to `time`, s; of the last one without `time`.
 
@@ -225,9 +239,9 @@ def rigid_ground(run, x, y, time):
             continue
         ways = [f"{subsection} displacement {axis} (m)" for axis in "xy"]
         moved = [np.interp(time, statistics["Time (s)"], statistics[way]) if way in statistics else 0. for way in ways]
-        profile = pathlib.Path(entries.get(subsection + "/Profile") or "/")
+        profile = variants.file_named(pathlib.Path(run) / "parameters.prm", entries.get(subsection + "/Profile", ""))
         try:
-            if profile.is_file():
+            if profile:
                 points = np.array([[float(word) for word in re.split(r"[,\s]+", line.strip())[:2]]
                                    for line in profile.read_text(encoding="utf-8").splitlines() if re.match(r"\s*[-+.0-9]", line)])
                 surfaces.append(y - moved[1] - np.interp(x - moved[0], *points.T))
@@ -351,6 +365,8 @@ def render_points(run, output, name, times=None, limits=None, collection="points
     if times is None:
         available = read_times(run, collection)
         times = available[0] + np.array([0, 0.25, 0.5, 1]) * (available[-1] - available[0])
+    else:
+        times = pictures_at(run, times, collection)
     pictures = {picture.time: picture for picture in (read_points(run, time, collection) for time in times)}
     pictures = [pictures[time] for time in sorted(pictures)]
     if limits is None:
@@ -386,10 +402,10 @@ def film_writer(kind, frames_per_second=10):
 
 
 def animate_points(run, output, name, kind, times=None, limits=None, collection="points"):
-    """A film of all pictures, or of those next to `times`, ten a second; colours are the same in all of them."""
+    """A film of all pictures, or of those at `times`, ten a second; colours are the same in all of them."""
     box, writer = read_box(run), film_writer(kind)
     available = read_times(run, collection)
-    frames = available if times is None else sorted({min(available, key=lambda one, wanted=wanted: abs(one - wanted)) for wanted in times})
+    frames = available if times is None else pictures_at(run, times, collection)
     if limits is None:
         shown = [available[i] for i in np.unique(np.linspace(0, len(available) - 1, 5).astype(int))]
         limits = colour_limits(np.concatenate([field_values(read_points(run, time, collection), name) for time in shown]), name)
@@ -582,7 +598,7 @@ def main():
     parser.add_argument("--probe", help="names of probes, separated by commas: a picture each of their lines or time series, and nothing else")
     parser.add_argument("--collection", choices=list(DEFAULT_FIELDS), help="points of the soil or of the water; default: both, a picture each")
     parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: mean_effective_stress, pressure of water")
-    parser.add_argument("--times", help="times in s, separated by commas; default: first, 1/4, 1/2 and last")
+    parser.add_argument("--times", help="times of pictures in s, separated by commas; default: first, 1/4, 1/2 and last")
     parser.add_argument("--panels", help=f"of the statistics, separated by commas: {', '.join(STATISTICS_PANELS)}; default: all")
     parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
     parser.add_argument("--animate", choices=list(FILM_WRITERS), help="a film of all pictures (or those of --times) in place of the panels")
