@@ -84,7 +84,7 @@ def draw_relief(axes, ground):
 
 def draw(run, names, output):
     entries = variants.read_entries(run / "parameters.prm")
-    raster = entries.get("Bed/Raster", "")
+    raster = variants.file_named(run / "parameters.prm", entries.get("Bed/Raster", ""))
     origin = [float(word) for word in entries.get("Local origin", "0, 0").split(",")] + [0.]
     lower, upper = ([float(word) + start for word, start in zip(entries[f"Mesh/{side} corner"].split(","), origin)] for side in ("Lower", "Upper"))
     figure, all_axes = plt.subplots(1, len(names), squeeze=False, layout="constrained", figsize=(4.6 * len(names), 4.6))

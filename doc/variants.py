@@ -4,6 +4,7 @@
 
 /usr/bin/python3 doc/variants.py BASE.prm TARGET.prm "Stabilisation/F-bar = none" "Output directory = results/x" ...
 
+Paths of files in BASE.prm are changed so that TARGET.prm finds the same files; those on the command line count from TARGET.prm.
 Entries that BASE.prm does not have are looked up in what the program lists: build/scree, or scree of the PATH.
 """
 
@@ -98,14 +99,33 @@ def set_entry(text, key, value):
     return "\n".join(lines)
 
 
+def file_named(prm, value):
+    """The file that an entry of the case `prm` names, whose path counts from the case; None if that is no file."""
+    file = pathlib.Path(prm).parent / value
+    return file if value and os.path.isfile(file) else None
+
+
+def move_paths(text, base_prm, target_prm):
+    """The text of the case `base_prm` for one that lies where `target_prm` does: paths of includes and of files that entries name, too."""
+    lines = text.split("\n")
+    for indices, statement in _lines(text):
+        value = _entry(statement)[1] if _entry(statement) else (re.match(r"include\s+(.*)$", statement, re.IGNORECASE) or [None, ""])[1]
+        file = file_named(base_prm, value)
+        if file and not os.path.isabs(value):
+            moved = os.path.relpath(file.resolve(), pathlib.Path(target_prm).resolve().parent)
+            head = re.match(r"[^=]*= *" if _entry(statement) else r"\s*\S+ ", lines[indices[0]]).group(0)
+            lines[indices[0]:indices[-1] + 1] = [head + moved] + [""] * (len(indices) - 1)
+    return "\n".join(lines)
+
+
 def write_variant(base_prm, target_prm, entries):
-    """Writes `base_prm` with other values to `target_prm`.
+    """Writes `base_prm` with other values to `target_prm`. The new case finds the files that `base_prm` names.
 
     `entries`: {"Stabilisation/F-bar": "none", "Output directory": "results/none"}; the name of an entry follows those
-    of its subsections, separated by "/". An entry that is not in the file is added.
+    of its subsections, separated by "/". An entry that is not in the file is added. Paths among them count from `target_prm`.
     """
     with open(base_prm, encoding="utf-8-sig") as file:
-        text = file.read().rstrip("\n")
+        text = move_paths(file.read().rstrip("\n"), base_prm, target_prm)
     for key, value in entries.items():
         text = set_entry(text, key, value)
     with open(target_prm, "w", encoding="utf-8") as file:

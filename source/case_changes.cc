@@ -78,6 +78,13 @@ namespace scree
     }
 
 
+    std::string text_before(const CaseEntry *before, const CaseEntry *now)
+    {
+      const bool are_files = before && now && !before->checksum.empty() && !now->checksum.empty();
+      return value_text(before) + (are_files ? " with other contents" : "");
+    }
+
+
     /// The differences, those of whole subsections last.
     class Differences
     {
@@ -111,12 +118,12 @@ namespace scree
                    const CaseEntry *now,
                    const bool both_have_its_subsection)
       {
-        if (before && now && same_value(before->value, now->value))
+        if (before && now && same_value(*before, *now))
           return;
         const Change kind = kind_of(entry, before, now);
         if (both_have_its_subsection)
           entries.push_back(
-              { kind, entry_name(entry.subsection, entry.name), " = " + value_text(now), value_text(before) });
+              { kind, entry_name(entry.subsection, entry.name), " = " + value_text(now), text_before(before, now) });
         else if (kind == Change::refused)
           subsections[entry.subsection] = now ? "none" : "one";
       }

@@ -14,7 +14,7 @@ namespace scree
   {
     folder.write("original.prm", parameters.original());
     std::ostringstream all_entries;
-    parameters.print(all_entries);
+    parameters.print_into(parameters.output_directory, all_entries);
     folder.write("parameters.prm", all_entries.str());
     log_program(folder, communicator);
   }
@@ -33,6 +33,12 @@ namespace scree
       folder.log("Local origin: x = 0, y = 0 is " + number_text(origin) +
                  " m on the map. Rasters, outlines and maps are in the map's coordinates, all else, the pictures, too, "
                  "from this place.");
+    if (!parameters.text_of_box.empty())
+      folder.log(parameters.text_of_box);
+    for (const BodyParameters &body : parameters.bodies)
+      if (body.seeding.map)
+        if (const std::string remark = body.seeding.map->remark(body.name); !remark.empty())
+          folder.log(remark);
     if (scene.ground)
       if (const std::string remark = scene.ground->remark(); !remark.empty())
         folder.log(remark);

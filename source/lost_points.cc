@@ -22,7 +22,7 @@ namespace scree
       const auto &[face, is_open] = face_and_whether_open;
       AssertThrow(is_open,
                   ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
-                             number_text(point.location) + ") m, t = " + Utilities::to_string(time) +
+                             number_text(point.location) + ") m, t = " + number_text(time) +
                              " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
                              "Boundaries."));
       const double *velocity_of_point = point.properties.data() + velocity_slot;
@@ -63,6 +63,8 @@ namespace scree
                time,
                totals.lost_mass,
                totals);
+        for (const LostPoint<dim> &point : body.points.lost())
+          totals.lost_volume += point.properties[body.layout.mass] / body.density;
         totals.n_lost += body.points.lost().size();
         body.points.lost().clear();
       }

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <sstream>
 
@@ -13,9 +15,10 @@ namespace
   constexpr char usage[] =
       "Usage: scree case.prm             run a case\n"
       "       scree case.prm --resume    go on from the newest checkpoint in its run folder\n"
-      "       scree --advise case.prm [--accuracy 0.05]\n"
+      "       scree case.prm --advise [--accuracy 0.05]\n"
       "                                  what the case is, what it will cost, what would serve it better\n"
-      "       scree --print-parameters   all entries with defaults and explanations\n"
+      "       scree --print-parameters [SUBSECTION]\n"
+      "                                  all entries with defaults and explanations, or those of a subsection\n"
       "       scree --version            version and commit, libraries, compiler\n"
       "       scree --help, -h           this text\n"
       "In parallel: mpirun -np 2 scree case.prm\n"
@@ -82,6 +85,15 @@ namespace
       }
   }
 
+  /// Options may stand before the case file or after it: here, `--advise` comes first.
+  std::vector<std::string> with_advise_first(std::vector<std::string> arguments)
+  {
+    if (const auto advise = std::find(arguments.begin(), arguments.end(), "--advise"); advise != arguments.end())
+      std::rotate(arguments.begin(), advise, advise + 1);
+    return arguments;
+  }
+
+
   int run_case(const std::vector<std::string> &arguments, std::ostream &out)
   {
     if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h"))
@@ -94,9 +106,13 @@ namespace
         out << scree::version_text();
         return 0;
       }
-    if (arguments.size() == 1 && arguments[0] == "--print-parameters")
+    if (arguments.size() <= 2 && !arguments.empty() && arguments[0] == "--print-parameters")
       {
-        scree::Parameters().print(out);
+        scree::Parameters parameters;
+        if (arguments.size() == 1)
+          parameters.print(out);
+        else
+          parameters.print_subsection(arguments[1], out);
         return 0;
       }
     if (!arguments.empty() && arguments[0] == "--advise")
@@ -121,6 +137,9 @@ namespace
 
 int main(int argc, char *argv[])
 {
+  // Ranks that wait leave the processor to others, such as ranks of this run; on an idle machine that costs nothing.
+  // Open MPI reads it when it starts; what the user has set stays.
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", /* overwrite */ 0);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
@@ -132,7 +151,7 @@ int main(int argc, char *argv[])
   };
   try
     {
-      return run_case({ argv + 1, argv + argc }, rank == 0 ? std::cout : silent);
+      return run_case(with_advise_first({ argv + 1, argv + argc }), rank == 0 ? std::cout : silent);
     }
   catch (const scree::InputError &error)
     {

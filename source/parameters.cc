@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/box_of_raster.h>
 #include <scree/case_checks.h>
 #include <scree/parameters.h>
 
@@ -49,6 +50,7 @@ namespace scree
         declare(handler);
         if (has_water)
           declare_water(handler);
+        named_files = file.named_files(all);
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
         bed.map_origin = Point<2>(local_origin[0], local_origin[1]);
@@ -60,6 +62,7 @@ namespace scree
             for (BodyParameters &body : bodies)
               body.seeding.is_fed = body.seeding.is_fed || inflow.body == body.name;
           }
+        take_box_from_raster();
         check_case(*this);
         read_maps();
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
@@ -165,8 +168,11 @@ namespace scree
   {
     prm.add_parameter("Dimension", dimension, "2 (plane strain) or 3.", Patterns::Integer(2, 3));
     prm.add_parameter("End time", end_time, "When the run ends, s.", Patterns::Double(1e-12));
-    prm.add_parameter(
-        "Output directory", output_directory, "The run folder; made if it is not there.", Patterns::Anything());
+    prm.add_parameter("Output directory",
+                      output_directory,
+                      "The run folder; made if it is not there. Its path counts from where scree is started, that of "
+                      "all other files from the folder of the case's file.",
+                      Patterns::Anything());
     prm.add_parameter("Gravity",
                       gravity,
                       "Acceleration of gravity, m/s^2, one number an axis.",
@@ -234,6 +240,41 @@ namespace scree
     for (const BodyParameters &body : bodies)
       of_contacts.push_back({ body.name, body.is_rigid() });
     return scree::contact_groups(contacts, of_contacts);
+  }
+
+
+  void Parameters::take_box_from_raster()
+  {
+    const bool is_asked = grid.box == "from raster";
+    const bool has_lower = file.sets("Mesh", "Lower corner"), has_upper = file.sets("Mesh", "Upper corner");
+    require_entry(!is_asked || !bed.raster.empty(),
+                  "Mesh",
+                  "Box",
+                  grid.box,
+                  "subsection Bed has no \"Raster\". Name one there, or write the corners.");
+    if (bed.raster.empty() || dimension != 3 || (has_lower && has_upper) || (!is_asked && (has_lower || has_upper)))
+      return;
+    const BoxOfRaster box = box_of_raster(bed, bodies, grid.cell_size);
+    std::vector<double> lower = has_lower ? grid.lower_corner : box.lower;
+    std::vector<double> upper = has_upper ? grid.upper_corner : box.upper;
+    for (unsigned int a = 0; a < 3 && lower.size() == 3 && upper.size() == 3; ++a)
+      {
+        // Along the map the ground must cover whole cells; along z there may be more of them.
+        const double cells = (upper[a] - lower[a]) / grid.cell_size;
+        const double whole = grid.cell_size * (a < 2 ? std::floor(cells + 1e-6) : std::ceil(cells - 1e-6));
+        if (has_upper)
+          lower[a] = upper[a] - whole;
+        else
+          upper[a] = lower[a] + whole;
+      }
+    text_of_box = "Box from the raster, in whole cells: from " + number_text(lower) + " to " + number_text(upper) +
+                  " m; the raster reaches from " + number_text({ box.lower[0], box.lower[1] }) + " to " +
+                  number_text({ box.upper[0], box.upper[1] }) + " m, its heights from " + number_text(box.lowest) +
+                  " to " + number_text(box.highest) + " m";
+    handler.enter_subsection("Mesh");
+    handler.set("Lower corner", exact_text(lower));
+    handler.set("Upper corner", exact_text(upper));
+    handler.leave_subsection();
   }
 
 
@@ -313,7 +354,10 @@ namespace scree
 
   CaseEntries Parameters::entries() const
   {
-    return CaseEntries(handler);
+    CaseEntries result(handler);
+    for (const NamedFile &named : named_files)
+      result.set_file(named);
+    return result;
   }
 
 
@@ -326,11 +370,5 @@ namespace scree
   InputError Parameters::error(const EntryError &error) const
   {
     return file.error(error.what());
-  }
-
-
-  void Parameters::print(std::ostream &out)
-  {
-    handler.print_parameters(out, ParameterHandler::Text);
   }
 } // namespace scree

@@ -166,11 +166,13 @@ namespace scree
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       {
-        const InitialStateParameters &state = (entries++)->initial_state;
+        const InitialStateParameters &state = entries->initial_state;
+        const std::string modulus           = entries->material.modulus_text(body.name);
+        ++entries;
         if (state.stress_kind() != InitialStress::k0)
           {
             set_isotropic_stress(
-                body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0., communicator);
+                body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0., modulus, communicator);
             continue;
           }
         if (!overburden)
@@ -179,7 +181,7 @@ namespace scree
               effective_weight_layers<dim>(soil, parameters.has_water ? &parameters.water : nullptr),
               forcing.gravity(),
               grid.cell_size() / 4);
-        set_k0_stress(body, *overburden, state.k0);
+        set_k0_stress(body, *overburden, state.k0, modulus);
       }
     if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
         forcing.gravity().norm() > 0)

@@ -55,11 +55,11 @@ namespace scree
     const bool is_released    = control.stop_reason() == StopReason::none;
     const std::string release = ratio < settling.kinetic_energy
                                     ? ". Released."
-                                    : ", above the wanted " + Utilities::to_string(settling.kinetic_energy) +
+                                    : ", above the wanted " + number_text(settling.kinetic_energy) +
                                           ": not yet at rest. Released all the same.";
-    folder.log("Settled for " + Utilities::to_string(settling_clock.time()) + " s in " +
+    folder.log("Settled for " + number_text(settling_clock.time()) + " s in " +
                std::to_string(settling_clock.step()) + " steps; kinetic over elastic energy " +
-               Utilities::to_string(ratio) + (is_released ? release : ". Asked to stop."));
+               number_text(ratio) + (is_released ? release : ". Asked to stop."));
     if (!is_released)
       return false;
 

@@ -2,6 +2,7 @@
 #include <scree/case_changes.h>
 #include <scree/case_record.h>
 #include <scree/input/input_error.h>
+#include <scree/log_of_masses.h>
 #include <scree/lost_points.h>
 #include <scree/output/checkpoint.h>
 #include <scree/output/log_header.h>
@@ -52,6 +53,7 @@ namespace scree
     folder.remove_old_results(); // not before the input has proved good
     record_case(parameters, folder, communicator);
     log_case(parameters, scene, folder, communicator);
+    log_released(parameters, scene, folder, communicator);
     for (const std::string &question : unusual_units(parameters))
       folder.log(question);
     if (parameters.settling.maximum_time > 0)
@@ -84,7 +86,7 @@ namespace scree
     record_case(parameters, folder, communicator);
     log_case(parameters, scene, folder, communicator);
     results.cut();
-    folder.log("Resumed at t = " + Utilities::to_string(clock.time()) + " s, step " + std::to_string(clock.step()) +
+    folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) +
                ", from " + checkpoint.folder + " of " + checkpoint.manifest.program + '.');
     for (const std::string &note : notes)
       folder.log(note);
@@ -169,6 +171,7 @@ namespace scree
     progress.summarise_ranks(
         seconds_of(timer, StepPart::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
     adaptation.summarise(folder);
+    log_balance(scene, totals, folder, communicator);
     log_peak_memory(folder, communicator);
     results.complete();
   }
@@ -284,6 +287,7 @@ namespace scree
     totals                       = RunTotals<dim>(scene.obstacles.size());
     totals.n_lost                = settled.n_lost;
     totals.lost_mass             = settled.lost_mass;
+    totals.lost_volume           = settled.lost_volume;
     totals.lost_water_mass       = settled.lost_water_mass;
   }
 
@@ -356,7 +360,7 @@ namespace scree
     if (fault.empty())
       step_of_checkpoint = clock.step();
     else
-      folder.log("No checkpoint at t = " + Utilities::to_string(clock.time()) + " s: " + fault);
+      folder.log("No checkpoint at t = " + number_text(clock.time()) + " s: " + fault);
   }
 
   template class Simulation<2>;

@@ -56,6 +56,8 @@ namespace scree
     OutputParameters output;
     ProbeParameters probes;
 
+    std::string text_of_box; ///< for the log, of a box that follows from the raster; else empty
+
     bool has_water = false; ///< whether there is a subsection Water; without it, nothing reads the next three
     WaterParameters water;
     PressureParameters pressure;
@@ -88,6 +90,12 @@ namespace scree
     /// Writes every entry with its value, default and explanation.
     void print(std::ostream &out);
 
+    /// The same of one subsection, such as `Soil/Initial state`. Throws InputError if there is none of that path.
+    void print_subsection(const std::string &path, std::ostream &out);
+
+    /// All entries as a case that lies in `folder`: paths of files count from there.
+    void print_into(const std::string &folder, std::ostream &out);
+
   private:
     void name_bodies();
     void name_obstacles();
@@ -99,6 +107,7 @@ namespace scree
     void name_contacts();
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
+    void take_box_from_raster();
     void read_maps();
     void check_dry() const;
 
@@ -109,6 +118,7 @@ namespace scree
     std::string unlisted_body(const std::string &subsection) const;
 
     InputFile file;
+    std::vector<NamedFile> named_files;
     std::vector<std::string> body_names{ "Soil" };
     dealii::ParameterHandler handler;
   };

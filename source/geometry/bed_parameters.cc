@@ -5,6 +5,7 @@
 #include <scree/geometry/profile.h>
 #include <scree/geometry/triangle_surface.h>
 #include <scree/input/input_error.h>
+#include <scree/input/named_file.h>
 
 #include <cmath>
 #include <limits>
@@ -17,12 +18,11 @@ namespace scree
   {
     prm.enter_subsection(subsection);
     add_entries(prm);
-    prm.add_parameter(
-        "Friction angles",
-        friction_angles,
-        "In place of \"Friction angle\", 3D: file of the angles, in degrees, an ESRI ASCII grid that covers "
-        "the box.",
-        Patterns::Anything());
+    add_file_entry(prm,
+                   "Friction angles",
+                   friction_angles,
+                   "In place of \"Friction angle\", 3D: file of the angles, in degrees, an ESRI ASCII grid that "
+                   "covers the box.");
     prm.leave_subsection();
   }
 
@@ -49,19 +49,19 @@ namespace scree
         "The surface as an expression of x, y (and z), in m: positive in the open, 0 on its surface. Best a "
         "distance, such as (y - 0.2*x)/sqrt(1.04).",
         Patterns::Anything());
-    prm.add_parameter("Profile",
-                      profile,
-                      "In place of the expression, 2D: file of points x, y of the ground, in m, one a line, with "
-                      "ascending x.",
-                      Patterns::Anything());
-    prm.add_parameter("Raster",
-                      raster,
-                      "In place of the expression, 3D: file of the ground's heights, in m, an ESRI ASCII grid.",
-                      Patterns::Anything());
-    prm.add_parameter("Closed surface",
-                      closed_surface,
-                      "In place of the expression, 3D: file of a solid's surface of triangles, in m, an STL file.",
-                      Patterns::Anything());
+    add_file_entry(prm,
+                   "Profile",
+                   profile,
+                   "In place of the expression, 2D: file of points x, y of the ground, in m, one a line, with "
+                   "ascending x.");
+    add_file_entry(prm,
+                   "Raster",
+                   raster,
+                   "In place of the expression, 3D: file of the ground's heights, in m, an ESRI ASCII grid.");
+    add_file_entry(prm,
+                   "Closed surface",
+                   closed_surface,
+                   "In place of the expression, 3D: file of a solid's surface of triangles, in m, an STL file.");
   }
 
 
@@ -217,8 +217,12 @@ namespace scree
         return make_solid(parameters, lower, upper);
       Raster raster =
           read_raster(parameters.raster, entry_name(parameters.subsection, "Raster"), parameters.map_origin);
-      require_cover(raster.x <= lower[0] && raster.last_x() >= upper[0], parameters, "x", raster.x, raster.last_x());
-      require_cover(raster.y <= lower[1] && raster.last_y() >= upper[1], parameters, "y", raster.y, raster.last_y());
+      const double rounding = 1e-6 * raster.spacing;
+      const auto covers     = [&](const double first, const double last, const unsigned int axis) {
+        return first <= lower[axis] + rounding && last >= upper[axis] - rounding;
+      };
+      require_cover(covers(raster.x, raster.last_x(), 0), parameters, "x", raster.x, raster.last_x());
+      require_cover(covers(raster.y, raster.last_y(), 1), parameters, "y", raster.y, raster.last_y());
       return std::make_unique<HeightSurface>(std::move(raster));
     }
   } // namespace

@@ -11,7 +11,7 @@ namespace scree
   ExpressionSurface<dim>::ExpressionSurface(const std::string &where,
                                             const std::string &expression,
                                             const double length)
-      : function(parse_expression<dim>(where, expression, 1))
+      : function(parse_expression<dim>(where, expression, 1, false, dim == 2 ? "y - 0.2*x" : "z - 0.2*x"))
       , length(length)
   {
   }

@@ -45,10 +45,7 @@ namespace scree
 
   std::string HeightSurface::remark() const
   {
-    const std::size_t n = raster.n_missing();
-    return n == 0 ? ""
-                  : "Bed: " + std::to_string(n) + " of " + std::to_string(raster.values.size()) +
-                        " heights of the raster are missing (NODATA). There is no ground around them.";
+    return raster.remark_on_heights("Bed", "There is no ground around them.");
   }
 
 

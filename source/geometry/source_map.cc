@@ -2,6 +2,7 @@
 #include <scree/geometry/source_map.h>
 #include <scree/geometry/triangle_surface.h>
 #include <scree/input/input_error.h>
+#include <scree/input/named_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,29 +13,26 @@ namespace scree
 
   void SourceMapParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter(
-        "Thickness",
-        thickness,
-        "3D: file of the soil's thickness above the bed or above \"Lower surface\", upwards, in m, an ESRI "
-        "ASCII grid; 0 where it is missing. The body is where this and all else that is written says so.",
-        Patterns::Anything());
-    prm.add_parameter("Upper surface",
-                      upper_surface,
-                      "3D: file of the heights of the body's upper surface, in m, an ESRI ASCII grid; no soil where it "
-                      "is missing.",
-                      Patterns::Anything());
-    prm.add_parameter("Lower surface",
-                      lower_surface,
-                      "3D: the same of its lower surface, in place of the bed.",
-                      Patterns::Anything());
-    prm.add_parameter("Outline",
-                      outline,
-                      "3D: file of the corners x, y of a polygon in which the body is on the map, in m, one a line.",
-                      Patterns::Anything());
-    prm.add_parameter("Closed surface",
-                      closed_surface,
-                      "3D: file of a surface of triangles inside which the body is, in m, an STL file.",
-                      Patterns::Anything());
+    add_file_entry(prm,
+                   "Thickness",
+                   thickness,
+                   "3D: file of the soil's thickness above the bed or above \"Lower surface\", upwards, in m, an "
+                   "ESRI ASCII grid; 0 where it is missing. The body is where this and all else that is written says "
+                   "so.");
+    add_file_entry(prm,
+                   "Upper surface",
+                   upper_surface,
+                   "3D: file of the heights of the body's upper surface, in m, an ESRI ASCII grid; no soil where it "
+                   "is missing.");
+    add_file_entry(prm, "Lower surface", lower_surface, "3D: the same of its lower surface, in place of the bed.");
+    add_file_entry(prm,
+                   "Outline",
+                   outline,
+                   "3D: file of the corners x, y of a polygon in which the body is on the map, in m, one a line.");
+    add_file_entry(prm,
+                   "Closed surface",
+                   closed_surface,
+                   "3D: file of a surface of triangles inside which the body is, in m, an STL file.");
   }
 
 
@@ -176,6 +174,20 @@ namespace scree
           require(ends_in_box, x, y, "it reaches above the box of subsection Mesh. Write a higher box.");
         }
     require_entry(is_anywhere, body, entry.first, entry.second, "it has no soil anywhere. Look at the file.");
+  }
+
+
+  std::string SourceMap::remark(const std::string &body) const
+  {
+    std::string result;
+    const auto add = [&](const std::optional<Raster> &raster, const std::string &entry) {
+      if (raster)
+        result += (result.empty() ? "" : "\n") + raster->remark_on_heights(body + ", \"" + entry + '"', "There is no soil.");
+    };
+    add(thickness, "Thickness");
+    add(upper_surface, "Upper surface");
+    add(lower_surface, "Lower surface");
+    return result;
   }
 
 

@@ -106,7 +106,11 @@ namespace scree
     const std::string content{ std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
     if (is_binary(content)) // first: its text may begin with "solid", too
       return read_binary(content, name);
-    if (content.compare(0, 5, "solid") != 0)
+    std::string first_word = content.substr(0, 5);
+    std::transform(first_word.begin(), first_word.end(), first_word.begin(), [](const unsigned char c) {
+      return std::tolower(c);
+    });
+    if (first_word != "solid")
       throw EntryError(name +
                        "it is no STL file: it neither begins with \"solid\" nor is as long as a binary one with its "
                        "number of triangles. Export the surface as STL.");

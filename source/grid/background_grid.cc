@@ -97,12 +97,19 @@ namespace scree
     prm.enter_subsection("Mesh");
     prm.add_parameter("Lower corner",
                       lower_corner,
-                      "Lower corner of the box, m, one number an axis.",
+                      "Lower corner of the box, m, one number an axis. With a \"Raster\" of subsection Bed and without "
+                      "both corners the box is that of the raster.",
                       Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Upper corner",
                       upper_corner,
                       "Upper corner of the box, m, one number an axis.",
                       Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter("Box",
+                      box,
+                      "Where corners that are not set come from: corners (their defaults; in scenes with a raster and "
+                      "neither of the two, the raster) or from raster: the part of it that whole cells cover, and along z "
+                      "from two cells below its lowest height to above the soil.",
+                      Patterns::Selection("corners|from raster"));
     prm.add_parameter(
         "Cell size", cell_size, "Width of the cubic cells, m; must divide the box.", Patterns::Double(1e-12));
     prm.add_parameter("Basis",

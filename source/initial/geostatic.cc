@@ -97,30 +97,38 @@ namespace scree
 
   namespace
   {
-    /// Throws ValueError, which begins with `entry`, unless the elastic strain of a point at `x` is one that soil can
-    /// have: a modulus that is too small for the stress shows here.
+    /// Throws ValueError unless the elastic strain of a point at `x` is one that soil can have: a modulus that is too
+    /// small for the stress shows here. It begins with `modulus`, or with `entry` of a stress that no soil has.
+    /// @param stress that it starts from
     /// @param left_cauchy_green its first three components
     template <int dim>
     void require_bearable(const std::string &body,
                           const std::string &entry,
+                          const std::string &modulus,
                           const Point<dim> &x,
+                          const double *stress,
                           const double *left_cauchy_green)
     {
-      constexpr double largest = 1;
+      constexpr double largest = 1, largest_stress = 1e9; // Pa
       for (unsigned int i = 0; i < 3; ++i)
         if (const double strain = 0.5 * std::log(left_cauchy_green[i]); !(std::abs(strain) <= largest))
-          throw ValueError(entry + ": the stress at " + number_text(x) + " m would strain the soil elastically by " +
+          throw ValueError((std::abs(stress[i]) > largest_stress ? entry : modulus) + ": the initial stress at " + number_text(x) + " m, " + number_text(stress[i]) +
+                           " Pa, would strain the soil elastically by " +
                            (std::isfinite(strain) ? number_text(strain) : "a number beyond all bounds") +
-                           ", and at most 1 is allowed. Write a larger modulus in subsection " + body +
-                           ", or less stress.");
+                           ", and at most 1 is allowed. Write a larger modulus, in Pa (1 MPa = 1e6 Pa), or less stress "
+                           "in subsection " +
+                           body + "/Initial state.");
     }
 
 
     /// Gives each point the state with the stress components that `fill_stress(location, components)` writes. Throws
-    /// EntryError, which begins with `entry`, if the law cannot bear one. Collective.
+    /// EntryError, which begins with `entry` or `modulus`, if the law cannot bear one. Collective.
     template <int dim, typename Function>
-    void
-    set_stress(SoilBody<dim> &body, const std::string &entry, const MPI_Comm communicator, const Function &fill_stress)
+    void set_stress(SoilBody<dim> &body,
+                    const std::string &entry,
+                    const std::string &modulus,
+                    const MPI_Comm communicator,
+                    const Function &fill_stress)
     {
       on_all_ranks(communicator, [&] {
         for_each_point(body.points, [&](const auto &point) {
@@ -138,7 +146,7 @@ namespace scree
             {
               throw ValueError(entry + ": " + plain_text(error));
             }
-          require_bearable(body.name, entry, point.location, strain);
+          require_bearable(body.name, entry, modulus, point.location, stress, strain);
         });
       });
     }
@@ -146,10 +154,11 @@ namespace scree
 
 
   template <int dim>
-  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0)
+  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0, const std::string &modulus)
   {
     set_stress(body,
                entry_name(body.name + "/Initial state", "K0") + " = " + number_text(k0),
+               modulus,
                overburden.communicator(),
                [&](const Point<dim> &x, double *stress) {
                  set_k0_components(overburden.weight_above(x), k0, overburden.vertical_axis(), stress);
@@ -158,18 +167,22 @@ namespace scree
 
 
   template <int dim>
-  void set_isotropic_stress(SoilBody<dim> &body, const double pressure, const MPI_Comm communicator)
+  void set_isotropic_stress(SoilBody<dim> &body,
+                            const double pressure,
+                            const std::string &modulus,
+                            const MPI_Comm communicator)
   {
     set_stress(body,
                entry_name(body.name + "/Initial state", "Pressure") + " = " + number_text(pressure),
+               modulus,
                communicator,
                [&](const Point<dim> &, double *stress) { std::fill_n(stress, 3, -pressure); });
   }
 
   template class Overburden<2>;
   template class Overburden<3>;
-  template void set_k0_stress(SoilBody<2> &, Overburden<2> &, const double);
-  template void set_k0_stress(SoilBody<3> &, Overburden<3> &, const double);
-  template void set_isotropic_stress(SoilBody<2> &, const double, const MPI_Comm);
-  template void set_isotropic_stress(SoilBody<3> &, const double, const MPI_Comm);
+  template void set_k0_stress(SoilBody<2> &, Overburden<2> &, const double, const std::string &);
+  template void set_k0_stress(SoilBody<3> &, Overburden<3> &, const double, const std::string &);
+  template void set_isotropic_stress(SoilBody<2> &, const double, const std::string &, const MPI_Comm);
+  template void set_isotropic_stress(SoilBody<3> &, const double, const std::string &, const MPI_Comm);
 } // namespace scree

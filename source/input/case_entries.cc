@@ -25,7 +25,7 @@ namespace scree
       const auto is_entry = [](const Tree &child) { return child.count("pattern_description") > 0; };
       for (const auto &[name, child] : tree)
         if (is_entry(child))
-          entries.push_back({ path, name, child.get<std::string>("value") });
+          entries.push_back({ path, name, child.get<std::string>("value"), "" });
       for (const auto &[name, child] : tree)
         if (!is_entry(child))
           collect(child, subsection_path(path, name), entries);
@@ -58,7 +58,7 @@ namespace scree
     std::istringstream in(text);
     CaseEntry entry;
     while (std::getline(in, entry.subsection, separator) && std::getline(in, entry.name, separator) &&
-           std::getline(in, entry.value))
+           std::getline(in, entry.value, separator) && std::getline(in, entry.checksum))
       entries.push_back(entry);
   }
 
@@ -67,8 +67,20 @@ namespace scree
   {
     std::string result;
     for (const CaseEntry &entry : entries)
-      result += entry.subsection + separator + entry.name + separator + single_blanks(entry.value) + '\n';
+      result += entry.subsection + separator + entry.name + separator + single_blanks(entry.value) + separator +
+                entry.checksum + '\n';
     return result;
+  }
+
+
+  void CaseEntries::set_file(const NamedFile &file)
+  {
+    for (CaseEntry &entry : entries)
+      if (entry.subsection == file.subsection && entry.name == file.entry)
+        {
+          entry.value    = file.written;
+          entry.checksum = file.checksum;
+        }
   }
 
 
@@ -88,10 +100,12 @@ namespace scree
   }
 
 
-  bool same_value(const std::string &first, const std::string &second)
+  bool same_value(const CaseEntry &first, const CaseEntry &second)
   {
-    const auto a = Utilities::split_string_list(single_blanks(first));
-    const auto b = Utilities::split_string_list(single_blanks(second));
+    if (!first.checksum.empty() && !second.checksum.empty())
+      return first.checksum == second.checksum;
+    const auto a = Utilities::split_string_list(single_blanks(first.value));
+    const auto b = Utilities::split_string_list(single_blanks(second.value));
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_word);
   }
 } // namespace scree

@@ -122,12 +122,16 @@ namespace scree
   std::unique_ptr<Expression<dim>> parse_expression(const std::string &where,
                                                     const std::string &text,
                                                     const unsigned int n_components,
-                                                    const bool with_time)
+                                                    const bool with_time,
+                                                    const std::string &example_of_one)
   {
+    const std::string of_one  = !example_of_one.empty() ? example_of_one
+                                : dim == 1              ? "2*min(t/5, 1)"
+                                                        : "if(x < 2, y < 2, y < 4 - x)";
     auto function             = std::make_unique<Expression<dim>>(where + " = " + text, n_components, with_time);
     const std::string fault   = read_expressions(*function, text, with_time);
     const std::string last    = dim == 1 ? "0.1*t" : "-2*x";
-    const std::string example = n_components == 1   ? "if(x < 2, y < 2, y < 4 - x)"
+    const std::string example = n_components == 1   ? of_one
                                 : n_components == 2 ? "0; " + last
                                                     : "0; 0; " + last;
     const std::string names   = dim == 1 ? "t" : dim == 2 ? "x, y" : "x, y, z";
@@ -146,9 +150,9 @@ namespace scree
   template class Expression<2>;
   template class Expression<3>;
   template std::unique_ptr<Expression<1>>
-  parse_expression(const std::string &, const std::string &, const unsigned int, const bool);
+  parse_expression(const std::string &, const std::string &, const unsigned int, const bool, const std::string &);
   template std::unique_ptr<Expression<2>>
-  parse_expression(const std::string &, const std::string &, const unsigned int, const bool);
+  parse_expression(const std::string &, const std::string &, const unsigned int, const bool, const std::string &);
   template std::unique_ptr<Expression<3>>
-  parse_expression(const std::string &, const std::string &, const unsigned int, const bool);
+  parse_expression(const std::string &, const std::string &, const unsigned int, const bool, const std::string &);
 } // namespace scree

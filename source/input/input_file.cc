@@ -84,11 +84,12 @@ namespace scree
   }
 
 
-  void InputFile::include(const std::string &file, const Statement &place, Open &open)
+  void InputFile::include(const std::string &name, const Statement &place, Open &open)
   {
+    const std::string file = path_beside(place.file, name);
     const std::string text = read_text(file,
                                        "It is included in " + place.file + ", line " + std::to_string(place.line) +
-                                           "; the path counts from where scree is started.");
+                                           "; the path counts from the folder of that file.");
     std::string loop;
     for (const std::string &reader : open.files)
       if (!loop.empty() || std::filesystem::equivalent(reader, file))
@@ -155,6 +156,31 @@ namespace scree
   }
 
 
+  std::vector<NamedFile> InputFile::named_files(const ParameterHandler &prm)
+  {
+    const DeclaredNames declared(prm);
+    std::vector<NamedFile> result;
+    for (Statement &statement : statements)
+      if (const auto *entry = declared.entry(statement.path, statement.name);
+          statement.kind == Kind::set && entry && is_file_pattern(entry->pattern))
+        {
+          const auto same = std::find_if(result.begin(), result.end(), [&](const NamedFile &named) {
+            return named.subsection == statement.path && named.entry == statement.name;
+          });
+          if (same != result.end())
+            result.erase(same); // The last one counts.
+          statement.path_of_file = path_beside(statement.file, statement.value);
+          if (!statement.value.empty())
+            result.push_back({ statement.path,
+                               statement.name,
+                               statement.path_of_file,
+                               statement.value,
+                               checksum_of_file(statement.path_of_file) });
+        }
+    return result;
+  }
+
+
   std::string InputFile::statements_text() const
   {
     std::string result;
@@ -164,7 +190,8 @@ namespace scree
       else if (statement.kind == Kind::end)
         result += "end\n";
       else // The mark of a comment keeps a backslash at the end of a value from joining lines.
-        result += "set " + statement.name + " = " + statement.value + " #\n";
+        result += "set " + statement.name + " = " +
+                  (statement.path_of_file.empty() ? statement.value : statement.path_of_file) + " #\n";
     return result;
   }
 

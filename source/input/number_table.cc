@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -29,7 +30,16 @@ namespace scree
   {
     std::ifstream in(file);
     if (!in)
-      throw EntryError(name + "the file cannot be read. Write its name relative to where scree is started.");
+      throw EntryError(name + "the file cannot be read. Write its path from the folder of the file in which the entry stands.");
+    if (in.peek() == 0xEF) // A mark of byte order may come first.
+      {
+        char mark[3];
+        if (!in.read(mark, 3) || mark[1] != '\xBB' || mark[2] != '\xBF')
+          {
+            in.clear();
+            in.seekg(0);
+          }
+      }
     return in;
   }
 
@@ -60,7 +70,9 @@ namespace scree
         const std::string place = name + "line " + std::to_string(number) + ' ';
         if (!is_whole)
           throw EntryError(place + "is no row of " + std::to_string(columns.size()) + " numbers. Write " + wanted +
-                           " in each line, separated by commas.");
+                           " in each line, separated by commas" +
+                           (std::regex_search(line, std::regex("[0-9],[0-9]")) ? "; decimals have a point: 0.5, not 0,5."
+                                                                               : "."));
         if (first_column == FirstColumn::ascending && !rows.empty() && !(row[0] > rows.back()[0]))
           throw EntryError(place + "has " + number_text(row[0]) + " after " + number_text(rows.back()[0]) +
                            " in the first column. Sort the rows by ascending " + columns[0] + ", each once.");

@@ -93,6 +93,18 @@ namespace scree
   }
 
 
+  std::string MaterialParameters::modulus_text(const std::string &subsection) const
+  {
+    const LawKind law = law_kind();
+    const bool is_nor_sand = law == LawKind::nor_sand, is_mohr_coulomb = law == LawKind::mohr_coulomb;
+    const std::string part = is_nor_sand ? nor_sand_name : is_mohr_coulomb ? mohr_coulomb_name : linear_elastic_subsection;
+    return entry_name(subsection_path(subsection, part), is_nor_sand ? "Shear modulus" : "Young's modulus") + " = " +
+           number_text(is_nor_sand       ? nor_sand.shear_modulus
+                       : is_mohr_coulomb ? mohr_coulomb.young_modulus
+                                         : linear_elastic.young_modulus);
+  }
+
+
   template <int dim>
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters)
   {

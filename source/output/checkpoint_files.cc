@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/checksum.h>
 #include <scree/output/checkpoint_files.h>
 #include <scree/output/whole_file.h>
-
-#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -19,15 +18,14 @@ namespace scree
     namespace fs = std::filesystem;
 
     const std::string name_of_manifest = "manifest", name_of_step = "step-";
-    const std::string format_line     = "Scree checkpoint, format 10";
+    const std::string format_line     = "Scree checkpoint, format 11";
     const std::string checksum_label = "checksum: ";
 
-    /// CRC-64 as of ECMA-182, reflected: that of xz.
     std::uint64_t checksum_of(const std::string &content)
     {
-      boost::crc_optimal<64, 0x42F0E1EBA9EA3693, 0xFFFFFFFFFFFFFFFF, 0xFFFFFFFFFFFFFFFF, true, true> crc;
-      crc.process_bytes(content.data(), content.size());
-      return crc.checksum();
+      Checksum checksum;
+      checksum.process_bytes(content.data(), content.size());
+      return checksum.checksum();
     }
 
     std::string checksum_line(const std::string &text)

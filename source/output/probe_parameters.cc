@@ -65,6 +65,14 @@ namespace scree
                         text,
                         quoted(part) + " does not read. Write " + shape +
                             " in m, with a name of letters, digits, _ and -; separate several by semicolons.");
+          constexpr std::size_t longest = 200; // Names of files have 255 bytes at most.
+          require_entry(place.name.size() <= longest,
+                        subsection,
+                        entry,
+                        text,
+                        scree::quoted(place.name) + " has " + std::to_string(place.name.size()) +
+                            " letters, and the name of a probe, which is that of its file, at most " +
+                            std::to_string(longest) + ". Write a shorter name.");
           list.push_back(place);
         }
       return list;

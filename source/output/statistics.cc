@@ -40,6 +40,7 @@ namespace scree
                                   &balance.n_viscous_iterations,
                                   &balance.n_cavitating,
                                   &total.lost_mass,
+                                  &total.lost_volume,
                                   &total.lost_water_mass,
                                   &total.lost_energy,
                                   &total.n_entered,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
+#include <scree/input/named_file.h>
 #include <scree/input/number_table.h>
 #include <scree/scheme/base_motion.h>
 
@@ -12,13 +13,12 @@ namespace scree
   void BaseMotionParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Base motion");
-    prm.add_parameter(
-        "Acceleration record",
-        record,
-        "The box moves with all its walls: file of the time, s, and an acceleration an axis, a row a line, "
-        "separated by commas; linear between the rows, none before the first and after the last. Results are "
-        "relative to the box. Empty: it is at rest.",
-        Patterns::Anything());
+    add_file_entry(prm,
+                   "Acceleration record",
+                   record,
+                   "The box moves with all its walls: file of the time, s, and an acceleration an axis, a row a "
+                   "line, separated by commas; linear between the rows, none before the first and after the last. "
+                   "Results are relative to the box. Empty: it is at rest.");
     prm.add_parameter("Scale", scale, "m/s^2 of a unit of the record: 9.81 for one in g.", Patterns::Double());
     prm.leave_subsection();
   }

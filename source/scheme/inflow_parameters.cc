@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/grid/face_entries.h>
 #include <scree/input/input_error.h>
+#include <scree/input/named_file.h>
 #include <scree/input/number_table.h>
 #include <scree/points/region.h>
 #include <scree/scheme/inflow_parameters.h>
@@ -41,11 +42,11 @@ namespace scree
                       speed,
                       "Speed of what enters, m/s, not negative: an expression of t, such as 2*min(t/5, 1).",
                       Patterns::Anything());
-    prm.add_parameter("Hydrograph",
-                      hydrograph,
-                      "In place of the speed: file of the time, s, and a speed or a discharge, a row a line, separated "
-                      "by a comma; linear between the rows, 0 before the first and after the last.",
-                      Patterns::Anything());
+    add_file_entry(prm,
+                   "Hydrograph",
+                   hydrograph,
+                   "In place of the speed: file of the time, s, and a speed or a discharge, a row a line, separated "
+                   "by a comma; linear between the rows, 0 before the first and after the last.");
     prm.add_parameter("Hydrograph of",
                       hydrograph_of,
                       "What the file tells: speed, m/s; or discharge, m^3/s (2D: m^2/s), of soil with its pores, "

@@ -7,7 +7,7 @@ scree=$1
 launcher=$2 # several words
 rm -rf prm results advice
 mkdir advice
-cp -r "$prm" . # cases include each other from where scree is started
+cp -r "$prm" .
 export TMPDIR="$PWD/advice"
 
 # Whole runs with wider cells, of which later steps are told, for six cases; the others end in their first steps.

@@ -55,6 +55,60 @@ QUESTIONED = {
         ['entry "Density" = 1: the unit is kg/m^3', 'entry "Hydraulic conductivity" = 86: the unit is m/s']),
 }
 
+TERRAIN = INSTANT + """set Dimension = 3
+set Gravity = 0, 0, -9.81
+%s
+subsection Bed
+  set Type = fixed
+  set Raster = heights.asc
+end
+subsection Soil
+  set Region = x < 10 && y < 10 && z < 1510
+  set Points per cell = 2
+end
+"""
+BOX = "subsection Mesh\n  set Lower corner = 0, 0, 1490\n  set Upper corner = 40, 40, 1530\n  set Cell size = 5\nend"
+
+
+def heights(middle="1500"):
+    """A plain raster of 5 x 5 heights, 10 m apart, with another one in its middle."""
+    rows = [["1500"] * 5 for _ in range(5)]
+    rows[2][2] = middle
+    return "ncols 5\nnrows 5\nxllcenter 0\nyllcenter 0\ncellsize 10\nNODATA_value -9999\n" + "\n".join(map(" ".join, rows)) + "\n"
+
+
+RANGE = r"^Bed: heights of the raster from %s m in row \d, column \d \(x = \d+, y = \d+\) to %s m in row \d, column \d \(x = \d+, y = \d+\)$"
+STEPS = (r"^Is this meant\? Bed: 4 steps between neighbouring heights of the raster are steeper than 80 degrees; the largest is from 1500 m in row \d, "
+         r"column \d \(x = \d+, y = \d+\) to %s m in row 3, column 3 \(x = 20, y = 20\)\.$")
+STRANGE = (r"^Is this meant\? Bed: 1 heights of the raster lie outside -500 to 9000 m, the first is %s m in row 3, column 3 \(x = 20, y = 20\)\. "
+           r"If they stand for missing ones, write that value as NODATA_value\.$")
+# case, file heights.asc, lines that the log must have, how many questions
+LOGGED = {
+    "heights as they should be": (TERRAIN % BOX, heights(), [RANGE % (1500, 1500)], 0),
+    "a missing height": (TERRAIN % BOX, heights("-9999"), [r"^Bed: 1 of 25 heights of the raster are missing \(NODATA\)\. There is no ground around them\.$"], 0),
+    "0 in the middle": (TERRAIN % BOX, heights("0"), [RANGE % (0, 1500), STEPS % 0], 1),
+    "another mark of missing heights": (TERRAIN % BOX, heights("-32768"), [RANGE % (-32768, 1500), STRANGE % -32768, STEPS % -32768], 2),
+    "99999": (TERRAIN % BOX, heights("99999"), [RANGE % (1500, 99999), STRANGE % 99999, STEPS % 99999], 2),
+    "the raster's box": (
+        TERRAIN % "subsection Mesh\n  set Cell size = 6\nend", heights("1507"),
+        [r"^Box from the raster, in whole cells: from 0, 0, 1488 to 36, 36, 1596 m; the raster reaches from 0, 0 to 40, 40 m, its heights from 1500 to 1507 m$"], 0),
+    "one corner and the raster's box": (
+        TERRAIN % "subsection Mesh\n  set Cell size = 6\n  set Box = from raster\n  set Lower corner = 4, 4, 1491\nend", heights(),
+        [r"^Box from the raster, in whole cells: from 4, 4, 1491 to 40, 40, 1587 m"], 0),
+    "no porosity and no stress": (
+        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\nend\n", "",
+        [r'^Soil at the start: 0\.5 m\^3/m, 1\d+ kg/m; 2\d+ kg/m\^3 dry: grains of 2\d+ kg/m\^3, porosity 0 \(no "Initial porosity" is set, and "Material = '
+         r'Mohr-Coulomb" has none of its own\); no stress \("Type = none" in subsection Initial state\)$',
+         r"^Soil at the end, at its density of the start: in the box 0\.5 m\^3/m, 1\d+ kg/m; lost through open walls 0 m\^3/m, 0 kg/m \(0 points\)$"], 0),
+    "soil that leaves the box": (
+        SHORT + "subsection Soil\n  set Region = y < 0.5\n  set Initial porosity = 0.5\n  set Grain density = 2000\n  set Initial velocity = 20; 0\n"
+        "  subsection Initial state\n    set Type = K0\n  end\nend\nsubsection Boundaries\n  set Right = open\nend\n", "",
+        [r"^Soil at the start: 0\.5 m\^3/m, 500 kg/m; 1000 kg/m\^3 dry: grains of 2000 kg/m\^3, porosity 0\.5; stress by weight, K0 = 0\.5$",
+         r"^Soil at the end, .*: in the box 0\.4\d* m\^3/m, 4\d\d\S* kg/m; lost through open walls 0\.0\d+ m\^3/m, [1-9]\S* kg/m \([1-9]\d* points\)$"], 0),
+    "settling": (SHORT + SOIL + "subsection Settling\n  set Maximum time = 0.01\n  set Damping rate = 10\nend\n", "",
+                 [r"^Settled for \d\.\d{1,7} s in \d+ steps; kinetic over elastic energy \S{1,12}"], 0),
+}
+
 
 def run(scree, case, limit=None):
     """Exit code and error of a case."""
@@ -86,6 +140,15 @@ def main():
         questions = [line for line in pathlib.Path("run/log.txt").read_text(encoding="utf-8").split("\n") if "Is this meant?" in line]
         if len(questions) != len(wanted) or not all(any(text in question for question in questions) for text in wanted):
             faults.append(f"{name}: the log asks {questions}")
+    for name, (case, raster, wanted, n_questions) in LOGGED.items():
+        pathlib.Path("heights.asc").write_text(raster, encoding="utf-8")
+        require(name, "", *run(scree, case))
+        log = pathlib.Path("run/log.txt").read_text(encoding="utf-8")
+        for line in wanted:
+            if not re.search(line, log, re.MULTILINE):
+                faults.append(f"{name}: no line {line} in {log}")
+        if log.count("Is this meant?") != n_questions:
+            faults.append(f"{name}: {log.count('Is this meant?')} questions in {log}")
     print("\n".join(faults) or "all as they should be")
     sys.exit(bool(faults))
 

@@ -70,6 +70,18 @@ def check_variants(scripts):
     scripts.refuses("is the case itself", "variants.py", "case.prm", "./case.prm", "End time = 1")
     scripts.refuses('Did you mean "Final strain"', "variants.py", "element.prm", "new.prm", "Final strian = 1")
     scripts.writes(["new.prm"], "variants.py", "case.prm", "new.prm", "Sand/Points per cell = 2", "Time step/Courant number = 0.3")
+    # Paths count from the case, also in a variant that lies elsewhere; what names no file stays as it is.
+    for folder in ("base", "new/deep"):
+        pathlib.Path(folder).mkdir(parents=True)
+    for name in ("part.prm", "ground.asc"):
+        pathlib.Path("base", name).write_text("", encoding="utf-8")
+    pathlib.Path("base/case.prm").write_text("include part.prm\nsubsection Bed\n  set Raster = \\\n    ground.asc # heights\n  set Profile = none.csv\nend\n",
+                                             encoding="utf-8")
+    scripts.writes(["new/deep/new.prm"], "variants.py", "base/case.prm", "new/deep/new.prm", "End time = 1")
+    moved = pathlib.Path("new/deep/new.prm").read_text(encoding="utf-8")
+    for wanted in ("include ../../base/part.prm\n", "  set Raster = ../../base/ground.asc\n", "  set Profile = none.csv\n"):
+        if wanted not in moved:
+            scripts.faults.append(f"variants.py: no {wanted!r} in {moved}")
 
 
 def check_plot_element(scripts):
@@ -82,6 +94,9 @@ def check_render(scripts):
     scripts.refuses("^render.py: .*nowhere", "render.py", "nowhere")
     scripts.refuses("^render.py: .*No field speed; there are: .*velocity.*\\(points\\).*pressure.*\\(water\\)", "render.py", "run", "--field", "speed")
     scripts.refuses("^render.py: --times 0,one: write numbers", "render.py", "run", "--times", "0,one")
+    for how in ([], ["--animate", "gif"]):
+        scripts.refuses("^render.py: run has no picture at t = 0.0016 s; there are 3, at 0, 0.001, 0.002 s. The next is at 0.002 s", "render.py", "run",
+                        "--times", "0,0.0016", *how)
     scripts.refuses("^render.py: --limits 1: write 2 numbers", "render.py", "run", "--limits", "1")
     scripts.refuses("^render.py: --panels: there is no panel fronts; there are: .*front", "render.py", "run", "--panels", "fronts")
     statistics = "run/statistics.png"

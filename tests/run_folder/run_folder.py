@@ -402,6 +402,132 @@ def log_header():
     print(log())
 
 
+TRIANGLES = [((0, 0, 0), (1, 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 1, 0), (0, 0, 1)), ((0, 0, 0), (0, 0, 1), (1, 0, 0)), ((1, 0, 0), (0, 0, 1), (0, 1, 0))]
+
+
+def solid(x, y, z, size):
+    """A small tetrahedron as STL."""
+    corner = "vertex %g %g %g\n"
+    facets = ["facet normal 0 0 0\nouter loop\n" + "".join(corner % (x + size * a, y + size * b, z + size * c) for a, b, c in reversed(one)) +
+              "endloop\nendfacet\n" for one in TRIANGLES]
+    return "solid\n" + "".join(facets) + "endsolid\n"
+
+
+def grid(value):
+    return "ncols 3\nnrows 3\nxllcenter 0\nyllcenter 0\ncellsize 1\n" + ("%g %g %g\n" % (value, value, value)) * 3
+
+
+# Contents and changed ones of each file that a case names.
+FILES_3D = {"raster.asc": (grid(0.2), grid(0.25)), "angles.asc": (grid(30), grid(31)), "thickness.asc": (grid(0.5), grid(0.4)),
+            "lower.asc": (grid(0.3), grid(0.35)), "outline.csv": ("0, 0\n1, 0\n1, 1\n0, 1\n", "0, 0\n1, 0\n1, 1.1\n0, 1\n"),
+            "wall.stl": (solid(1.5, 1.5, 1, 0.3), solid(1.5, 1.5, 1, 0.31)),
+            "record.csv": ("0, 0, 0, 0\n1, 1, 0, 0\n", "0, 0, 0, 0\n1, 2, 0, 0\n")}
+CASE_3D = """set Dimension = 3
+set Gravity = 0, 0, -9.81
+set End time = 2e-4
+set Output directory = results
+subsection Mesh
+  set Lower corner = 0, 0, 0
+  set Upper corner = 2, 2, 2
+  set Cell size = 0.25
+end
+subsection Bed
+  set Type = friction
+  set Raster = FOLDER/raster.asc
+  set Friction angles = FOLDER/angles.asc
+end
+subsection Obstacle Wall
+  set Type = free slip
+  set Closed surface = FOLDER/wall.stl
+end
+subsection Base motion
+  set Acceleration record = FOLDER/record.csv
+end
+subsection Soil
+  set Points per cell = 2
+  set Thickness = FOLDER/thickness.asc
+  set Lower surface = FOLDER/lower.asc
+  set Outline = FOLDER/outline.csv
+end
+subsection Output
+  set Graphics = none
+  set Screen = nothing
+  set Checkpoint interval = 1e-4
+end
+"""
+FILES_2D = {"profile.csv": ("0, 0.1\n2, 0.1\n", "0, 0.1\n2, 0.11\n"), "hydrograph.csv": ("0, 0.1\n1, 0.1\n", "0, 0.1\n1, 0.2\n")}
+CASE_2D = """set End time = 2e-4
+set Output directory = results
+subsection Mesh
+  set Upper corner = 2, 1
+end
+subsection Bed
+  set Type = fixed
+  set Profile = FOLDER/profile.csv
+end
+subsection Inflow Torrent
+  set Body = Soil
+  set Region = y > 0.2 && y < 0.5
+  set Hydrograph = FOLDER/hydrograph.csv
+end
+subsection Soil
+  set Region = x < 0.5 && y < 0.5
+end
+subsection Output
+  set Graphics = none
+  set Screen = nothing
+  set Checkpoint interval = 1e-4
+end
+"""
+
+
+def write_files(files, folder="data"):
+    pathlib.Path(folder).mkdir(exist_ok=True, parents=True)
+    for name, (text, _) in files.items():
+        pathlib.Path(folder, name).write_text(text, encoding="utf-8")
+
+
+def changed_files():
+    """--resume refuses changed contents of each file that a case names, with the entry; it takes the same contents under another name."""
+    for case, files in ((CASE_3D, FILES_3D), (CASE_2D, FILES_2D)):
+        fresh()
+        write_files(files)
+        pathlib.Path("case.prm").write_text(case.replace("FOLDER", "data"), encoding="utf-8")
+        run("case.prm")
+        run("case.prm", "--resume")
+        for name, (text, other) in files.items():
+            pathlib.Path("data", name).write_text(other, encoding="utf-8")
+            errors = run("case.prm", "--resume", wanted=1)
+            check(re.search(rf"case.prm, line \d+: subsection .*, entry .* = data/{name}: the run that wrote results/checkpoint/step-\d+ had "
+                            rf"data/{name} with other contents, and --resume cannot change that", errors), f"{name}: {errors}")
+            pathlib.Path("data", name).write_text(text, encoding="utf-8")
+        shutil.rmtree("moved", ignore_errors=True)
+        shutil.move("data", "moved")
+        pathlib.Path("case.prm").write_text(case.replace("FOLDER", "moved"), encoding="utf-8")
+        run("case.prm", "--resume")
+
+
+def other_folder():
+    """Paths count from the case: a run, its --resume and the run of its parameters.prm from other working folders."""
+    shutil.rmtree("case", ignore_errors=True)
+    write_files(FILES_2D, "case/data")
+    pathlib.Path("elsewhere/deep").mkdir(parents=True, exist_ok=True)
+    text = CASE_2D.replace("FOLDER", "data").replace("= results", f"= {RESULTS.resolve()}")
+    bed = text[text.index("subsection Bed"):text.index("subsection Inflow")]
+    pathlib.Path("case/data/bed.part").write_text(bed.replace("data/", ""), encoding="utf-8")
+    pathlib.Path("case/case.prm").write_text(text.replace(bed, "include data/bed.part\n"), encoding="utf-8")
+    run("case/case.prm")
+    rows = n_rows()
+    case = str(pathlib.Path("case/case.prm").resolve())
+    run("../../case/case.prm", "--resume", cwd="elsewhere/deep")
+    run(case, "--resume", cwd="elsewhere")
+    check(n_rows() == rows, "rows of resumed runs")
+    before = content()
+    shutil.copy(RESULTS / "parameters.prm", RESULTS / "again.prm")
+    run(str(RESULTS.resolve() / "again.prm"), cwd="elsewhere/deep")
+    check(content() == before, "the run of parameters.prm differs")
+
+
 os.environ["OMPI_MCA_odls_base_sigkill_timeout"] = "0"  # Do not wait a second for ranks that end by themselves.
 fresh()
 globals()[sys.argv[3]]()

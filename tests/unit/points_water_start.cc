@@ -90,7 +90,7 @@ void test(const Scene<dim> &scene, std::ostream &out)
       seeding.region          = body.region;
       seeding.points_per_cell = 2;
       seed(soil, seeding, grid.triangulation(), grid.cell_size());
-      set_k0_stress(soil, soil_above, K0);
+      set_k0_stress(soil, soil_above, K0, "");
       for_each_point(soil.points, [&](const auto &point) {
         const double *stress  = point.properties + soil.layout.stress;
         const double expected = scene.stress(point.location);

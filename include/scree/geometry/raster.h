@@ -5,6 +5,7 @@
 #include <deal.II/base/point.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scree
@@ -34,11 +35,24 @@ namespace scree
     /// Values that are missing.
     std::size_t n_missing() const;
 
+    /// Smallest and largest value; infinity and minus infinity if all are missing.
+    std::pair<double, double> range() const;
+
+    /// What the log should tell of heights, in lines: their range and where its ends are, how many are missing, and
+    /// questions about heights that no ground has and about steps steeper than 80 degrees.
+    /// @param name of what has the heights, such as `Bed`
+    /// @param where_missing a sentence on what is where heights are missing
+    std::string remark_on_heights(const std::string &name, const std::string &where_missing) const;
+
     /// Bilinear between the values; NaN where one that counts is missing.
     double value_at(const double x, const double y) const;
 
     /// The same with 0 for what is missing, beyond the values, too.
     double value_or_zero_at(const double x, const double y) const;
+
+  private:
+    /// A value with its row and column as a file counts them, from the north and the west, and its place.
+    std::string text_of(const unsigned int column, const unsigned int row) const;
   };
 
   /// Reads an ESRI ASCII grid, whose values are those at the middles of its cells; what is no text is left to GDAL.

@@ -75,6 +75,10 @@ namespace scree
     std::pair<double, double>
     part_of_line(const double x, const double y, const double lower, const double upper) const;
 
+    /// What the log should tell of the heights of its surfaces, in lines; empty: nothing.
+    /// @param body its name
+    std::string remark(const std::string &body) const;
+
     /// Entry and value, for messages.
     const std::pair<std::string, std::string> entry;
 

@@ -17,6 +17,7 @@ namespace scree
   struct GridParameters
   {
     std::vector<double> lower_corner{ 0., 0. }, upper_corner{ 1., 1. }; ///< m
+    std::string box   = "corners";
     double cell_size  = 0.1;                                            ///< m
     std::string basis = "spline";
     std::string fine  = "around points";

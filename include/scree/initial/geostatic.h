@@ -74,13 +74,19 @@ namespace scree
 
   /// Gives the points the geostatic stress of their depth: vertical from the weight above, horizontal K0 times that.
   /// Collective; throws EntryError if the law cannot bear that.
+  /// @param modulus entry and value of the soil's stiffness, for messages
   template <int dim>
-  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0);
+  void
+  set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0, const std::string &modulus);
 
   /// Gives the points an isotropic stress, Pa, compression positive. Collective; throws EntryError if the law cannot
   /// bear that.
+  /// @param modulus entry and value of the soil's stiffness, for messages
   template <int dim>
-  void set_isotropic_stress(SoilBody<dim> &body, const double pressure, const MPI_Comm communicator);
+  void set_isotropic_stress(SoilBody<dim> &body,
+                            const double pressure,
+                            const std::string &modulus,
+                            const MPI_Comm communicator);
 } // namespace scree
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef scree_input_case_entries_h
 #define scree_input_case_entries_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <scree/input/named_file.h>
 
 #include <string>
 #include <vector>
@@ -13,6 +13,7 @@ namespace scree
   struct CaseEntry
   {
     std::string subsection, name, value;
+    std::string checksum; ///< of the contents of the file it names; empty if it names none
   };
 
   /// All entries of a case, those of a subsection before those of the subsections in it.
@@ -30,6 +31,9 @@ namespace scree
     /// A line an entry.
     std::string text() const;
 
+    /// Writes the file that an entry names as the case has it, and adds its checksum.
+    void set_file(const NamedFile &file);
+
     /// The entry, or nullptr if there is none.
     const CaseEntry *find(const std::string &subsection, const std::string &name) const;
 
@@ -45,8 +49,8 @@ namespace scree
     std::vector<CaseEntry> entries;
   };
 
-  /// Whether two values of an entry mean the same: 0.1 and 1e-1 do.
-  bool same_value(const std::string &first, const std::string &second);
+  /// Whether two values of an entry mean the same: 0.1 and 1e-1 do, and files of the same contents.
+  bool same_value(const CaseEntry &first, const CaseEntry &second);
 } // namespace scree
 
 #endif

@@ -27,11 +27,13 @@ namespace scree
 
   /// Reads an expression of x, y (and z), and of t if `with_time` (dim = 1: of t alone), or throws EntryError that
   /// begins with `where` (see entry_name()) and shows the text. `n_components` expressions are separated by semicolons.
+  /// @param example of one expression, for the message; empty: a region, or of t a speed
   template <int dim>
   std::unique_ptr<Expression<dim>> parse_expression(const std::string &where,
                                                     const std::string &text,
                                                     const unsigned int n_components,
-                                                    const bool with_time = false);
+                                                    const bool with_time      = false,
+                                                    const std::string &example = "");
 } // namespace scree
 
 #endif

@@ -3,6 +3,7 @@
 #define scree_input_input_file_h
 
 #include <scree/input/input_error.h>
+#include <scree/input/named_file.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -30,6 +31,10 @@ namespace scree
     {
       return whole_text;
     }
+
+    /// The files that entries name, as `prm` declares those (see add_file_entry()). From here on their values in
+    /// statements_text() are paths from the working folder.
+    std::vector<NamedFile> named_files(const dealii::ParameterHandler &prm);
 
     /// The statements of the file and those it includes, for ParameterHandler::parse_input().
     std::string statements_text() const;
@@ -73,6 +78,7 @@ namespace scree
       unsigned int line;
       std::string path; ///< subsection it stands in, such as Soil/Initial state
       std::string name, value;
+      std::string path_of_file = ""; ///< that the value names, from the working folder; empty if it names none
 
       InputError error(const std::string &message) const;
     };
@@ -86,7 +92,7 @@ namespace scree
 
     void read(const std::string &text, const std::string &file, Open &open);
     void read_line(const std::string &line, const Statement &place, Open &open);
-    void include(const std::string &file, const Statement &place, Open &open);
+    void include(const std::string &name, const Statement &place, Open &open);
 
     void check_entry(const Statement &statement, const DeclaredNames &declared, const std::string &last_remedy) const;
 

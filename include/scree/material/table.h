@@ -38,6 +38,9 @@ namespace scree
     /// Throws dealii::ExcMessage if there is no law of that name.
     LawKind law_kind() const;
 
+    /// Entry and value of the modulus that limits elastic strains, in the body's `subsection`, as messages begin.
+    std::string modulus_text(const std::string &subsection) const;
+
     /// Throws EntryError that names the entry of the law, in the body's `subsection`, which makes waves so fast that a
     /// run is too long, and the `remedy`.
     [[noreturn]] void throw_too_stiff(const std::string &subsection, const std::string &remedy) const;

@@ -23,6 +23,7 @@ namespace scree
     StepBalance<dim> balance;
     dealii::Tensor<1, dim> lost_momentum;    ///< of soil and water points that left through an open wall, N s
     double lost_mass       = 0;              ///< of soil, kg
+    double lost_volume     = 0;              ///< of soil as dense as at the start, m^3 (2D: per m)
     double lost_water_mass = 0;              ///< kg
     double lost_energy     = 0;              ///< kinetic and potential, J
     dealii::Tensor<1, dim> entered_momentum; ///< of soil and water points of inflows, N s
@@ -52,7 +53,7 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &balance;
-      archive &plastic_dissipation &lost_mass &lost_water_mass &lost_energy &lost_momentum &n_lost;
+      archive &plastic_dissipation &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
       archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
       archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
     }
