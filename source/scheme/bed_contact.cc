@@ -3,8 +3,6 @@
 #include <scree/scheme/bed_contact.h>
 #include <scree/tensor/vector.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,6 +44,7 @@ namespace scree
       , bodies(bodies)
       , group(group)
       , nodes(grid, constraints)
+      , exchange(grid, nodes)
   {
   }
 
@@ -54,6 +53,7 @@ namespace scree
   void BedContact<dim>::reinit()
   {
     nodes.reinit();
+    exchange.reinit();
   }
 
 
@@ -122,8 +122,8 @@ namespace scree
       {
         const unsigned int number = nodes.add(of_cell[i], field);
         nodes_of_cells.push_back(number);
-        entry.is_held   = entry.is_held || nodes.is_held(number);
-        entry.is_shared = entry.is_shared || nodes.is_shared(of_cell[i]);
+        nodes.add_turn(number, colour);
+        entry.is_held = entry.is_held || nodes.is_held(number);
       }
     cells.push_back(entry);
   }
@@ -249,7 +249,7 @@ namespace scree
   template <int dim>
   void BedContact<dim>::find_contacts(const NodalField<dim> &field, const double time_step)
   {
-    nodes.begin(field);
+    nodes.begin();
     cells.clear();
     nodes_of_cells.clear();
     contacts.clear();
@@ -277,16 +277,10 @@ namespace scree
   template <int dim>
   void BedContact<dim>::order_cells()
   {
-    constexpr unsigned int n_colours = Utilities::pow(colours_1d, dim), any = n_colours;
-    static_assert(any < 32, "A bit each.");
+    constexpr unsigned int n_colours = Utilities::pow(colours_1d, dim);
     first_of_colour.assign(n_colours + 1, 0);
-    unsigned int own_bits = cells.empty() ? 0u : 1u << any;
     for (const Cell &cell : cells)
-      {
-        ++first_of_colour[cell.colour + 1];
-        if (cell.is_shared)
-          own_bits |= 1u << cell.colour;
-      }
+      ++first_of_colour[cell.colour + 1];
     for (unsigned int c = 0; c < n_colours; ++c)
       first_of_colour[c + 1] += first_of_colour[c];
     // Cells of two bodies may be the same one: those of a colour stay in order.
@@ -295,14 +289,6 @@ namespace scree
     sequence.resize(cells.size());
     for (unsigned int b = 0; b < cells.size(); ++b)
       sequence[next[cells[b].colour]++] = b;
-    unsigned int bits = 0;
-    const int error =
-        MPI_Allreduce(&own_bits, &bits, 1, MPI_UNSIGNED, MPI_BOR, grid.triangulation().get_communicator());
-    AssertThrowMPI(error);
-    any_contact = bits >> any & 1;
-    is_colour_shared.resize(n_colours);
-    for (unsigned int c = 0; c < n_colours; ++c)
-      is_colour_shared[c] = bits >> c & 1;
   }
 
 
@@ -313,11 +299,11 @@ namespace scree
     balance.obstacles.resize(n_obstacles);
     find_contacts(field, time_step);
     order_cells();
-    if (!any_contact)
-      return;
     start<n>();
+    exchange.begin(field, first_of_colour.size() - 1, n_sweeps);
     for (unsigned int s = 0; s < n_sweeps; ++s)
-      sweep<n>(s % 2 == 0);
+      sweep<n>(s);
+    exchange.finish();
     nodes.write(field, balance);
     nodes.take_working_velocities(field);
     finish<n>(time_step, balance);

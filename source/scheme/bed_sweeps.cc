@@ -154,8 +154,6 @@ namespace scree
           }
         motion.store();
       }
-    if (std::find(is_colour_shared.begin(), is_colour_shared.end(), true) != is_colour_shared.end())
-      nodes.exchange();
   }
 
 
@@ -201,17 +199,17 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void BedContact<dim>::sweep(const bool is_forward)
+  void BedContact<dim>::sweep(const unsigned int s)
   {
-    const unsigned int n_colours = is_colour_shared.size();
+    const bool is_forward        = s % 2 == 0;
+    const unsigned int n_colours = first_of_colour.size() - 1;
     for (unsigned int k = 0; k < n_colours; ++k)
       {
         const unsigned int colour = is_forward ? k : n_colours - 1 - k;
         const unsigned int first = first_of_colour[colour], last = first_of_colour[colour + 1];
+        exchange.before(s * n_colours + k);
         for (unsigned int i = first; i < last; ++i)
           sweep<n>(cells[sequence[is_forward ? i : first + last - 1 - i]], is_forward);
-        if (is_colour_shared[colour])
-          nodes.exchange();
       }
   }
 
@@ -279,10 +277,10 @@ namespace scree
   template void BedContact<2>::start<3>();
   template void BedContact<3>::start<2>();
   template void BedContact<3>::start<3>();
-  template void BedContact<2>::sweep<2>(const bool);
-  template void BedContact<2>::sweep<3>(const bool);
-  template void BedContact<3>::sweep<2>(const bool);
-  template void BedContact<3>::sweep<3>(const bool);
+  template void BedContact<2>::sweep<2>(const unsigned int);
+  template void BedContact<2>::sweep<3>(const unsigned int);
+  template void BedContact<3>::sweep<2>(const unsigned int);
+  template void BedContact<3>::sweep<3>(const unsigned int);
   template void BedContact<2>::finish<2>(const double, StepBalance<2> &);
   template void BedContact<2>::finish<3>(const double, StepBalance<2> &);
   template void BedContact<3>::finish<2>(const double, StepBalance<3> &);

@@ -3,9 +3,6 @@
 #include <scree/scheme/node_contact.h>
 #include <scree/tensor/vector.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
 
 namespace scree
 {
@@ -32,8 +29,6 @@ namespace scree
   ContactNodes<dim>::ContactNodes(const BackgroundGrid<dim> &grid, const Constraints<dim> &constraints)
       : grid(grid)
       , constraints(constraints)
-      , is_parallel(Utilities::MPI::n_mpi_processes(grid.triangulation().get_communicator()) > 1)
-      , messages(grid.numbering())
   {
     reinit();
   }
@@ -42,29 +37,19 @@ namespace scree
   template <int dim>
   void ContactNodes<dim>::reinit()
   {
-    messages.reinit();
-    messages.clear();
-    shared_owned = messages.active_nodes();
     nodes.clear();
     number_of_node.assign(grid.numbering().n_local(), free);
-    shared.assign(grid.n_owned_nodes(), false);
-    shared.resize(grid.numbering().n_local(), true);
-    for (const unsigned int node : shared_owned)
-      shared[node] = true;
   }
 
 
   template <int dim>
-  void ContactNodes<dim>::begin(const NodalField<dim> &field)
+  void ContactNodes<dim>::begin()
   {
     for (const Node &node : nodes)
       number_of_node[node.node] = free;
     nodes.clear();
     motions.clear();
     mobilities.clear();
-    for (const unsigned int node : shared_owned)
-      if (field[node][NodalField<dim>::mass] > 0.)
-        add(node, field);
   }
 
 
@@ -91,7 +76,7 @@ namespace scree
         for (unsigned int a = 0; a < dim; ++a)
           mobility[a] *= held.free_part(Point<dim>::unit_vector(a))[a];
       }
-    nodes.push_back({ node, is_held, velocity, velocity });
+    nodes.push_back({ node, is_held, 0, velocity });
     motions.push_back(motion);
     mobilities.push_back(mobility);
   }
@@ -112,38 +97,17 @@ namespace scree
 
 
   template <int dim>
-  void ContactNodes<dim>::exchange()
-  {
-    if (!is_parallel)
-      return;
-    const unsigned int n_owned = grid.n_owned_nodes();
-    for (unsigned int k = 0; k < nodes.size(); ++k)
-      if (nodes[k].node >= n_owned)
-        for (unsigned int c = 0; c < dim; ++c)
-          messages[nodes[k].node][c] = motions[k][c] - nodes[k].known[c];
-    messages.add_contributions();
-    for (const unsigned int node : shared_owned)
-      if (const unsigned int number = number_of_node[node]; number != free)
-        for (unsigned int c = 0; c < dim; ++c)
-          messages[node][c] = nodes[number].known[c] = motions[number][c] += messages[node][c];
-    messages.update_ghosts();
-    for (unsigned int k = 0; k < nodes.size(); ++k)
-      if (nodes[k].node >= n_owned)
-        for (unsigned int c = 0; c < dim; ++c)
-          motions[k][c] = nodes[k].known[c] = messages[nodes[k].node][c];
-    messages.clear();
-  }
-
-
-  template <int dim>
   void ContactNodes<dim>::write(NodalField<dim> &field, StepBalance<dim> &balance)
   {
+    StepBalance<dim> of_ghosts;
     for (unsigned int k = 0; k < nodes.size(); ++k)
-      if (const unsigned int node = nodes[k].node; node < grid.n_owned_nodes() && mobilities[k][beside] > 0.)
+      if (mobilities[k][beside] > 0.)
         {
+          const unsigned int node = nodes[k].node;
           Tensor<1, dim> velocity = to_vector<dim>(motions[k]);
           if (const NodeConstraints<dim> *walls = constraints.at(node))
-            stop_at_walls(*walls, mobilities[k][beside], velocity, balance);
+            stop_at_walls(
+                *walls, mobilities[k][beside], velocity, node < grid.n_owned_nodes() ? balance : of_ghosts);
           double *values = field[node];
           for (unsigned int c = 0; c < dim; ++c)
             {
@@ -151,7 +115,6 @@ namespace scree
               values[NodalField<dim>::velocity + c] = velocity[c];
             }
         }
-    field.update_ghosts();
   }
 
 

@@ -4,7 +4,7 @@
 
 #include <scree/grid/sampled_surface.h>
 #include <scree/points/soil_body.h>
-#include <scree/scheme/contact_nodes.h>
+#include <scree/scheme/contact_exchange.h>
 #include <scree/scheme/obstacle.h>
 
 #include <list>
@@ -39,7 +39,7 @@ namespace scree
   /// Gauss-Seidel), from those of the step before.
   ///
   /// The order of the sweeps does not depend on how cells are spread over ranks: cells that share no nodes have the
-  /// same colour, one colour follows the other, and ranks exchange what they have changed between two colours.
+  /// same colour, one colour follows the other, and ranks tell each other what they have changed before another reads it.
   template <int dim>
   class BedContact
   {
@@ -100,7 +100,6 @@ namespace scree
       unsigned int first, n; ///< contacts
       unsigned int nodes;    ///< first of its nodes
       bool is_held;          ///< whether walls hold one of its nodes
-      bool is_shared;        ///< whether other ranks know one
       double most_mobility;  ///< of a contact with the foot's own shape functions, 1/kg
     };
 
@@ -136,7 +135,7 @@ namespace scree
     /// The velocity along the normal that a point with this gap, m, must have at least.
     double least_approach(const double gap, const double dt) const;
 
-    /// Puts the cells into the sequence of the sweeps, and tells which colours concern several ranks. Collective.
+    /// Puts the cells into the sequence of the sweeps.
     void order_cells();
 
     /// Finds the contacts' shape functions and mobilities, and gives the nodes the impulses of the step before.
@@ -150,8 +149,9 @@ namespace scree
     template <int n>
     void set_shapes(const Cell &cell, Contact &contact, double *shape) const;
 
+    /// @param s of all sweeps
     template <int n>
-    void sweep(const bool is_forward);
+    void sweep(const unsigned int s);
     template <int n>
     void sweep(const Cell &cell, const bool is_forward);
 
@@ -175,6 +175,7 @@ namespace scree
     std::list<SoilBody<dim>> &bodies;
     const unsigned int group;
     ContactNodes<dim> nodes;
+    ContactExchange<dim> exchange;
     /// A surface that a cell's points may touch, and the largest gap of those that may, m.
     struct Near
     {
@@ -189,8 +190,6 @@ namespace scree
     std::vector<unsigned int> nodes_of_cells;  // numbers in `nodes`
     std::vector<unsigned int> sequence;        // of the cells in a sweep
     std::vector<unsigned int> first_of_colour; // in it
-    std::vector<char> is_colour_shared;        // by ranks
-    bool any_contact = false;                  // on any rank
   };
 } // namespace scree
 

@@ -7,6 +7,7 @@
 #include <scree/scheme/step_balance.h>
 #include <scree/transfer/node_rows.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace scree
@@ -21,8 +22,7 @@ namespace scree
 
   /// The nodes at which points in contact act, numbered one behind the other, while impulses change their velocities.
   ///
-  /// What ranks know of a node's velocity is made one by exchange(): until then, no two ranks may change a node's, or
-  /// read what another has changed.
+  /// What ranks know of a node's velocity is made one by ContactExchange.
   template <int dim>
   class ContactNodes
   {
@@ -32,13 +32,27 @@ namespace scree
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
+    /// A bit for each turn of a sweep.
+    using Turns = std::uint64_t;
+
     ContactNodes(const BackgroundGrid<dim> &grid, const Constraints<dim> &constraints);
 
-    /// Fits the nodes to the grid's current partition. Collective.
+    /// Fits the nodes to the grid's current partition.
     void reinit();
 
-    /// Begins with no nodes but those that other ranks may act on.
-    void begin(const NodalField<dim> &field);
+    /// Begins with no nodes.
+    void begin();
+
+    unsigned int size() const
+    {
+      return nodes.size();
+    }
+
+    /// The number here of a node of this rank's cells, `free` if it is not there.
+    unsigned int find(const unsigned int node) const
+    {
+      return number_of_node[node];
+    }
 
     /// The number here of a node of this rank's cells, from now on if it was not there.
     unsigned int add(const unsigned int node, const NodalField<dim> &field)
@@ -72,17 +86,25 @@ namespace scree
       return nodes[number].is_held;
     }
 
-    /// Whether other ranks know the node, too.
-    bool is_shared(const unsigned int node) const
+    /// The velocity without the impulses, m/s.
+    const dealii::Tensor<1, dim> &before(const unsigned int number) const
     {
-      return shared[node];
+      return nodes[number].before;
     }
 
-    /// Makes the velocities those of all ranks. Collective.
-    void exchange();
+    /// The turns in which this rank's cells change it.
+    Turns turns(const unsigned int number) const
+    {
+      return nodes[number].turns;
+    }
+
+    void add_turn(const unsigned int number, const unsigned int turn)
+    {
+      nodes[number].turns |= Turns(1) << turn;
+    }
 
     /// Stops what moves into walls that it could lift off from, and writes the velocities and their changes to the
-    /// field, those of ghosts included. Collective.
+    /// field, those of ghosts included, which all ranks know.
     void write(NodalField<dim> &field, StepBalance<dim> &balance);
 
     /// Puts the working_velocity() of the impulses on the nodes in the step, which write() has ended, into the records.
@@ -93,8 +115,8 @@ namespace scree
     {
       unsigned int node; // of the grid
       bool is_held;
+      Turns turns;
       dealii::Tensor<1, dim> before; // velocity without the impulses, m/s
-      dealii::Tensor<1, dim> known;  // velocity as all ranks know it, m/s
     };
 
     void append(const unsigned int node, const NodalField<dim> &field);
@@ -104,13 +126,9 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
-    const bool is_parallel;
-    NodeValues<dim, dim> messages;
     std::vector<Node> nodes;
     std::vector<NodeRow> motions, mobilities; // by number
     std::vector<unsigned int> number_of_node; // of the grid's nodes; `free`: not there
-    std::vector<unsigned int> shared_owned;   // nodes of this rank that others know
-    std::vector<char> shared;                 // whether others know a node
   };
 } // namespace scree
 
