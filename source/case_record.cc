@@ -20,6 +20,25 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Warns of ground that cells do not resolve. Collective.
+    template <int dim>
+    void log_thin_bed(const SampledSurface<dim> &bed, RunFolder &folder, const MPI_Comm communicator)
+    {
+      const auto place = bed.thin_place();
+      for (const std::string &text : Utilities::MPI::gather(communicator, place ? number_text(*place) : std::string()))
+        if (!text.empty())
+          {
+            folder.log("Bed: at (" + text +
+                       ") m the ground is thinner than a cell. Points may pass through it there. Write smaller cells, or "
+                       "thicker ground.");
+            return;
+          }
+    }
+  } // namespace
+
+
   template <int dim>
   void log_case(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator)
   {
@@ -42,6 +61,8 @@ namespace scree
     if (scene.ground)
       if (const std::string remark = scene.ground->remark(); !remark.empty())
         folder.log(remark);
+    if (scene.bed)
+      log_thin_bed(*scene.bed, folder, communicator);
     if (const std::string base = scene.forcing.text_of_base(); !base.empty())
       folder.log(base);
     for (const std::string &text : scene.texts_of_inflows())

@@ -65,6 +65,7 @@ namespace scree
         take_box_from_raster();
         check_case(*this);
         read_maps();
+        time_step.choose_maximum(has_water, size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
     catch (const EntryError &error)

@@ -29,6 +29,7 @@ namespace scree
              { parameters.bed.map_origin, scene.ground ? scene.ground->map_system() : "" },
              scene.grid,
              folder)
+      , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
   {
   }
 
@@ -43,6 +44,8 @@ namespace scree
 
     if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
       folder.require_presence();
+    if (row_is_due)
+      checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end);
     if (row_is_due)
       write_row(state);
     else if (picture_is_due)
@@ -103,6 +106,7 @@ namespace scree
   template <int dim>
   void Results<dim>::complete()
   {
+    checks.summarise();
     folder.log(
         "Results are in " + parameters.output_directory +
         (parameters.output.graphics_kind() == Pictures::none ? "." : " (open solution/points.pvd in ParaView)."));

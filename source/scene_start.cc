@@ -247,7 +247,7 @@ namespace scree
     require_entry(stable_step < step.maximum_time_step,
                   "Time step",
                   "Maximum time step",
-                  step.maximum_time_step,
+                  step.maximum,
                   remedy + " Write a larger one.");
     const bool by_waves = speeds.wave >= speeds.points;
     const std::string c = number_text(by_waves ? speeds.wave : speeds.points) + " m/s: ";

@@ -8,6 +8,7 @@
 #include <scree/output/log_header.h>
 #include <scree/settling.h>
 #include <scree/simulation.h>
+#include <scree/transfer/point_fault.h>
 #include <scree/unusual_units.h>
 
 #include <deal.II/base/mpi.h>
@@ -116,7 +117,7 @@ namespace scree
       {
         const double largest_step = stable_step();
         control.require_stable_step(largest_step, first_step);
-        progress.count(control.limit());
+        progress.count(control.limit(), control.part_left());
         step(largest_step, output_times.next(largest_step));
         report();
         progress.report(clock.time(), clock.step(), last_time_step);
@@ -207,7 +208,14 @@ namespace scree
     partition.finish(Work::to_nodes);
     if (is_released)
       scene.move_obstacles(time_step); // Points in water are put back to where the ground is then.
-    scheme->to_points(time_step, step);
+    try
+      {
+        scheme->to_points(time_step, step);
+      }
+    catch (const PointFault &fault)
+      {
+        AssertThrow(false, ExcMessage(fault.text(number_text(clock.time()))));
+      }
     place_points(time_step, step.speeds);
 
     totals.balance += step.balance;

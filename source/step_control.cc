@@ -83,6 +83,13 @@ namespace scree
 
 
   template <int dim>
+  double StepControl<dim>::part_left() const
+  {
+    return clock.part_left(scene.grid.cell_size(), speeds.wave, speeds.points);
+  }
+
+
+  template <int dim>
   void StepControl<dim>::require_stable_step(const double largest_step, const double first_step) const
   {
     // A run that gains energy would creep on with ever smaller steps.

@@ -7,6 +7,7 @@
 #include <scree/output/output_times.h>
 #include <scree/output/probes.h>
 #include <scree/output/row_file.h>
+#include <scree/output/run_checks.h>
 #include <scree/output/statistics.h>
 #include <scree/scene.h>
 #include <scree/scheme/scheme.h>
@@ -73,6 +74,7 @@ namespace scree
     RowFile rows; // of the statistics
     Probes<dim> probes;
     Maps<dim> maps;
+    RunChecks<dim> checks;
   };
 } // namespace scree
 

@@ -47,6 +47,9 @@ namespace scree
     /// What makes it that large.
     StepLimit limit() const;
 
+    /// See Clock::part_left().
+    double part_left() const;
+
     /// Of all ranks.
     StopReason stop_reason() const
     {

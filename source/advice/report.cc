@@ -170,7 +170,10 @@ namespace scree
       writer.line("step",
                   "about " + rounded(cost.mean_step) +
                       " s, with Courant number = " + rounded(schedule.time_step.courant_number) +
-                      ", Maximum time step = " + rounded(schedule.time_step.maximum_time_step));
+                      ", Maximum time step = " +
+                      (std::isfinite(schedule.time_step.maximum_time_step)
+                           ? rounded(schedule.time_step.maximum_time_step)
+                           : schedule.time_step.maximum));
       writer.line("points", wanted.n_points(), "");
       writer.line("memory", megabytes(cost.memory));
       writer.line("run", core_time(cost.seconds()));

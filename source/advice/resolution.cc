@@ -71,6 +71,7 @@ namespace scree
     // s/m.
     constexpr double free_water_step_over_cell = 0.04; // s/m
     present.courant_number = scene.is_elastic && scene.has_water && scene.water_fills_soil ? 0.9 : 0.6;
+    present.choose_maximum(scene.has_water, scene.gravity, scene.cell_size);
     if (!scene.has_soil)
       present.maximum_time_step = free_water_step_over_cell * scene.cell_size;
     return present;

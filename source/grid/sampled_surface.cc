@@ -163,6 +163,46 @@ namespace scree
 
 
   template <int dim>
+  double
+  SampledSurface<dim>::distance_of(const unsigned int cell, const Point<dim> &place, const Point<dim> &x) const
+  {
+    if (!is_near(cell))
+      return reach();
+    const double seen = view(cell, place).distance;
+    return seen >= 0. || is_moving() ? seen : std::max(seen, surface.view(x, grid.cell_size()).distance);
+  }
+
+
+  template <int dim>
+  std::optional<Point<dim>> SampledSurface<dim>::thin_place() const
+  {
+    const double width = grid.cell_size();
+    for (const auto &cell : grid.fine_cells().cells())
+      {
+        if (is_moving() || !grid.fine_cells().is_owned(cell) || !is_near(cell.index))
+          continue;
+        const SurfaceView<dim> *of_cell = &corners[std::size_t(entry_of_cell[cell.index]) * n_of_cell];
+        for (unsigned int v = 0; v < n_corners; ++v)
+          if (const double distance = of_cell[v].distance; distance < 0. && -distance < width)
+            {
+              CellPlace<dim> place = cell.place;
+              for (unsigned int a = 0; a < dim; ++a)
+                place[a] += v >> a & 1;
+              const Point<dim> x = grid.fine_cells().box().corner(place);
+              if (surface.is_open(x - width * of_cell[v].normal))
+                return x;
+            }
+        Point<dim> middle = grid.fine_cells().box().corner(cell.place);
+        for (unsigned int a = 0; a < dim; ++a)
+          middle[a] += 0.5 * width;
+        if (least_distance(cell.index) > 0. && !surface.is_open(middle))
+          return middle;
+      }
+    return {};
+  }
+
+
+  template <int dim>
   Batch SampledSurface<dim>::distances(const unsigned int cell, const std::array<Batch, dim> &places) const
   {
     // Hat functions along the axes at the lattice's corners; beyond it those of its outer cells go on.

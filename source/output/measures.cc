@@ -258,8 +258,7 @@ namespace scree
     double least       = surface.reach();
     const auto include = [&](const PointSet<dim> &points) {
       for_each_point(points, [&](const auto &point) {
-        if (surface.is_near(point.cell))
-          least = std::min(least, surface.view(point.cell, point.reference_location).distance);
+        least = std::min(least, surface.distance_of(point.cell, point.reference_location, point.location));
       });
     };
     for (const auto &body : bodies)

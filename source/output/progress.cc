@@ -81,6 +81,12 @@ namespace scree
                percent(StepLimit::waves),
                percent(StepLimit::motion),
                percent(StepLimit::entry)));
+    constexpr double most = 50.; // % of the steps
+    if (percent(StepLimit::entry) > most && others > 0.)
+      folder.log(format("'Maximum time step' bounds %.0f %% of the steps: without it the run would have taken %.3g times "
+                        "fewer. Write a larger one, or auto, unless results depend on it",
+                        percent(StepLimit::entry),
+                        n_steps / others));
   }
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
 #include <scree/scheme/time_step.h>
 
 #include <deal.II/base/utilities.h>
@@ -22,8 +23,36 @@ namespace scree
                       advection_number,
                       "Largest distance a point moves in a step over cell size.",
                       Patterns::Double(1e-6, 1));
-    prm.add_parameter("Maximum time step", maximum_time_step, "Upper bound of the step, s.", Patterns::Double(1e-12));
+    prm.add_parameter("Maximum time step",
+                      maximum,
+                      "Upper bound of the step, s. auto: dry scenes sqrt(0.2 h/g), in which soil falls from rest through "
+                      "a tenth of a cell, without gravity none; with water 0.01 s.",
+                      Patterns::Anything());
     prm.leave_subsection();
+  }
+
+
+  void TimeStepParameters::check() const
+  {
+    if (maximum == "auto")
+      return;
+    const double number = number_of(maximum);
+    require_entry(number >= 1e-12 && std::isfinite(number),
+                  "Time step",
+                  "Maximum time step",
+                  maximum,
+                  "write auto, or a number from 1e-12 on, in s.");
+  }
+
+
+  void TimeStepParameters::choose_maximum(const bool has_water, const double gravity, const double cell_size)
+  {
+    constexpr double part_of_cell = 0.1;
+    if (maximum != "auto")
+      maximum_time_step = number_of(maximum);
+    else if (!has_water)
+      maximum_time_step =
+          gravity > 0. ? std::sqrt(2. * part_of_cell * cell_size / gravity) : std::numeric_limits<double>::infinity();
   }
 
 
@@ -55,6 +84,13 @@ namespace scree
   {
     const auto all = bounds(cell_size, wave_speed, speed);
     return static_cast<StepLimit>(std::min_element(all.begin(), all.end()) - all.begin());
+  }
+
+
+  double Clock::part_left(const double cell_size, const double wave_speed, const double speed) const
+  {
+    const auto all = bounds(cell_size, wave_speed, speed);
+    return std::min(1., all[0] / std::min(all[1], all[2]));
   }
 
 

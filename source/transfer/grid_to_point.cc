@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
 #include <scree/points/batch_pointers.h>
+#include <scree/transfer/point_fault.h>
 #include <scree/transfer/transfer.h>
 #include <scree/transfer/velocity_transfer.h>
 
@@ -13,6 +15,47 @@ namespace scree
   {
     /// V/V_0 from which on soil has come apart: most of its points are alone or soon will be.
     constexpr double loose = 1.2;
+
+
+    /// Throws PointFault of the point of a block that is deformed most, if it is too much for a step.
+    template <int dim>
+    void throw_fault(const SoilBody<dim> &body,
+                     const CellPoints<dim> &cell,
+                     const unsigned int n_points,
+                     const BlockMotion<dim> &motion,
+                     const double time_step)
+    {
+      unsigned int worst    = 0;
+      double largest        = 0., of_worst = 1.; // |dF - I|, det dF
+      for (unsigned int p = 0; p < n_points; ++p)
+        {
+          Tensor<2, dim> increment;
+          double change = 0.;
+          for (unsigned int c = 0; c < dim * dim; ++c)
+            {
+              increment[c / dim][c % dim] = motion.deformation_increment[c * motion.pitch + p];
+              const double part = std::abs(increment[c / dim][c % dim] - (c % (dim + 1) == 0 ? 1. : 0.));
+              change            = part <= change ? change : part; // NaN counts
+            }
+          if (!(change <= largest))
+            {
+              worst    = p;
+              largest  = change;
+              of_worst = determinant(increment);
+            }
+        }
+      if (of_worst > 0. && largest < 1.)
+        return;
+      const auto id = body.points.handler().get_property_pool().get_id(cell.slots[worst]);
+      throw PointFault(body.name + ", point " + std::to_string(id) + " at (" + number_text(cell.location_of(worst)) +
+                           ") m",
+                       "it cannot follow its deformation in a time step of " + number_text(time_step) +
+                           " s: largest |dF - I| " + number_text(largest) + ", det dF " + number_text(of_worst) +
+                           ", V/V_0 " + number_text(motion.volume_ratio[worst]) +
+                           ". Try a smaller 'Courant number', 'Advection number' or 'Maximum time step' in subsection "
+                           "Time step; if that does not help, look at the picture before: the motion is unstable "
+                           "there.");
+    }
   } // namespace
 
 
@@ -108,7 +151,7 @@ namespace scree
             const double volume_factor = mixture ? mixture->volume_factor(cell->cell) : 1.;
             apply_f_bar(f_bar, first, body.material_points(*cell), volume_factor, motion);
           }
-        update_state(body, *begin, n_points, report.material);
+        update_state(body, *begin, n_points, time_step, report.material);
         costs.finish_cells(begin, end, n_points);
       }
     report.largest_speed = std::sqrt(largest.value);
@@ -120,6 +163,7 @@ namespace scree
   void Transfer<dim>::update_state(const SoilBody<dim> &body,
                                    const CellPoints<dim> &cell,
                                    const unsigned int n_points,
+                                   const double time_step,
                                    UpdateReport &report)
   {
     // The slots of cells lie one behind the other.
@@ -132,7 +176,15 @@ namespace scree
       for (unsigned int l = 0; l < n; ++l)
         cell.properties_of(p + l)[body.layout.volume] = volume[l];
     });
-    body.material->update(points, motion.material_motion(), report);
+    try
+      {
+        body.material->update(points, motion.material_motion(), report);
+      }
+    catch (const ExceptionBase &)
+      {
+        throw_fault(body, cell, n_points, motion, time_step);
+        throw;
+      }
   }
 
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -61,6 +62,14 @@ namespace scree
 
     /// The surface from a place (from 0 to 1) in a near cell.
     SurfaceView<dim> view(const unsigned int cell, const dealii::Point<dim> &place) const;
+
+    /// How far a place is from a surface at rest, m; three cells if it is not near. Where the cells see it inside, it is
+    /// so only if it truly is: they do not resolve ground that is thinner than they are.
+    /// @param x the place, m
+    double distance_of(const unsigned int cell, const dealii::Point<dim> &place, const dealii::Point<dim> &x) const;
+
+    /// A place, m, where the surface at rest encloses less than a cell, so that cells see it wrong; none on other ranks.
+    std::optional<dealii::Point<dim>> thin_place() const;
 
     /// Its distance alone, m, from several places in a near cell; equal to that of view() but for rounding.
     Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const;

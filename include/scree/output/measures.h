@@ -25,7 +25,7 @@ namespace scree
                                        const unsigned int axis,
                                        const std::vector<double> &fractions);
 
-  /// Least distance of a point from the surface, m; three cells if none is nearer. Collective.
+  /// Least distance of a point from the surface, m, see SampledSurface::distance_of(). Collective.
   template <int dim>
   double least_distance(const std::list<SoilBody<dim>> &bodies,
                         const std::list<WaterPhase<dim>> &water,

@@ -23,9 +23,11 @@ namespace scree
     void report(const double time, const unsigned long long step, const double time_step);
 
     /// Counts a step by what bounds it.
-    void count(const StepLimit limit)
+    /// @param part of the step that waves and motion alone would allow
+    void count(const StepLimit limit, const double part)
     {
       ++counts[static_cast<unsigned int>(limit)];
+      others += part;
     }
 
     /// Writes the table of seconds by part, and ns per point and step; before that how many steps a second of motion
@@ -59,6 +61,7 @@ namespace scree
     const double processor_time_before = processor_time();
     double last_line                   = 0; // wall time, s
     StepCounts counts                  = {};
+    double others                      = 0; // steps that the run would have taken without 'Maximum time step'
   };
 } // namespace scree
 

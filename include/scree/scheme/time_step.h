@@ -5,6 +5,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <string>
 
 namespace scree
 {
@@ -13,9 +14,19 @@ namespace scree
   {
     double courant_number    = 0.6;
     double advection_number  = 0.3;
-    double maximum_time_step = 1e-2; ///< s
+    std::string maximum      = "auto"; ///< the entry: s, or auto
+    double maximum_time_step = 1e-2;   ///< s, what choose_maximum() has made of the entry
 
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError if the maximum is no number.
+    void check() const;
+
+    /// Sets the maximum step. Where it is `auto`, dry soil may fall through a tenth of a cell in it, from rest; with
+    /// water it is 0.01 s, as its results depend on the step.
+    /// @param gravity m/s^2; without it there is no maximum in dry scenes
+    /// @param cell_size m
+    void choose_maximum(const bool has_water, const double gravity, const double cell_size);
   };
 
   /// What bounds a step.
@@ -41,6 +52,9 @@ namespace scree
 
     /// What makes it that large.
     StepLimit limit(const double cell_size, const double wave_speed, const double speed) const;
+
+    /// The part of the step that waves and motion alone would allow which the maximum leaves.
+    double part_left(const double cell_size, const double wave_speed, const double speed) const;
 
     /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `due`.
     double next_step(const double stable_step, const double due) const;

@@ -62,10 +62,12 @@ namespace scree
                      const double keep,
                      const unsigned int first);
 
-    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`.
+    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws PointFault
+    /// if a point is deformed too much in a step.
     void update_state(const SoilBody<dim> &body,
                       const CellPoints<dim> &cell,
                       const unsigned int n_points,
+                      const double time_step,
                       UpdateReport &report);
 
     /// Points whose stress is updated in one go, unless a cell has more.

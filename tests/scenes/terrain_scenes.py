@@ -1,0 +1,21 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""terrain_scenes.py SCREE SCENE: slides on mountains of doc/mountain.py, as scenes.py. The whole bank is doc/terrain_bank.py."""
+
+from scene_tools import check, main
+
+# scene_tools has put doc/ on the path.
+import terrain_bank
+
+
+def terrain_bank_short(scree):
+    """No point is thrown, lost or pressed into the ground; the soil weighs what its map says; no energy from nothing."""
+    for seed, options in ((1, []), (2, []), (3, ["--rim", "cut"]), (4, ["--feature", "cliff"])):
+        for method in ("FLIP", "AFLIP", "TPIC"):
+            numbers = terrain_bank.run_case(scree, "%d_%s" % (seed, method), seed, options, 20., {"End time": "15", "Transfer/Method": method})
+            for key, bound in terrain_bank.BOUNDS.items():
+                check("mountain %d, %s: %s" % (seed, method, key), numbers[key], 0, bound)
+
+
+if __name__ == "__main__":
+    main(globals())
