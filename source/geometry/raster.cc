@@ -40,7 +40,7 @@ namespace scree
       {
         std::string word, value;
         auto place = in.tellg();
-        while (in >> word && std::isnan(number_of(word)) && in >> value)
+        while (in >> word && is_key(word) && in >> value)
           {
             entries[lower_case(word)] = value;
             place                     = in.tellg();
@@ -89,6 +89,13 @@ namespace scree
       }
 
     private:
+      /// Keys begin with a letter; a missing height may be written as `nan`.
+      static bool is_key(const std::string &word)
+      {
+        return std::isalpha(static_cast<unsigned char>(word[0])) && std::isnan(number_of(word)) &&
+               lower_case(word) != "nan";
+      }
+
       const std::string name;
       std::map<std::string, std::string> entries;
     };
