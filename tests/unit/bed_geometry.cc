@@ -106,7 +106,10 @@ void test_raster()
   const HeightSurface with_hole(raster);
   const Point<3> at_hole(raster.x + 2.1 * raster.spacing, raster.y + 1.1 * raster.spacing, -10.);
   AssertThrow(with_hole.is_open(at_hole) && !ground.is_open(at_hole), ExcMessage("raster: missing height"));
-  AssertThrow(!with_hole.remark().empty() && ground.remark().empty(), ExcMessage("raster: remark"));
+  const auto tells_of_holes = [](const HeightSurface &surface) {
+    return surface.remark().find("are missing") != std::string::npos;
+  };
+  AssertThrow(tells_of_holes(with_hole) && !tells_of_holes(ground), ExcMessage("raster: remark"));
   std::cout << "raster: nearest places found, open where heights are missing" << std::endl;
 }
 

@@ -92,7 +92,7 @@ struct Run
 
   void save(const std::string &folder)
   {
-    const CaseEntries entries("\tEnd time\t" + std::to_string(state) + '\n');
+    const CaseEntries entries("\tEnd time\t" + std::to_string(state) + "\t\n");
     save_checkpoint<dim>(
         folder, 0.1 * state, std::uint64_t(state), entries, grid, { &points, &none }, [&](auto &archive) {
           archive << state;
