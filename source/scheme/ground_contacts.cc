@@ -4,7 +4,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace scree
 {
@@ -134,23 +136,24 @@ namespace scree
     scaled.resize(n);
     for (unsigned int k = 0; k < n; ++k)
       residual[k] = list[k].speed - velocities[k];
-    double own_product = 0., own_square = 0.;
-    const auto judge = [&] { // scales the residual; product of both; its square over the ground
-      own_product = own_square = 0.;
+    // Scales the residual; product of both, and its square over the ground, of all ranks.
+    const auto judge = [&] {
+      std::array<double, 2> own{}, all{};
       for (unsigned int k = 0; k < n; ++k)
         {
           const GroundContact<dim> &contact = list[k];
           scaled[k] = mobilities[k] > 0. ? contact.part(contact.held, residual[k]) / mobilities[k] : Vector();
           const double of_contact = residual[k] * scaled[k];
-          own_product += of_contact;
-          own_square += contact.area * mobilities[k] * of_contact;
+          own[0] += of_contact;
+          own[1] += contact.area * mobilities[k] * of_contact;
         }
+      Utilities::MPI::sum(own, grid.triangulation().get_communicator(), all);
+      return std::make_pair(all[0], all[1]);
     };
-    judge();
-    if (sum(own_square) <= bearable * bearable)
+    auto [product, square] = judge();
+    if (square <= bearable * bearable)
       return false;
-    double product = sum(own_product);
-    direction      = scaled;
+    direction = scaled;
     unsigned int i = 0;
     for (; i < most_iterations; ++i)
       {
@@ -167,10 +170,9 @@ namespace scree
             list[k].impulse += length * direction[k];
             residual[k] -= length * velocities[k];
           }
-        judge();
-        if (sum(own_square) <= tolerance * tolerance)
+        const auto [next, left] = judge();
+        if (left <= tolerance * tolerance)
           return true;
-        const double next = sum(own_product);
         for (unsigned int k = 0; k < n; ++k)
           direction[k] = scaled[k] + next / product * direction[k];
         product = next;

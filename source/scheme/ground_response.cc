@@ -36,6 +36,10 @@ namespace scree
     messages.reinit();
     nodes.clear();
     numbers.assign(grid.numbering().n_local(), numbers::invalid_unsigned_int);
+    shared_owned.clear();
+    for (const auto &[first, last] : grid.numbering().partitioner()->import_indices())
+      for (unsigned int node = first; node < last; ++node)
+        shared_owned.push_back(node);
   }
 
 
@@ -50,10 +54,7 @@ namespace scree
     nodes_of_segments.clear();
     first_of_segment.assign(open_cells.segments().size(), numbers::invalid_unsigned_int);
     n_started = 0;
-    if (!is_parallel)
-      return;
-    messages.clear();
-    for (const unsigned int node : messages.active_nodes()) // Other ranks' contacts may act on them.
+    for (const unsigned int node : shared_owned) // Other ranks' contacts may act on them.
       number_of(node);
   }
 
@@ -90,24 +91,22 @@ namespace scree
             held.push_back(response_of(pair));
           }
       }
+    if (!is_parallel)
+      return;
+    std::vector<unsigned int> ghosts;
+    for (const Node &node : nodes)
+      if (!is_owned(node))
+        ghosts.push_back(node.node);
+    messages.begin(ghosts);
   }
 
 
   template <int dim>
-  void GroundResponse<dim>::write_message(const unsigned int number)
+  void GroundResponse<dim>::write_message(const unsigned int node, double *message) const
   {
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int phase = 0; phase < 2; ++phase)
-        messages[nodes[number].node][phase * dim + c] = values[phase][number][c];
-  }
-
-
-  template <int dim>
-  void GroundResponse<dim>::read_message(const unsigned int number)
-  {
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int phase = 0; phase < 2; ++phase)
-        values[phase][number][c] = messages[nodes[number].node][phase * dim + c];
+    for (unsigned int phase = 0; phase < 2; ++phase)
+      for (unsigned int c = 0; c < dim; ++c)
+        message[phase * dim + c] = values[phase][numbers[node]][c];
   }
 
 
@@ -136,15 +135,14 @@ namespace scree
       add_shares<2>(impulses);
     else
       add_shares<3>(impulses);
-    if (!is_parallel)
-      return;
-    messages.clear_ghosts();
-    for (unsigned int node = 0; node < nodes.size(); ++node)
-      write_message(node);
-    messages.add_contributions();
-    for (unsigned int node = 0; node < nodes.size(); ++node)
-      if (is_owned(nodes[node]))
-        read_message(node);
+    messages.to_owners(
+        2 * dim,
+        [&](const unsigned int node, double *message) { write_message(node, message); },
+        [&](const unsigned int node, const double *message) {
+          for (unsigned int phase = 0; phase < 2; ++phase)
+            for (unsigned int c = 0; c < dim; ++c)
+              values[phase][numbers[node]][c] += message[phase * dim + c];
+        });
   }
 
 
@@ -215,16 +213,14 @@ namespace scree
     NodeRow *soil = values[0].data(), *water = values[1].data();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       std::tie(soil[i], water[i]) = motion_of(nodes[i], soil[i], water[i]);
-    if (is_parallel)
-      {
-        for (unsigned int node = 0; node < nodes.size(); ++node)
-          if (is_owned(nodes[node]))
-            write_message(node);
-        messages.update_ghosts();
-        for (unsigned int node = 0; node < nodes.size(); ++node)
-          if (!is_owned(nodes[node]))
-            read_message(node);
-      }
+    messages.from_owners(
+        2 * dim,
+        [&](const unsigned int node, double *message) { write_message(node, message); },
+        [&](const unsigned int node, const double *message) {
+          for (unsigned int phase = 0; phase < 2; ++phase)
+            for (unsigned int c = 0; c < dim; ++c)
+              values[phase][numbers[node]][c] = message[phase * dim + c];
+        });
   }
 
 

@@ -2,6 +2,7 @@
 #ifndef scree_scheme_ground_response_h
 #define scree_scheme_ground_response_h
 
+#include <scree/grid/node_messages.h>
 #include <scree/scheme/mixture_step.h>
 #include <scree/transfer/node_rows.h>
 
@@ -44,7 +45,7 @@ namespace scree
     void add(const unsigned int segment, const Phase phase);
 
     /// Looks at nodes that are new in this step, after all contacts have been added. What the nodes weigh, their drag
-    /// and what walls hold of them stays the same in a step.
+    /// and what walls hold of them stays the same in a step. Collective.
     void start(const MixtureNodes<dim> &nodes, const MixtureStep<dim> &step);
 
     /// What an impulse of 1 at a contact, in any direction, gives to the velocity there, 1/kg, without walls.
@@ -137,14 +138,14 @@ namespace scree
 
     static HeldResponse response_of(const DragPair<dim> &pair);
 
-    /// Copies values of nodes to and from what is exchanged with other ranks.
-    void write_message(const unsigned int number);
-    void read_message(const unsigned int number);
+    /// Copies values of nodes to what other ranks get.
+    void write_message(const unsigned int node, double *message) const;
 
     const BackgroundGrid<dim> &grid;
     const OpenCells<dim> &open_cells;
     const bool is_parallel;
-    NodeValues<dim, 2 * dim> messages;
+    NodeMessages<dim> messages;
+    std::vector<unsigned int> shared_owned; // this rank's nodes that others know
     std::vector<unsigned int> numbers; // by node
     std::vector<Node> nodes;
     std::array<std::vector<NodeRow>, 2> values; // of soil and water by node: impulses, N s; then what they do, m/s
