@@ -4,7 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -138,7 +137,7 @@ namespace scree
       residual[k] = list[k].speed - velocities[k];
     // Scales the residual; product of both, and its square over the ground, of all ranks.
     const auto judge = [&] {
-      std::array<double, 2> own{}, all{};
+      double own[2] = {}, all[2] = {};
       for (unsigned int k = 0; k < n; ++k)
         {
           const GroundContact<dim> &contact = list[k];
@@ -147,7 +146,8 @@ namespace scree
           own[0] += of_contact;
           own[1] += contact.area * mobilities[k] * of_contact;
         }
-      Utilities::MPI::sum(own, grid.triangulation().get_communicator(), all);
+      const int error = MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, grid.triangulation().get_communicator());
+      AssertThrowMPI(error);
       return std::make_pair(all[0], all[1]);
     };
     auto [product, square] = judge();
