@@ -179,7 +179,9 @@ namespace scree
 
 
   template <int dim>
-  void ContactExchange<dim>::begin(const NodalField<dim> &field, const unsigned int n_turns, const unsigned int n_sweeps)
+  void ContactExchange<dim>::begin(const NodalField<dim> &field,
+                                   const unsigned int n_turns,
+                                   const unsigned int n_sweeps)
   {
     this->n_turns = n_turns;
     n_positions   = n_turns * n_sweeps;
