@@ -64,6 +64,7 @@ namespace scree
                         [&] { rows.append((rows.is_empty() ? statistics.head() : "") + statistics.row()); });
     probes.write_rows(probed_state(state, scheme.water_view().get()));
     maps.sample(scene.bodies, state.time);
+    statistics.require_numbers(state.time);
   }
 
 

@@ -262,6 +262,22 @@ namespace scree
     unsigned int number = 0;
     for (const Inflow<dim> &inflow : inflows)
       constraints.set_inflow_velocity(number++, inflow.velocity());
+    uncover_walls();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::uncover_walls()
+  {
+    if (std::none_of(obstacles.begin(), obstacles.end(), [](const auto &obstacle) { return obstacle.is_moving; }))
+      return;
+    std::vector<std::pair<unsigned int, std::uint8_t>> covered;
+    for (const Obstacle<dim> &obstacle : obstacles)
+      if (obstacle.is_moving)
+        obstacle.add_covered_nodes(covered);
+    constraints.cover(covered);
+    if (walls_alone)
+      walls_alone->cover(covered);
   }
 
 

@@ -113,6 +113,9 @@ namespace scree
     std::unique_ptr<OpenCells<dim>> open_cells; ///< what ground leaves of the cells; null without water or ground
 
   private:
+    /// Walls do not act where obstacles that move cover them.
+    void uncover_walls();
+
     void make_bodies();
     void join_ground();
 

@@ -98,6 +98,7 @@ namespace scree
     inflow_of_set.clear();
     faces_of_set.clear();
     set_of_faces.clear();
+    covered.clear();
     released.clear();
     // Nodes on the same faces share a set.
     std::map<std::tuple<std::uint8_t, bool, unsigned int>, unsigned int> set_of_kind;
@@ -147,7 +148,7 @@ namespace scree
 
 
   template <int dim>
-  void Constraints<dim>::release(const unsigned int node, const std::uint8_t faces)
+  void Constraints<dim>::take_walls(const unsigned int node, const std::uint8_t faces, NodesAndSets &before)
   {
     const unsigned int set     = set_of_node[node];
     const std::uint8_t left    = faces_of_set[set] & ~faces;
@@ -155,17 +156,51 @@ namespace scree
     if (is_new && left != 0)
       if (const NodeConstraints<dim> constraints = of_faces(left, false, false); constraints.any())
         entry->second = add_set(constraints, free, left);
-    released.emplace_back(node, set);
+    before.emplace_back(node, set);
     set_of_node[node] = entry->second;
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::give_back(NodesAndSets &before)
+  {
+    for (; !before.empty(); before.pop_back()) // A node may be there twice.
+      set_of_node[before.back().first] = before.back().second;
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::release(const unsigned int node, const std::uint8_t faces)
+  {
+    take_walls(node, faces, released);
   }
 
 
   template <int dim>
   void Constraints<dim>::hold_all()
   {
-    for (const auto &[node, set] : released)
-      set_of_node[node] = set;
-    released.clear();
+    give_back(released);
+  }
+
+
+  template <int dim>
+  void Constraints<dim>::cover(const std::vector<std::pair<unsigned int, std::uint8_t>> &nodes)
+  {
+    hold_all();
+    give_back(covered);
+    for (const auto &[node, faces] : nodes)
+      if (has_walls_alone(node))
+        take_walls(node, faces, covered);
+  }
+
+
+  template <int dim>
+  std::uint8_t Constraints<dim>::faces_closed_to_soil() const
+  {
+    std::uint8_t faces = 0;
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      faces |= (walls.walls()[f].type == WallType::open ? 0u : 1u) << f;
+    return faces;
   }
 
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
 #include <scree/output/row_file.h>
 #include <scree/output/statistics.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 
 namespace scree
@@ -295,6 +297,17 @@ namespace scree
         add("Viscous iterations per step",
             mean_of_steps(totals.balance.n_viscous_iterations, viscous_iterations_at_last_row));
       }
+  }
+
+
+  template <int dim>
+  void Statistics<dim>::require_numbers(const double time) const
+  {
+    for (const auto &[column, value] : last_row)
+      AssertThrow(!std::isnan(value),
+                  ExcMessage("Column '" + column + "' of statistics is not a number at t = " + number_text(time) +
+                             " s: the motion was unstable before. The rows above it tell since when. Remedies: a "
+                             "smaller 'Courant number' in subsection Time step; look at what moves there."));
   }
 
 

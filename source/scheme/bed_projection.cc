@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/points/batch_pointers.h>
 #include <scree/scheme/bed_projection.h>
+#include <scree/scheme/box_walls.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -369,7 +370,8 @@ namespace scree
 
 
   template <int dim>
-  void BedProjection<dim>::put_back(PointSet<dim> &points, const double farthest) const
+  void
+  BedProjection<dim>::put_back(PointSet<dim> &points, const double farthest, const std::uint8_t closed_faces) const
   {
     const double width         = grid.cell_size();
     const double inside        = 1e-6 * width; // where points are put
@@ -390,7 +392,7 @@ namespace scree
               {
                 Point<dim> &location        = cell.location_of(indices[l]);
                 const SurfaceView<dim> view = ground.view(cell.cell, Point<dim>((location - lower) / width));
-                location += (inside - view.distance) * view.normal;
+                move_out_of_ground(grid, closed_faces, view.normal, inside - view.distance, location);
               }
         });
       }

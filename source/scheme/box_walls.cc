@@ -37,6 +37,42 @@ namespace scree
       }
   }
 
+
+  template <int dim>
+  void move_out_of_ground(const BackgroundGrid<dim> &grid,
+                          const std::uint8_t closed_faces,
+                          const Tensor<1, dim> &normal,
+                          double depth,
+                          Point<dim> &place)
+  {
+    constexpr double parallel = 0.01; // square of the sine of the angle between ground and faces: no room
+    Tensor<1, dim> along      = normal;
+    for (unsigned int n_faces = 0; n_faces <= dim && along.norm_square() > parallel; ++n_faces)
+      {
+        const Point<dim> start    = place;
+        const double rise_a_metre = along.norm_square();
+        bool is_inside            = true;
+        place += depth / rise_a_metre * along;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const double lower = grid.lower_corner()[a], upper = grid.upper_corner()[a];
+            const bool is_below = closed_faces >> 2 * a & 1 && place[a] < lower;
+            if (!is_below && !(closed_faces >> (2 * a + 1) & 1 && place[a] > upper))
+              continue;
+            is_inside = false;
+            place[a]  = is_below ? lower + inside * grid.cell_size() : upper - inside * grid.cell_size();
+            along[a]  = 0.;
+          }
+        if (is_inside)
+          return;
+        depth -= normal * (place - start);
+      }
+  }
+
   template void hold_in_box(const BackgroundGrid<2> &, const std::uint8_t, PointSet<2> &);
   template void hold_in_box(const BackgroundGrid<3> &, const std::uint8_t, PointSet<3> &);
+  template void
+  move_out_of_ground(const BackgroundGrid<2> &, const std::uint8_t, const Tensor<1, 2> &, double, Point<2> &);
+  template void
+  move_out_of_ground(const BackgroundGrid<3> &, const std::uint8_t, const Tensor<1, 3> &, double, Point<3> &);
 } // namespace scree

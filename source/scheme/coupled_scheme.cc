@@ -36,7 +36,8 @@ namespace scree
             stabilisation.f_bar_kind() != FBar::none && forcing.gravity().norm() > 0. &&
             water_parameters.bulk_modulus == 0. &&
             std::all_of(water.begin(), water.end(), [](const auto &one) { return one.carrier() == nullptr; }))
-      , closed_faces(water_walls.closed_faces())
+      , faces_closed_to_soil(constraints.faces_closed_to_soil())
+      , faces_closed_to_water(water_walls.closed_faces())
       , inflows(inflows)
       , timer(timer)
       , soil(grid, transfer_parameters, stabilisation, bodies, loads)
@@ -293,7 +294,7 @@ namespace scree
             volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
           if (PointSet<dim> *own = one.own_points())
             {
-              hold_in_box(grid, closed_faces, *own);
+              hold_in_box(grid, faces_closed_to_water, *own);
               report.n_updates += own->n_points();
             }
         }
@@ -303,8 +304,13 @@ namespace scree
         const TimedPart part(timer, StepPart::bed);
         // Nodes may be faster than points, and volume correction shifts by a tenth of a cell along each axis.
         const double farthest = 0.25 * grid.cell_size() + 2. * time_step * report.speeds.points;
-        for (PointSet<dim> *points : point_sets())
-          bed->put_back(*points, farthest);
+        std::vector<PointSet<dim> *> of_soil;
+        soil.append_point_sets(of_soil);
+        for (PointSet<dim> *points : of_soil)
+          bed->put_back(*points, farthest, faces_closed_to_soil);
+        for (auto &one : water)
+          if (PointSet<dim> *own = one.own_points())
+            bed->put_back(*own, farthest, faces_closed_to_water);
       }
   }
 

@@ -39,6 +39,7 @@ namespace scree
       , holds_water(parameters.surface.holds_water())
       , is_moving(parameters.is_moving())
       , pivot(pivot_of<dim>(parameters, grid))
+      , grid(grid)
       , level_set(make_bed<dim>(parameters.surface, box.lower_corner, box.upper_corner, box.cell_size))
       , motion(
             is_moving
@@ -46,12 +47,13 @@ namespace scree
                 : nullptr)
       , surface(grid, *level_set, is_moving ? SurfaceMotion::rigid : SurfaceMotion::none)
   {
-    require_in_box(parameters, grid);
+    if (!is_moving) // What moves may come in later.
+      require_in_box(parameters);
   }
 
 
   template <int dim>
-  void Obstacle<dim>::require_in_box(const ObstacleParameters &parameters, const BackgroundGrid<dim> &grid) const
+  void Obstacle<dim>::require_in_box(const ObstacleParameters &parameters) const
   {
     const MPI_Comm communicator   = grid.triangulation().get_communicator();
     const Tensor<1, dim> diagonal = grid.upper_corner() - grid.lower_corner();
@@ -87,6 +89,48 @@ namespace scree
                   value,
                   "the obstacle is nowhere in the box of subsection Mesh. Move it (it is where the expression is "
                   "negative), or make the box larger.");
+  }
+
+
+  template <int dim>
+  bool Obstacle<dim>::covers(const unsigned int face, const Point<dim> &node) const
+  {
+    constexpr double reach = 1.5; // of a node's shape function, cells
+    for (unsigned int corner = 0; corner < 1u << dim; ++corner)
+      {
+        Point<dim> x = node;
+        for (unsigned int a = 0; a < dim; ++a)
+          if (a != face / 2)
+            x[a] = std::clamp(node[a] + (corner >> a & 1 ? reach : -reach) * grid.cell_size(),
+                              grid.lower_corner()[a],
+                              grid.upper_corner()[a]);
+        if (!contains(Point<dim>(x - moved)))
+          return false;
+      }
+    return contains(Point<dim>(node - moved));
+  }
+
+
+  template <int dim>
+  void Obstacle<dim>::add_covered_nodes(std::vector<std::pair<unsigned int, std::uint8_t>> &nodes) const
+  {
+    std::vector<unsigned int> on_walls;
+    for (const auto &cell : grid.fine_cells().cells())
+      if (surface.least_distance(cell.index) < 0. && grid.open_knots(cell.index) != 0)
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          if (const unsigned int node = grid.nodes(cell.index)[i]; grid.node_faces(node) != 0)
+            on_walls.push_back(node);
+    std::sort(on_walls.begin(), on_walls.end());
+    on_walls.erase(std::unique(on_walls.begin(), on_walls.end()), on_walls.end());
+    for (const unsigned int node : on_walls)
+      {
+        std::uint8_t covered = 0;
+        for (unsigned int f = 0; f < 2 * dim; ++f)
+          if (grid.node_faces(node) >> f & 1 && covers(f, grid.node_position(node)))
+            covered |= 1u << f;
+        if (covered != 0)
+          nodes.emplace_back(node, covered);
+      }
   }
 
 

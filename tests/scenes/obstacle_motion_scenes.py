@@ -124,5 +124,29 @@ def obstacle_moving_tank(scree):
               sign * np.mean(table["Obstacle %s force x (N)" % wall][2:]) / exact, 0.98, 1.02)
 
 
+def obstacle_at_wall(scree):
+    """Pistons and gates that touch walls of the box: what happens to the water there is what happens far from the walls."""
+    entries = {"End time": "0.4", "Mesh/Upper corner": "2, 1", "Mesh/Cell size": "0.05", "Water/Region": "y < 0.5", "Obstacle Piston/Type": "free slip",
+               "Obstacle Piston/Velocity": "0.2; 0"}
+    for name, at_wall, elsewhere in (("piston that leaves through a wall", "1.9 - x", "1.7 - x"), ("piston that starts at a wall", "x - 0.01", "x - 0.21")):
+        table, reference = (numbers(run(scree, "hydrostatic", "piston", {**entries, "Obstacle Piston/Level set expression": place}))
+                            for place in (at_wall, elsewhere))
+        for column in ("Obstacle Piston impulse x (N s)", "Kinetic energy (J)"):  # no wave comes back within this time
+            check(name + ": " + column + " over that of a piston elsewhere", table[column][-1] / reference[column][-1], 0.95, 1.05)
+        check_balance_of_water(name, table)
+    table = run(scree, "hydrostatic", "outside", {**entries, "End time": "0.6", "Obstacle Piston/Level set expression": "x + 0.05"})
+    check("piston that comes in: force before, N", table["Obstacle Piston force x (N)"][5], 0, 0)
+    check("piston that comes in: force later over that of still water", -table["Obstacle Piston force x (N)"][-1] / (WEIGHT * 0.5**2 / 2), 1, 1.3)
+    table = run(scree, "hydrostatic", "gate",
+                {**entries, "End time": "0.8", "Water/Region": "x < 0.5 && y < 0.6 || y < 0.4", "Obstacle Piston/Velocity": "0; if(t < 0.5, -0.4, 0)",
+                 "Obstacle Piston/Level set expression": "max(abs(x - 1) - 0.1, 0.2 - y)"})
+    check("gate that closes: water that is left over that of the start", table["Water mass (kg)"][-1] / table["Water mass (kg)"][0], 1, 1)
+    check("gate that closes: largest p over that of the start", max(table["Largest p (Pa)"]) / table["Largest p (Pa)"][0], 0, 2)
+    table = run(scree, "hydrostatic", "plate",
+                {"End time": "0.6", "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.05", "Water/Region": "x < 0.5 && y > 1.2 - x",
+                 "Boundaries/Water/Top": "drained", "Obstacle Plate/Type": "free slip", "Obstacle Plate/Level set expression": "(y - 0.5 - x)/sqrt(2)"})
+    check("oblique plate at a wall: water that is left over that of the start", table["Water mass (kg)"][-1] / table["Water mass (kg)"][0], 1, 1)
+
+
 if __name__ == "__main__":
     main(globals())

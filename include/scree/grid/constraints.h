@@ -63,6 +63,13 @@ namespace scree
     void release(const unsigned int node, const std::uint8_t faces);
     void hold_all();
 
+    /// These walls (bit f: face f) do not act on these nodes, where walls alone do, until the next call.
+    /// @param nodes of this rank's cells, ghosts included
+    void cover(const std::vector<std::pair<unsigned int, std::uint8_t>> &nodes);
+
+    /// Faces of the box that are not open to soil, bit f: face f.
+    std::uint8_t faces_closed_to_soil() const;
+
     /// Those of a node of this rank's cells; null where there are none.
     const NodeConstraints<dim> *at(const unsigned int node) const
     {
@@ -78,6 +85,12 @@ namespace scree
 
   private:
     NodeConstraints<dim> of_faces(const std::uint8_t faces, const bool is_rigid, const bool is_moved) const;
+
+    using NodesAndSets = std::vector<std::pair<unsigned int, unsigned int>>;
+
+    /// Takes walls from a node; `before` gets its set.
+    void take_walls(const unsigned int node, const std::uint8_t faces, NodesAndSets &before);
+    void give_back(NodesAndSets &before);
 
     /// Adds to `sets`; returns the number there.
     /// @param faces see faces_of_set
@@ -100,7 +113,7 @@ namespace scree
     std::vector<unsigned int> inflow_of_set;                     // `free`: none
     std::vector<std::uint8_t> faces_of_set;                      // 0: not of walls alone
     std::map<std::uint8_t, unsigned int> set_of_faces;           // those of walls alone; `free`: they hold nothing
-    std::vector<std::pair<unsigned int, unsigned int>> released; // nodes and their sets
+    NodesAndSets covered, released;                              // what they had before; released later than covered
   };
 } // namespace scree
 

@@ -87,6 +87,9 @@ namespace scree
                  const double time_step,
                  const UpdateReport &last_step);
 
+    /// Throws if a number of the last row, of a `time` in s, is none.
+    void require_numbers(const double time) const;
+
     /// The lines above the first row, which name the columns.
     std::string head() const;
 

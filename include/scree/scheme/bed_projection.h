@@ -88,7 +88,8 @@ namespace scree
                         StepBalance<dim> &balance) const;
 
     /// Takes points that have come below the ground back to it. None has moved farther than `farthest`, m.
-    void put_back(PointSet<dim> &points, const double farthest) const;
+    /// @param closed_faces of the box, to the points: none is put through them
+    void put_back(PointSet<dim> &points, const double farthest, const std::uint8_t closed_faces) const;
 
   private:
     /// What a segment knows.

@@ -14,6 +14,15 @@ namespace scree
   /// @param closed_faces bit f: face f, as in BackgroundGrid::node_faces()
   template <int dim>
   void hold_in_box(const BackgroundGrid<dim> &grid, const std::uint8_t closed_faces, PointSet<dim> &points);
+
+  /// Moves a place that is `depth`, m, below ground with this `normal` out of it, and along the closed faces of the box
+  /// that it would leave through. Where there is no room between ground and a face, it stays at the face.
+  template <int dim>
+  void move_out_of_ground(const BackgroundGrid<dim> &grid,
+                          const std::uint8_t closed_faces,
+                          const dealii::Tensor<1, dim> &normal,
+                          double depth,
+                          dealii::Point<dim> &place);
 } // namespace scree
 
 #endif

@@ -75,8 +75,8 @@ namespace scree
     const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
-    const bool gives_back_volume;    // that soil loses where a solve leaves it closing
-    const std::uint8_t closed_faces; // of the box, to the water
+    const bool gives_back_volume; // that soil loses where a solve leaves it closing
+    const std::uint8_t faces_closed_to_soil, faces_closed_to_water; // of the box
     const std::list<Inflow<dim>> &inflows;
     dealii::TimerOutput &timer;
 

@@ -8,6 +8,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace scree
 {
@@ -16,7 +18,7 @@ namespace scree
   class Obstacle
   {
   public:
-    /// At its place of the start. Collective; throws EntryError if it is not in the box.
+    /// At its place of the start. Collective; throws EntryError if it is at rest and not in the box.
     /// @param box lower and upper corners are asked for
     Obstacle(const ObstacleParameters &parameters, const GridParameters &box, const BackgroundGrid<dim> &grid);
 
@@ -31,6 +33,11 @@ namespace scree
     {
       return !level_set->is_open(x);
     }
+
+    /// Adds the nodes of walls that it covers now all about, with these walls (bit f: face f): a wall does nothing to
+    /// what the obstacle keeps from it, and would hold the nodes that are to move with the obstacle.
+    /// @param nodes of this rank's cells, ghosts included
+    void add_covered_nodes(std::vector<std::pair<unsigned int, std::uint8_t>> &nodes) const;
 
     /// Its surface at the start.
     const LevelSet<dim> &shape() const
@@ -74,8 +81,12 @@ namespace scree
 
   private:
     /// Throws EntryError if it is nowhere in the box. Collective.
-    void require_in_box(const ObstacleParameters &parameters, const BackgroundGrid<dim> &grid) const;
+    void require_in_box(const ObstacleParameters &parameters) const;
 
+    /// Whether it covers a face of the box as far as a node there reaches.
+    bool covers(const unsigned int face, const dealii::Point<dim> &node) const;
+
+    const BackgroundGrid<dim> &grid;
     const std::unique_ptr<LevelSet<dim>> level_set; // of the start
     const std::unique_ptr<Expression<1>> motion;    // m/s; null at rest
     dealii::Tensor<1, dim> mean_velocity, moved;
