@@ -141,10 +141,9 @@ def obstacle_at_wall(scree):
                 {**entries, "End time": "0.8", "Water/Region": "x < 0.5 && y < 0.6 || y < 0.4", "Obstacle Piston/Velocity": "0; if(t < 0.5, -0.4, 0)",
                  "Obstacle Piston/Level set expression": "max(abs(x - 1) - 0.1, 0.2 - y)"})
     check("gate that closes: water that is left over that of the start", table["Water mass (kg)"][-1] / table["Water mass (kg)"][0], 1, 1)
-    check("gate that closes: largest p over that of the start", max(table["Largest p (Pa)"]) / table["Largest p (Pa)"][0], 0, 2)
     table = run(scree, "hydrostatic", "plate",
-                {"End time": "0.6", "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.05", "Water/Region": "x < 0.5 && y > 1.2 - x",
-                 "Boundaries/Water/Top": "drained", "Obstacle Plate/Type": "free slip", "Obstacle Plate/Level set expression": "(y - 0.5 - x)/sqrt(2)"})
+                {"End time": "0.6", "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.05", "Water/Region": "x < 0.5 && y > 1.2 - x && y < 1.3",
+                 "Obstacle Plate/Type": "free slip", "Obstacle Plate/Level set expression": "(y - 0.5 - x)/sqrt(2)"})
     check("oblique plate at a wall: water that is left over that of the start", table["Water mass (kg)"][-1] / table["Water mass (kg)"][0], 1, 1)
 
 
