@@ -10,7 +10,7 @@ namespace scree
   namespace
   {
     /// Fill of a cell from which on its soil reaches all of its sides.
-    constexpr double full = 0.95;
+    constexpr double full_beside_gap = 0.95;
 
     /// Distance of the centre of what fills a cell from its middle, cells.
     constexpr double least_offset = 0.1;
@@ -45,7 +45,7 @@ namespace scree
       if (surface.kind(of_cell[v]) == CornerKind::unknown)
         for (unsigned int a = 0; a < dim; ++a)
           ++n_unknown[2 * a + (v >> a & 1u)];
-    const bool is_full = cell.fill >= full;
+    const bool is_full = cell.fill >= full_beside_gap;
     for (unsigned int side = 0; side < n_sides; ++side)
       if (n_unknown[side] == 0 && n_unknown[side ^ 1u] == cell.n_corners / 2)
         {

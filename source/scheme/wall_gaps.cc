@@ -14,7 +14,7 @@ namespace scree
     constexpr double reach_of_a_point = 0.6;
 
     /// Fill of a cell from which on it has no gap.
-    constexpr double full = 0.9;
+    constexpr double full_beside_wall = 0.9;
 
     /// Height of a fall, cells, up to the speed of which walls act as soon as a point is beside them.
     constexpr double least_fall = 0.125;
@@ -97,7 +97,7 @@ namespace scree
   void WallGaps<dim>::add(const Mixture<dim> &mixture)
   {
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.fill >= full)
+      if (cell.fill >= full_beside_wall)
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
           if (const unsigned int node = grid.nodes(cell.cell)[i]; grid.node_faces(node) != 0)
             for (NodeVector &gap : gaps)
