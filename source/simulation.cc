@@ -72,7 +72,14 @@ namespace scree
     const Checkpoint checkpoint = find_checkpoint(
         parameters.output_directory, [this](const std::string &line) { folder.log(line); }, communicator);
     const std::vector<std::string> notes = notes_on_changes(checkpoint, parameters.entries());
-    load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
+    std::vector<double> remembered;
+    load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) {
+      serialize_state(archive);
+      archive &remembered;
+    });
+    ForceRecords records;
+    add_numbers(remembered, records);
+    scheme->go_on_from(records);
     require_entry(!(parameters.end_time < clock.time()),
                   "",
                   "End time",
@@ -344,8 +351,9 @@ namespace scree
   template <int dim>
   void Simulation<dim>::write_checkpoint()
   {
-    const RunTotals<dim> own = totals;
-    totals                   = totals.sum_over_ranks(communicator);
+    const std::vector<double> remembered = numbers_of(scheme->remembered_forces());
+    const RunTotals<dim> own             = totals;
+    totals                               = totals.sum_over_ranks(communicator);
     results.sync();
     std::string fault;
     try
@@ -356,7 +364,10 @@ namespace scree
                         parameters.entries(),
                         scene.grid,
                         point_sets(),
-                        [&](auto &archive) { serialize_state(archive); });
+                        [&](auto &archive) {
+                          serialize_state(archive);
+                          archive &remembered;
+                        });
       }
     catch (const EntryError &error)
       {

@@ -94,14 +94,14 @@ namespace scree
       , friction(constraints)
       , pressure_impulses(grid.numbering())
   {
-    friction.reinit(grid.n_owned_nodes());
+    friction.reinit(grid, {});
   }
 
 
   template <int dim>
-  void MixtureStep<dim>::reinit()
+  void MixtureStep<dim>::reinit(const ForceRecords &records)
   {
-    friction.reinit(grid.n_owned_nodes());
+    friction.reinit(grid, records);
     pressure_impulses.reinit();
   }
 
@@ -243,9 +243,12 @@ namespace scree
 
 
   template <int dim>
-  void MixtureStep<dim>::predict(const MixtureNodes<dim> &nodes, const double time_step, StepBalance<dim> &balance)
+  void MixtureStep<dim>::predict(const MixtureNodes<dim> &nodes,
+                                 const double time_step,
+                                 const FrictionFilter &filter,
+                                 StepBalance<dim> &balance)
   {
-    friction.clear();
+    friction.clear(filter);
     for (const unsigned int node : nodes.pores.active_nodes())
       {
         if (is_empty(nodes, node))
@@ -296,7 +299,7 @@ namespace scree
                                           const SoilAndWater<dim> &before,
                                           const Tensor<1, dim> &soil_predicted,
                                           SoilAndWater<dim> &change,
-                                          StepBalance<dim> &balance) const
+                                          StepBalance<dim> &balance)
   {
     const SoilAndWater<dim> walls = pair.reactions(impulses, change);
     count_walls(node, walls, balance);
@@ -347,6 +350,7 @@ namespace scree
         balance.drag_dissipation += 0.5 * drag * (splitting == Splitting::classical ? slip_predicted : slip) *
                                     (before.water - before.soil + slip);
       }
+    friction.finish();
   }
 
 
