@@ -4,6 +4,8 @@
 #include <scree/input/number_table.h>
 #include <scree/scheme/base_motion.h>
 
+#include <deal.II/base/array_view.h>
+
 #include <algorithm>
 
 namespace scree
