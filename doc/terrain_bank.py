@@ -60,7 +60,7 @@ def run_case(scree, folder, seed, mountain=(), cell=10., entries=None, n_ranks=1
     folder = pathlib.Path(folder)
     subprocess.run([sys.executable, MOUNTAIN, str(seed), folder, "--cell", f"{cell:g}", *mountain], check=True)
     write_variant(str(folder / "case.prm"), str(folder / "run.prm"), {"Output directory": "run", "Output/Graphics": "none", "Output/Screen": "nothing",
-                                                                       "Output/Maps/Write": "false", "Output/Checkpoint interval": "0", **(entries or {})})
+                                                                       "Output/Checkpoint interval": "0", **(entries or {})})
     ranks = ["mpirun", "-n", str(n_ranks)] if n_ranks > 1 else []
     done = subprocess.run([*ranks, scree, "run.prm"], cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:

@@ -10,7 +10,7 @@ import terrain_bank
 
 def terrain_bank_short(scree):
     """No point is thrown, lost or pressed into the ground; the soil weighs what its map says; no energy from nothing."""
-    for seed, options in ((1, []), (2, []), (3, ["--rim", "cut"]), (4, ["--feature", "cliff"])):
+    for seed, options in ((1, []), (2, []), (3, ["--rim", "cut"]), (4, ["--feature", "gully"])):
         for method in ("FLIP", "AFLIP", "TPIC"):
             numbers = terrain_bank.run_case(scree, "%d_%s" % (seed, method), seed, options, 20., {"End time": "15", "Transfer/Method": method})
             for key, bound in terrain_bank.BOUNDS.items():
