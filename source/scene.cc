@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/joined_surface.h>
 #include <scree/places_of_points.h>
-#include <scree/material/mohr_coulomb_opening.h>
 #include <scree/scene.h>
 #include <scree/scheme/coupled_scheme.h>
 
@@ -102,8 +101,7 @@ namespace scree
     const bool water_rides = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
     for (const BodyParameters &body : parameters.bodies)
       {
-        auto material =
-            parameters.has_water ? make_material_in_water<dim>(body.material) : make_material<dim>(body.material);
+        auto material = make_material<dim>(body.material);
         const PropertyLayout<dim> layout(material->internal_quantities().size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,

@@ -72,14 +72,7 @@ namespace scree
     const Checkpoint checkpoint = find_checkpoint(
         parameters.output_directory, [this](const std::string &line) { folder.log(line); }, communicator);
     const std::vector<std::string> notes = notes_on_changes(checkpoint, parameters.entries());
-    std::vector<double> remembered;
-    load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) {
-      serialize_state(archive);
-      archive &remembered;
-    });
-    ForceRecords records;
-    add_numbers(remembered, records);
-    scheme->go_on_from(records);
+    load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
     require_entry(!(parameters.end_time < clock.time()),
                   "",
                   "End time",
@@ -351,9 +344,8 @@ namespace scree
   template <int dim>
   void Simulation<dim>::write_checkpoint()
   {
-    const std::vector<double> remembered = numbers_of(scheme->remembered_forces());
-    const RunTotals<dim> own             = totals;
-    totals                               = totals.sum_over_ranks(communicator);
+    const RunTotals<dim> own = totals;
+    totals                   = totals.sum_over_ranks(communicator);
     results.sync();
     std::string fault;
     try
@@ -364,10 +356,7 @@ namespace scree
                         parameters.entries(),
                         scene.grid,
                         point_sets(),
-                        [&](auto &archive) {
-                          serialize_state(archive);
-                          archive &remembered;
-                        });
+                        [&](auto &archive) { serialize_state(archive); });
       }
     catch (const EntryError &error)
       {

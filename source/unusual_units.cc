@@ -64,17 +64,6 @@ namespace scree
                         "none: q/p' at critical state, 6 sin(phi)/(3 - sin(phi)) of a friction angle phi");
         }
     }
-
-    /// Cohesion that bears shear but no tension: water then sucks at the base of soil that would come apart.
-    void ask_of_cut_off(const MaterialParameters &material, const std::string &body, Questions &questions)
-    {
-      const MohrCoulombParameters &law = material.mohr_coulomb;
-      if (material.law_kind() == LawKind::mohr_coulomb && law.cohesion > 0. && law.tension_cut_off == 0.)
-        questions.list.push_back("Subsection " + body +
-                                 "/Mohr-Coulomb has a cohesion of " + number_text(law.cohesion) +
-                                 " Pa and a tension cut-off of 0 in a case with water. The soil opens without resistance "
-                                 "where it stretches. Set \"Tension cut-off\" to the tension that the soil bears.");
-    }
   } // namespace
 
 
@@ -88,8 +77,6 @@ namespace scree
         questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, pascal);
         ask_of_law(body.material, body.name, questions);
         questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
-        if (parameters.has_water)
-          ask_of_cut_off(body.material, body.name, questions);
         questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
       }
     const auto walls = parameters.boundaries.walls(3);

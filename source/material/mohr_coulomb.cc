@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
-#include <scree/material/mohr_coulomb_opening.h>
+#include <scree/material/mohr_coulomb_return.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -208,44 +208,6 @@ namespace scree
   std::vector<Quantity> MohrCoulomb::output_quantities()
   {
     return {};
-  }
-
-
-  MohrCoulombWithOpening::MohrCoulombWithOpening(const MohrCoulombParameters &parameters)
-      : MohrCoulomb(parameters)
-      , cut_off(parameters.tension_cut_off - 1e-10 * (parameters.cohesion + 1e-3 * parameters.young_modulus))
-  {
-  }
-
-
-  Response MohrCoulombWithOpening::return_map(PrincipalValues &strain,
-                                              double *internal_variables,
-                                              const double,
-                                              PrincipalValues &stress,
-                                              UpdateReport &report) const
-  {
-    const PrincipalResponse<double> response = respond<double>(strain, internal_variables, stress);
-    report.largest_bulk_modulus              = bulk_modulus(0);
-    report.n_vertices += response.is_vertex;
-    report.n_separated += response.is_separated;
-    report.n_unresolved += response.is_unresolved;
-    return response.is_plastic ? Response::plastic : Response::elastic;
-  }
-
-
-  void MohrCoulombWithOpening::initialise(const PrincipalValues &wanted_stress,
-                                          PrincipalValues &strain,
-                                          PrincipalValues &stress,
-                                          double *internal_variables) const
-  {
-    MohrCoulomb::initialise(wanted_stress, strain, stress, internal_variables);
-    internal_variables[1] = 0;
-  }
-
-
-  std::vector<Quantity> MohrCoulombWithOpening::internal_quantities()
-  {
-    return { { "plastic_shear_strain", "-" }, { "opening", "-" } };
   }
 
 

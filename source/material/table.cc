@@ -2,7 +2,7 @@
 
 #include <scree/input/input_error.h>
 #include <scree/material/batch_material.h>
-#include <scree/material/mohr_coulomb_opening.h>
+#include <scree/material/mohr_coulomb_return.h>
 #include <scree/material/nor_sand_return.h>
 #include <scree/material/principal_batch_material.h>
 #include <scree/material/rigid.h>
@@ -122,18 +122,6 @@ namespace scree
   }
 
 
-  template <int dim>
-  std::unique_ptr<Material<dim>> make_material_in_water(const MaterialParameters &parameters)
-  {
-    if (parameters.law_kind() == LawKind::mohr_coulomb && parameters.mohr_coulomb.cohesion > 0.)
-      return std::make_unique<PrincipalBatchMaterial<dim, MohrCoulombWithOpening>>(
-          MohrCoulombWithOpening(parameters.mohr_coulomb));
-    return make_material<dim>(parameters);
-  }
-
-
-  template std::unique_ptr<Material<2>> make_material_in_water<2>(const MaterialParameters &);
-  template std::unique_ptr<Material<3>> make_material_in_water<3>(const MaterialParameters &);
   template std::unique_ptr<Material<2>> make_material<2>(const MaterialParameters &);
   template std::unique_ptr<Material<3>> make_material<3>(const MaterialParameters &);
 } // namespace scree

@@ -37,7 +37,7 @@ namespace scree
       , any_holds_water(
             std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.holds_water; }))
   {
-    reinit({});
+    reinit();
   }
 
 
@@ -69,7 +69,6 @@ namespace scree
     const auto &segments       = open_cells.segments();
     const FineCells<dim> &fine = grid.fine_cells();
     surface_numbers.resize(segments.size());
-    places.resize(segments.size());
     middles.resize(segments.size());
     for (unsigned int s = 0; s < segments.size(); ++s)
       {
@@ -78,31 +77,16 @@ namespace scree
           middle += segments[s].ground_hats[v] * GeometryInfo<dim>::unit_cell_vertex(v);
         middles[s] = fine.box().corner(fine.cells()[fine.of_index(segments[s].cell)].place) + grid.cell_size() * middle;
         surface_numbers[s] = find_surface(segments[s], middle);
-        places[s]          = force_place(fine.box().corner(fine.cells()[fine.of_index(segments[s].cell)].place),
-                                grid.cell_size(),
-                                surface_numbers[s]);
       }
   }
 
 
   template <int dim>
-  void BedProjection<dim>::reinit(const ForceRecords &records)
+  void BedProjection<dim>::reinit()
   {
     contacts.reinit();
     of_segments.assign(open_cells.segments().size(), OfSegment()); // The next step begins its search from nothing.
     find_surfaces();
-    for (unsigned int s = 0; s < of_segments.size(); ++s)
-      if (const auto record = records.find(places[s]); record != records.end())
-        of_segments[s].remembered = record->second;
-  }
-
-
-  template <int dim>
-  void BedProjection<dim>::append(ForceRecords &records) const
-  {
-    for (unsigned int s = 0; s < of_segments.size(); ++s)
-      if (of_segments[s].remembered >= 0.)
-        records[places[s]] = of_segments[s].remembered;
   }
 
 
@@ -148,8 +132,7 @@ namespace scree
                                        const bool is_unilateral,
                                        const MixtureNodes<dim> &nodes,
                                        const Tensor<1, dim> &base,
-                                       const Tensor<1, dim> &first,
-                                       const FrictionFilter &filter)
+                                       const Tensor<1, dim> &first)
   {
     const GroundSegment<dim> &of_ground = open_cells.segments()[segment];
     GroundContact<dim> contact{};
@@ -167,11 +150,6 @@ namespace scree
     // What neither presses nor comes near is left alone.
     if (is_unilateral && contact.speed * contact.normal <= 0. && !(base * contact.normal > 0.))
       return;
-    if (const double remembered = of_segments[segment].remembered; phase == Phase::soil && remembered >= 0.)
-      {
-        contact.remembered = filter.time_step * remembered;
-        contact.share      = filter.share();
-      }
     contact.base    = base;
     contact.impulse = contact.part(contact.holds(), first);
     contacts.add(contact);
@@ -270,7 +248,7 @@ namespace scree
       if (cell.soil_mass > 0. && !cell.is_rigid)
         for_segments(cell.cell, [&](const unsigned int segment) {
           const Tensor<1, dim> nothing, first = time_step * of_segments[segment].predicted_soil;
-          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, nothing, first, filter_in(cell, step));
+          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, nothing, first);
         });
     project(nodes, step, relative_tolerance, balance);
     for (OfSegment &segment : of_segments)
@@ -291,21 +269,14 @@ namespace scree
       for_segments(cell.cell, [&](const unsigned int segment) {
         const OfSegment &known = of_segments[segment];
         if (cell.soil_mass > 0. && !cell.is_rigid)
-          add_contact(segment,
-                      Phase::soil,
-                      !is_fixed(segment),
-                      nodes,
-                      known.soil,
-                      time_step * known.corrected_soil,
-                      filter_in(cell, step));
+          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, known.soil, time_step * known.corrected_soil);
         if (cell.water_volume > 0.)
           add_contact(segment,
                       Phase::water,
                       !surface.has_unknown(cell.cell),
                       nodes,
                       Tensor<1, dim>(),
-                      time_step * known.corrected_water,
-                      step.filter());
+                      time_step * known.corrected_water);
       });
     for (OfSegment &segment : of_segments)
       segment.corrected_soil = segment.corrected_water = Tensor<1, dim>();
@@ -316,26 +287,6 @@ namespace scree
         OfSegment &found                                                              = of_segments[contact.segment];
         (contact.phase == Phase::soil ? found.corrected_soil : found.corrected_water) = contact.impulse / time_step;
       }
-    remember(step.filter());
-  }
-
-
-  template <int dim>
-  void BedProjection<dim>::remember(const FrictionFilter &filter)
-  {
-    for (OfSegment &segment : of_segments)
-      segment.presses = false;
-    for (const GroundContact<dim> &contact : contacts.contacts())
-      if (contact.phase == Phase::soil && contact.is_unilateral)
-        {
-          OfSegment &segment  = of_segments[contact.segment];
-          const double now    = std::max(0., (contact.impulse + contact.base) * contact.normal);
-          segment.remembered  = contact.filtered(now) / filter.time_step;
-          segment.presses     = true;
-        }
-    for (OfSegment &segment : of_segments)
-      if (segment.remembered > 0. && !segment.presses)
-        segment.remembered = filter.follow(segment.remembered, 0.);
   }
 
 

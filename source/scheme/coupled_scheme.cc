@@ -3,37 +3,10 @@
 #include <scree/scheme/coupled_scheme.h>
 
 #include <algorithm>
-#include <bitset>
-#include <cmath>
 
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// How many walls with Coulomb friction a cell touches.
-    template <int dim>
-    unsigned int n_faces_with_friction(const BackgroundGrid<dim> &grid,
-                                       const Constraints<dim> &constraints,
-                                       const unsigned int cell)
-    {
-      const std::uint8_t walls = grid.numbering().walls(cell);
-      std::uint8_t rubbing     = 0;
-      if (walls != 0)
-        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          {
-            const unsigned int node = grid.nodes(cell)[i];
-            const std::uint8_t both = walls & grid.numbering().faces(node);
-            // A node on one face alone has the constraint of that face.
-            if (const NodeConstraints<dim> *held = constraints.at(node); held != nullptr && (both & (both - 1)) == 0)
-              for (const NodeConstraint<dim> &wall : held->soil)
-                if (wall.type == NodeConstraint<dim>::Type::unilateral && wall.friction_coefficient > 0.)
-                  rubbing |= both;
-          }
-      return std::bitset<8>(rubbing).count();
-    }
-  } // namespace
 
   template <int dim>
   CoupledScheme<dim>::CoupledScheme(const BackgroundGrid<dim> &grid,
@@ -53,8 +26,6 @@ namespace scree
                                     const std::list<Inflow<dim>> &inflows,
                                     TimerOutput &timer)
       : grid(grid)
-      , constraints(constraints)
-      , open_cells(open_cells)
       , forcing(forcing)
       , water_density(water_parameters.density)
       , fluidisation_porosity(water_parameters.fluidisation_porosity)
@@ -95,20 +66,17 @@ namespace scree
   template <int dim>
   void CoupledScheme<dim>::reinit()
   {
-    append(records);
-    records = gather_records(records, grid.triangulation().get_communicator());
     soil.reinit();
     mixture.reinit();
     pores.reinit();
     water_field.reinit();
     pressure.reinit();
     wall_gaps.reinit();
-    step.reinit(records);
+    step.reinit();
     if (viscosity)
       viscosity->reinit();
     if (bed)
-      bed->reinit(records);
-    records.clear();
+      bed->reinit();
     if (volume_correction)
       volume_correction->reinit();
   }
@@ -119,54 +87,6 @@ namespace scree
   {
     pressure.follow_ground();
     bed->follow();
-  }
-
-
-  template <int dim>
-  void CoupledScheme<dim>::append(ForceRecords &all) const
-  {
-    step.append(all);
-    if (bed)
-      bed->append(all);
-  }
-
-
-  template <int dim>
-  ForceRecords CoupledScheme<dim>::remembered_forces() const
-  {
-    ForceRecords own;
-    append(own);
-    return gather_records(own, grid.triangulation().get_communicator());
-  }
-
-
-  template <int dim>
-  void CoupledScheme<dim>::go_on_from(const ForceRecords &of_checkpoint)
-  {
-    records = of_checkpoint;
-  }
-
-
-  template <int dim>
-  double CoupledScheme<dim>::memory_time_of_friction() const
-  {
-    constexpr double crossings = 4.; // of the layer by a shear wave; 1 to 4 end the flutter
-    const double face_area     = std::pow(grid.cell_size(), dim - 1);
-    std::vector<double> sums(3); // volume of the soil, its mass with the water in it, the area that it lies on
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.soil_mass > 0. && cell.water_volume > 0. && !cell.is_rigid)
-        {
-          sums[0] += cell.grain_volume + cell.pore_volume;
-          sums[1] += cell.soil_mass + water_density * std::min(cell.water_volume, cell.pore_volume);
-          sums[2] += face_area * n_faces_with_friction(grid, constraints, cell.cell);
-          if (const CutCell<dim> *cut = open_cells ? open_cells->find(cell.cell) : nullptr)
-            for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
-              sums[2] += open_cells->segments()[s].area;
-        }
-    Utilities::MPI::sum(sums, grid.triangulation().get_communicator(), sums);
-    if (!(sums[0] > 0.) || !(sums[2] > 0.) || !(shear_modulus > 0.))
-      return 0.;
-    return crossings * std::sqrt(sums[1] / sums[0] / shear_modulus) * sums[0] / sums[2];
   }
 
 
@@ -271,9 +191,8 @@ namespace scree
       soil.field.add_contributions();
       water_field.add_contributions();
       pores.add_contributions();
-      const double memory_time = memory_time_of_friction();
       wall_gaps.release(soil.field, water_field, forcing, time_step);
-      step.predict(nodes, time_step, { memory_time, time_step }, report.balance);
+      step.predict(nodes, time_step, report.balance);
       soil.field.update_ghosts();
       water_field.update_ghosts();
       pores.update_ghosts();

@@ -35,7 +35,7 @@ namespace scree
     if (friction == 0.)
       return;
     const Tensor<1, dim> along = whole - pressing * normal;
-    const double size = along.norm(), available = available_friction(friction, filtered(pressing));
+    const double size = along.norm(), available = available_friction(friction, pressing);
     if (size <= available)
       return;
     held    = HeldMotion::across;

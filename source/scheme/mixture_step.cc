@@ -94,14 +94,14 @@ namespace scree
       , friction(constraints)
       , pressure_impulses(grid.numbering())
   {
-    friction.reinit(grid, {});
+    friction.reinit(grid.n_owned_nodes());
   }
 
 
   template <int dim>
-  void MixtureStep<dim>::reinit(const ForceRecords &records)
+  void MixtureStep<dim>::reinit()
   {
-    friction.reinit(grid, records);
+    friction.reinit(grid.n_owned_nodes());
     pressure_impulses.reinit();
   }
 
@@ -243,12 +243,9 @@ namespace scree
 
 
   template <int dim>
-  void MixtureStep<dim>::predict(const MixtureNodes<dim> &nodes,
-                                 const double time_step,
-                                 const FrictionFilter &filter,
-                                 StepBalance<dim> &balance)
+  void MixtureStep<dim>::predict(const MixtureNodes<dim> &nodes, const double time_step, StepBalance<dim> &balance)
   {
-    friction.clear(filter);
+    friction.clear();
     for (const unsigned int node : nodes.pores.active_nodes())
       {
         if (is_empty(nodes, node))
@@ -299,7 +296,7 @@ namespace scree
                                           const SoilAndWater<dim> &before,
                                           const Tensor<1, dim> &soil_predicted,
                                           SoilAndWater<dim> &change,
-                                          StepBalance<dim> &balance)
+                                          StepBalance<dim> &balance) const
   {
     const SoilAndWater<dim> walls = pair.reactions(impulses, change);
     count_walls(node, walls, balance);
@@ -350,7 +347,6 @@ namespace scree
         balance.drag_dissipation += 0.5 * drag * (splitting == Splitting::classical ? slip_predicted : slip) *
                                     (before.water - before.soil + slip);
       }
-    friction.finish();
   }
 
 

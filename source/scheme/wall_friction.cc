@@ -25,44 +25,16 @@ namespace scree
 
 
   template <int dim>
-  void WallFriction<dim>::reinit(const BackgroundGrid<dim> &grid, const ForceRecords &records)
+  void WallFriction<dim>::reinit(const unsigned int n_owned_nodes)
   {
-    const unsigned int n_nodes = constraints.has_unilateral() ? grid.n_owned_nodes() : 0;
-    contacts.assign(n_nodes, Contact());
-    remembered.assign(n_nodes, -1.);
-    places.resize(n_nodes);
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      {
-        places[node] = force_place(grid.numbering().position(node), grid.cell_size(), -1.);
-        if (const auto record = records.find(places[node]); record != records.end())
-          remembered[node] = record->second;
-      }
+    contacts.assign(constraints.has_unilateral() ? n_owned_nodes : 0, Contact());
   }
 
 
   template <int dim>
-  void WallFriction<dim>::clear(const FrictionFilter &filter_of_step)
+  void WallFriction<dim>::clear()
   {
-    filter_of_friction = filter_of_step;
     std::fill(contacts.begin(), contacts.end(), Contact());
-  }
-
-
-  template <int dim>
-  void WallFriction<dim>::finish()
-  {
-    for (unsigned int node = 0; node < contacts.size(); ++node)
-      if (remembered[node] > 0. && !contacts[node].any())
-        remembered[node] = filter_of_friction.follow(remembered[node], 0.);
-  }
-
-
-  template <int dim>
-  void WallFriction<dim>::append(ForceRecords &records) const
-  {
-    for (unsigned int node = 0; node < contacts.size(); ++node)
-      if (remembered[node] >= 0.)
-        records[places[node]] = remembered[node];
   }
 
 
@@ -110,14 +82,6 @@ namespace scree
 
 
   template <int dim>
-  double WallFriction<dim>::filtered_bound(const unsigned int node, const Tensor<1, dim> &reaction) const
-  {
-    const double now = bound(node, reaction), step = filter_of_friction.time_step;
-    return contacts[node].remembers ? step * filter_of_friction.follow(remembered[node], now / step) : now;
-  }
-
-
-  template <int dim>
   Tensor<1, dim>
   WallFriction<dim>::resist(const unsigned int node, const DragPair<dim> &pair, const SoilAndWater<dim> &impulses)
   {
@@ -130,10 +94,9 @@ namespace scree
     for (unsigned int i = 0; i < constraints.at(node)->soil.size(); ++i)
       if ((contact.pushing >> i) & 1)
         normals.hold(constraints.at(node)->soil[i].normal);
-    contact.reaction  = normals.held_part(wall);
-    contact.remembers = pair.water_mass > 0. && filter_of_friction.memory_time > 0.;
+    contact.reaction = normals.held_part(wall);
 
-    const auto friction = coulomb_friction(pair.held_soil.free_part(wall), filtered_bound(node, contact.reaction));
+    const auto friction = coulomb_friction(pair.held_soil.free_part(wall), bound(node, contact.reaction));
     contact.sticks      = friction.sticks;
     if (!friction.sticks)
       contact.resistance = friction.impulse;
@@ -145,16 +108,12 @@ namespace scree
   Tensor<1, dim> WallFriction<dim>::adjust(const unsigned int node,
                                            const Tensor<1, dim> &reaction_change,
                                            const double mass,
-                                           const Tensor<1, dim> &velocity)
+                                           const Tensor<1, dim> &velocity) const
   {
     const double speed = velocity.norm(); // along the wall: the rest is stopped
-    if (contacts.empty() || !contacts[node].any())
+    if (contacts.empty() || !contacts[node].any() || speed == 0.)
       return Tensor<1, dim>();
-    const double now = filtered_bound(node, contacts[node].reaction + reaction_change);
-    remembered[node] = contacts[node].remembers ? now / filter_of_friction.time_step : -1.;
-    if (speed == 0. || contacts[node].sticks)
-      return Tensor<1, dim>();
-    const double change = now - contacts[node].resistance.norm();
+    const double change = bound(node, contacts[node].reaction + reaction_change) - contacts[node].resistance.norm();
     return -std::min(change, mass * speed) / speed * velocity; // friction does not turn the motion round
   }
 

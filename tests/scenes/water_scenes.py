@@ -627,47 +627,6 @@ def wet_friction(scree):
     check_water("wet friction", table)
 
 
-def wet_slab_entries(cell, courant, dim=2):
-    """A saturated slab, 3 m x 0.3 m, without stress at the start, on a slope of 35 degrees; gravity is turned."""
-    gravity = [closed_forms.GRAVITY * math.sin(math.radians(35)), -closed_forms.GRAVITY * math.cos(math.radians(35))]
-    region, upper = "x > 0.5 && x < 3.5", ["5", "0.8"]
-    if dim == 3:
-        gravity.insert(1, 0)
-        upper.insert(1, "0.2")
-    return {"End time": "0.3", "Dimension": "%d" % dim, "Mesh/Upper corner": ", ".join(upper), "Mesh/Cell size": "%g" % cell,
-            "Gravity": ", ".join("%.12g" % g for g in gravity), "Time step/Courant number": "%g" % courant, "Stabilisation/F-bar": "modified",
-            "Boundaries/Left": "open", "Boundaries/Right": "open", "Boundaries/Water/Left": "drained", "Boundaries/Water/Right": "drained",
-            "Soil/Region": region + " && {0} > {1} && {0} < {1} + 0.3", "Soil/Initial state/Type": "none",
-            "Water/Hydraulic conductivity": "1e-6", "Water/Initial pressure": "none"}
-
-
-def wet_slab(scree):
-    """Stiff or cohesive saturated soil slides on a slope that is steeper than its friction: it does not stick by suction.
-
-    Friction alone, with p = 0, leaves g (sin 35 - tan 25 cos 35) 0.3 s = .564 m/s; none leaves 1.69. Elastic soil makes no energy
-    (it made 88 700 J of 150 released).
-    """
-    slope, law = math.radians(35), {"Soil/Material": "Mohr-Coulomb", "Soil/Mohr-Coulomb/Young's modulus": "1e7",
-                                    "Soil/Mohr-Coulomb/Friction angle": "25", "Soil/Mohr-Coulomb/Cohesion": "20e3"}
-    slowest = closed_forms.GRAVITY * 0.3 * (math.sin(slope) - math.tan(math.radians(25)) * math.cos(slope))
-    ground = {"wall": ("0", {"Boundaries/Bottom": "friction 25"}),
-              "bed": ("0.137", {"Boundaries/Bottom": "open", "Bed/Type": "friction", "Bed/Friction angle": "25",
-                                "Bed/Level set expression": "%s - 0.137"})}
-    for dim in (2, 3):
-        for base, (height, entries) in ground.items():
-            up = "y" if dim == 2 else "z"
-            of_slab = wet_slab_entries(0.1, 0.6, dim)
-            of_slab["Soil/Region"] = of_slab["Soil/Region"].format(up, height)
-            entries = {key: value.replace("%s", up) for key, value in entries.items()}
-            for soil, of_soil in (("Mohr-Coulomb", law), ("elastic", {})):
-                name = "wet slab, %dD, %s, %s" % (dim, base, soil)
-                table = run(scree, "saturated_rest", "wet_slab", {**of_slab, **entries, **of_soil})
-                mass = table["Mass (kg)"][-1] + table["Water mass (kg)"][-1]
-                check(name + ": speed over that with p = 0", table["Momentum x (N s)"][-1] / mass / slowest, 0.95, 3)
-                released = np.ptp(table["Potential energy (J)"])
-                check(name + ": gain of energy over released", largest_fall(table["Numerical dissipation (J)"]) / released, 0, 0.02)
-
-
 def submerged(scree):
     """A column collapses under water: later and shorter than in air (2.20 m at 1 s, h = 0.1 m: doc/verification.md).
 

@@ -33,12 +33,8 @@ namespace scree
                   const OpenCells<dim> &open_cells,
                   const double relative_tolerance);
 
-    /// Fits the nodes to the grid's current partition, after the cells have been looked at.
-    /// @param records that segments may remember. Collective.
-    void reinit(const ForceRecords &records);
-
-    /// Adds the normal forces, N, that this rank's segments remember.
-    void append(ForceRecords &records) const;
+    /// Fits the nodes to the grid's current partition, after the cells have been looked at. Collective.
+    void reinit();
 
     /// Fits it to the ground, after the cells have followed that.
     void follow();
@@ -102,8 +98,6 @@ namespace scree
       dealii::Tensor<1, dim> soil, water; // N s, out of the open: what it has given to a phase in this step
       // What it gave in the last one, N: the searches begin with it.
       dealii::Tensor<1, dim> predicted_soil, corrected_soil, corrected_water;
-      double remembered = -1.; // N: filtered normal force of friction on wet soil; negative: none
-      bool presses      = false;
     };
 
     /// Calls `act(segment)` for the segments in a cell.
@@ -117,23 +111,12 @@ namespace scree
 
     /// @param base what the ground has taken in this step already, N s
     /// @param first impulse with which the search begins, N s
-    /// @param filter of its friction
     void add_contact(const unsigned int segment,
                      const Phase phase,
                      const bool is_unilateral,
                      const MixtureNodes<dim> &nodes,
                      const dealii::Tensor<1, dim> &base,
-                     const dealii::Tensor<1, dim> &first,
-                     const FrictionFilter &filter);
-
-    /// The friction of a cell's soil: without water it follows at once.
-    static FrictionFilter filter_in(const MixtureCell<dim> &cell, const MixtureStep<dim> &step)
-    {
-      return { cell.water_volume > 0. ? step.filter().memory_time : 0., step.filter().time_step };
-    }
-
-    /// Keeps what presses now, N, for the friction of the next step.
-    void remember(const FrictionFilter &filter);
+                     const dealii::Tensor<1, dim> &first);
 
     /// The force of add_viscous_force() at a segment, N.
     dealii::Tensor<1, dim> viscous_force(const unsigned int segment,
@@ -184,7 +167,6 @@ namespace scree
     std::vector<OfSegment> of_segments;        // by segment
     std::vector<unsigned int> surface_numbers; // the same
     std::vector<dealii::Point<dim>> middles;   // of the segments, m
-    std::vector<ForcePlace> places;            // the same, among ForceRecords
     double largest_flow = 0;                   // of the step, m/s m^((dim-1)/2)
   };
 } // namespace scree

@@ -49,8 +49,6 @@ namespace scree
 
     void reinit() override;
     void follow_ground() override;
-    ForceRecords remembered_forces() const override;
-    void go_on_from(const ForceRecords &records) override;
     void read_points() override;
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
@@ -69,20 +67,10 @@ namespace scree
     /// The force of the old pressure on soil and water.
     void add_pressure_forces();
 
-    /// Memory time of friction, s: four times what a shear wave takes through the mean thickness of the soil over what
-    /// it lies on, sqrt(rho/G) V/A. Collective.
-    double memory_time_of_friction() const;
-
-    /// Adds what this rank's nodes at walls and segments remember.
-    void append(ForceRecords &records) const;
-
     /// Takes the stress from soil that is looser than entry Fluidisation porosity.
     void fluidise();
 
     const BackgroundGrid<dim> &grid;
-    const Constraints<dim> &constraints;
-    const OpenCells<dim> *open_cells; // null if there is no bed
-    ForceRecords records;             // of a checkpoint, up to the next reinit()
     const Forcing<dim> &forcing;
     const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa

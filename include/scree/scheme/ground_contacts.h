@@ -29,9 +29,7 @@ namespace scree
     dealii::Tensor<1, dim> speed;   ///< m/s, beside the ground's own, before any impulse
     dealii::Tensor<1, dim> base;    ///< N s: what the ground has taken in this step already
     dealii::Tensor<1, dim> impulse; ///< N s: what it takes beside that; the search begins with it
-    double remembered = 0.; ///< N s: normal impulse that friction remembers
-    double share      = 1.; ///< of the current one in that of friction, see FrictionFilter
-    HeldMotion held   = HeldMotion::none; ///< what has been found: none where it lifts off, across where it slides
+    HeldMotion held = HeldMotion::none; ///< what has been found: none where it lifts off, across where it slides
 
     /// What the ground holds while the contact presses and does not slide.
     HeldMotion holds() const
@@ -51,12 +49,6 @@ namespace scree
         default:
           return vector;
         }
-    }
-
-    /// The normal impulse of friction, N s, for what presses.
-    double filtered(const double pressing) const
-    {
-      return remembered + share * (pressing - remembered);
     }
 
     /// Changes the impulse to what the contact's law wants where `left`, m/s, is left of its motion.

@@ -22,29 +22,13 @@ namespace scree
                 const double water_density,
                 const Splitting splitting);
 
-    /// Fits what lives on the nodes to the grid's current partition.
-    /// @param records that nodes at walls may remember. Collective.
-    void reinit(const ForceRecords &records);
+    /// Fits what lives on the nodes to the grid's current partition. Collective.
+    void reinit();
 
     /// A v* = m v + dt f, where A holds masses and drag, and f the force of the old pressure. `nodes` hold the sums of
     /// all ranks before, and velocities and their change afterwards, without ghosts; the pores then hold drag times
     /// step, and the fraction of grains.
-    void predict(const MixtureNodes<dim> &nodes,
-                 const double time_step,
-                 const FrictionFilter &filter,
-                 StepBalance<dim> &balance);
-
-    /// Of this step's friction.
-    const FrictionFilter &filter() const
-    {
-      return friction.filter();
-    }
-
-    /// Adds what this rank's nodes at walls remember, N.
-    void append(ForceRecords &records) const
-    {
-      friction.append(records);
-    }
+    void predict(const MixtureNodes<dim> &nodes, const double time_step, StepBalance<dim> &balance);
 
     /// v = v* - dt A^-1 G dp with the change of `pressure`. `nodes` hold velocities afterwards, without ghosts.
     /// Collective.
@@ -101,7 +85,7 @@ namespace scree
                           const SoilAndWater<dim> &before,
                           const dealii::Tensor<1, dim> &soil_predicted,
                           SoilAndWater<dim> &change,
-                          StepBalance<dim> &balance);
+                          StepBalance<dim> &balance) const;
 
     /// Forces of the change of the pressure on soil and water, times the step.
     void sum_pressure_impulses(const Mixture<dim> &mixture, const PorePressure<dim> &pressure, const double time_step);

@@ -3,7 +3,6 @@
 #define scree_scheme_scheme_h
 
 #include <scree/grid/nodal_field.h>
-#include <scree/scheme/friction_memory.h>
 #include <scree/scheme/step_report.h>
 #include <scree/transfer/water_view.h>
 
@@ -47,17 +46,6 @@ namespace scree
 
     /// What pictures show of the water; null in a dry scene.
     virtual std::unique_ptr<WaterView<dim>> water_view() const = 0;
-
-    /// What friction remembers on all ranks, beside the points; empty in a dry scene. Collective.
-    virtual ForceRecords remembered_forces() const
-    {
-      return {};
-    }
-
-    /// Forces that friction goes on from: the next reinit() puts them to their places.
-    virtual void go_on_from(const ForceRecords &)
-    {
-    }
   };
 } // namespace scree
 

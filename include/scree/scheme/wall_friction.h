@@ -4,7 +4,6 @@
 
 #include <scree/grid/constraints.h>
 #include <scree/scheme/drag_pair.h>
-#include <scree/scheme/friction_memory.h>
 
 #include <vector>
 
@@ -13,30 +12,18 @@ namespace scree
   /// Unilateral constraints in a step of soil and water: the predictor finds out where the soil moves into a wall,
   /// which stops it there until the step's end. Coulomb's law then bounds the tangential impulse by the normal one:
   /// soil that this can hold sticks. Friction acts before the pressure is solved, so that the pressure sees the motion
-  /// that it leaves, and follows the change of the normal impulse that the new pressure brings. Where there is water,
-  /// the normal force that bounds it is filtered in time (FrictionFilter).
+  /// that it leaves, and follows the change of the normal impulse that the new pressure brings.
   template <int dim>
   class WallFriction
   {
   public:
     explicit WallFriction(const Constraints<dim> &constraints);
 
-    /// Fits the contacts to the current nodes and puts `records` to those that have a place among them.
-    void reinit(const BackgroundGrid<dim> &grid, const ForceRecords &records);
+    /// Fits the contacts to the current nodes, `n_owned_nodes` on this rank.
+    void reinit(const unsigned int n_owned_nodes);
 
     /// No node is in contact, before a new step.
-    void clear(const FrictionFilter &filter_of_step);
-
-    /// Where nothing has pressed in the step, the remembered force falls. After the last adjust() of a step.
-    void finish();
-
-    /// Adds what this rank's nodes remember: the bound of friction, N.
-    void append(ForceRecords &records) const;
-
-    const FrictionFilter &filter() const
-    {
-      return filter_of_friction;
-    }
+    void clear();
 
     /// The directions along which walls stop the soil of an owned node: the fixed ones and those of its contacts.
     HeldDirections<dim> held(const unsigned int node) const;
@@ -53,7 +40,7 @@ namespace scree
     dealii::Tensor<1, dim> adjust(const unsigned int node,
                                   const dealii::Tensor<1, dim> &reaction_change,
                                   const double mass,
-                                  const dealii::Tensor<1, dim> &velocity);
+                                  const dealii::Tensor<1, dim> &velocity) const;
 
     /// The impulse of resist(), 0 where nothing slides.
     dealii::Tensor<1, dim> resistance(const unsigned int node) const
@@ -66,7 +53,6 @@ namespace scree
     {
       unsigned int pushing = 0; ///< bit i: the node's constraint i stops the soil
       bool sticks          = false;
-      bool remembers       = false; ///< there is water: the bound of friction is filtered
       dealii::Tensor<1, dim> reaction, resistance; ///< normal and tangential impulse of the predictor, N s
 
       bool any() const
@@ -78,14 +64,8 @@ namespace scree
     /// Largest tangential impulse, N s, that a reaction, N s, allows.
     double bound(const unsigned int node, const dealii::Tensor<1, dim> &reaction) const;
 
-    /// The same of the filtered normal force.
-    double filtered_bound(const unsigned int node, const dealii::Tensor<1, dim> &reaction) const;
-
     const Constraints<dim> &constraints;
-    FrictionFilter filter_of_friction;
-    std::vector<Contact> contacts;  // by owned node; empty without unilateral constraints
-    std::vector<double> remembered; // the same: bound of friction, N; negative: none
-    std::vector<ForcePlace> places; // the same
+    std::vector<Contact> contacts; // by owned node; empty without unilateral constraints
   };
 } // namespace scree
 
