@@ -8,7 +8,7 @@ What the advice says comes from half a core-second of the case's first steps, a 
 at least twice as wide, which tells how many steps there will be and how much dearer they get; nothing in it is set on these cases but what a checkpoint costs.
 
 Factors that had been set on cases (solves twice as dear in motion, with volume correction 2.5 times, ...) stood in place of that run before: all cases of `prm/` and `prm/benchmarks` were within
-1.33, but `bed/bore`, whose piston drives level water, was predicted at .56 of what it takes, and `terrain/mountain_saturated`, which spreads from 376 cells to many times as many, at .55."""
+1.33, but `bed/bore`, whose piston drives level water, was predicted at .56 of what it takes, and `kot_saturated`, which spreads from 376 cells to many times as many, at .55."""
 
 import math
 import re
