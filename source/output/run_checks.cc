@@ -20,7 +20,7 @@ namespace scree
 
   namespace
   {
-    constexpr unsigned long long steps_between = 20; // a look takes about a fifth of a step
+    constexpr unsigned long long steps_between = 20; // a look passes over all points
 
     /// What a sound run does not exceed, by Check.
     constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 2., 0. };
