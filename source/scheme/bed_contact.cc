@@ -78,10 +78,14 @@ namespace scree
     const RigidSurface<dim> &surface = surfaces[candidate.surface];
     // A point that keeps to the normal of its place leaves a curved surface, or gets below it, by v^2 dt^2 / (2 R) a
     // step; with that of half its way in the step it keeps its distance.
-    const Tensor<1, dim> way =
-        dt * (vector_of<dim>(point.properties + PropertyLayout<dim>::velocity) - surface.velocity);
-    const Tensor<1, dim> normal =
-        surface.samples->view(point.cell, point.reference_location + 0.5 / grid.cell_size() * way).normal;
+    const Tensor<1, dim> slip =
+        vector_of<dim>(point.properties + PropertyLayout<dim>::velocity) - surface.velocity;
+    const SurfaceView<dim> half_way =
+        surface.samples->view(point.cell, point.reference_location + 0.5 * dt / grid.cell_size() * slip);
+    const Tensor<1, dim> &normal = half_way.normal;
+    // Distances and normals are interpolated separately, so that the distance also changes by motion across the normal,
+    // m/s.
+    const double rise = slip * normal - 2. / dt * (half_way.distance - candidate.distance);
     const double depth = std::clamp(candidate.distance, 0., body.spacing);
     contacts.emplace_back();
     Contact &contact         = contacts.back();
@@ -93,7 +97,7 @@ namespace scree
     contact.foot             = point.location - depth * normal;
     contact.normal           = to_row<dim>(normal);
     contact.surface_velocity = to_row<dim>(surface.velocity);
-    contact.approach         = least_approach(candidate.gap, dt);
+    contact.approach         = least_approach(candidate.gap, dt) + rise;
     const Tensor<1, dim> J   = dt * vector_of<dim>(contact.force);
     const double across      = J * normal;
     contact.normal_impulse   = std::max(0., across);

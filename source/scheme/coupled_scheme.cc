@@ -8,6 +8,14 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Height of a fall, cells, up to the speed of which walls act as soon as a point is beside them: slow wet soil and
+    /// its water come to rest beside a wall together.
+    constexpr double least_fall_at_walls = 0.125;
+  } // namespace
+
+
   template <int dim>
   CoupledScheme<dim>::CoupledScheme(const BackgroundGrid<dim> &grid,
                                     Constraints<dim> &constraints,
@@ -49,7 +57,9 @@ namespace scree
       , pores(grid)
       , water_field(grid)
       , pressure(grid, water_walls, pressure_parameters, water_parameters, forcing.gravity(), open_cells, timer)
-      , wall_gaps(grid, constraints, std::min(soil_points, water_parameters.points_per_cell))
+      , wall_gaps(grid, constraints, least_fall_at_walls)
+      , spacing(grid.cell_size() / std::min(soil_points, water_parameters.points_per_cell))
+      , fields{ { &soil.field, &water_field } }
       , step(grid, constraints, wall_gaps, forcing, water_density, pressure_parameters.splitting_kind())
       , bed(std::move(bed))
   {
@@ -174,7 +184,7 @@ namespace scree
     wall_gaps.clear();
     wall_gaps.add(mixture);
     for (const PointSet<dim> *points : point_sets())
-      wall_gaps.add(*points);
+      wall_gaps.add(*points, spacing);
   }
 
 
@@ -191,7 +201,7 @@ namespace scree
       soil.field.add_contributions();
       water_field.add_contributions();
       pores.add_contributions();
-      wall_gaps.release(soil.field, water_field, forcing, time_step);
+      wall_gaps.release(fields, forcing, time_step);
       step.predict(nodes, time_step, report.balance);
       soil.field.update_ghosts();
       water_field.update_ghosts();

@@ -19,15 +19,19 @@ namespace scree
                             const std::vector<ContactPair> &pairs,
                             TimerOutput &timer)
       : bodies(bodies)
+      , forcing(forcing)
       , timer(timer)
   {
     std::vector<BodyGroup<dim>> at_nodes;
     for (auto &around : surroundings)
       {
         const unsigned int number = groups.size();
+        AtWalls &of_group         = at_walls(grid, *around.constraints);
         groups.push_back({ SoilMotion<dim>(grid, transfer, stabilisation, bodies, loads, number),
-                           ExplicitStep<dim>(*around.constraints, forcing),
+                           &of_group.gaps,
+                           ExplicitStep<dim>(*around.constraints, of_group.gaps, forcing),
                            std::move(around.bed) });
+        of_group.fields.push_back({ &groups.back().soil.field });
         at_nodes.push_back({ number, &groups.back().soil.field, around.constraints });
       }
     for (const ContactPair &pair : pairs)
@@ -38,8 +42,22 @@ namespace scree
 
 
   template <int dim>
+  typename DryScheme<dim>::AtWalls &DryScheme<dim>::at_walls(const BackgroundGrid<dim> &grid,
+                                                             Constraints<dim> &constraints)
+  {
+    for (AtWalls &one : walls)
+      if (one.constraints == &constraints)
+        return one;
+    walls.push_back({ &constraints, WallGaps<dim>(grid, constraints, 0.), {} });
+    return walls.back();
+  }
+
+
+  template <int dim>
   void DryScheme<dim>::reinit()
   {
+    for (AtWalls &one : walls)
+      one.gaps.reinit();
     for (Group &group : groups)
       {
         group.soil.reinit();
@@ -67,6 +85,11 @@ namespace scree
     const TimedPart part(timer, StepPart::points_to_grid);
     for (Group &group : groups)
       group.soil.to_grid(time);
+    for (AtWalls &one : walls)
+      one.gaps.clear();
+    for (const auto &body : bodies)
+      if (!body.is_rigid)
+        std::next(groups.begin(), body.group)->wall_gaps->add(body.points, body.spacing);
   }
 
 
@@ -78,6 +101,11 @@ namespace scree
         const TimedPart part(timer, StepPart::points_to_grid);
         group.soil.add_loads(0.); // Velocity and place leap over each other: the acceleration is that of the start.
         group.soil.field.add_contributions();
+      }
+    for (AtWalls &one : walls)
+      {
+        const TimedPart part(timer, StepPart::nodes);
+        one.gaps.release(one.fields, forcing, time_step);
       }
     for (Group &group : groups)
       {

@@ -6,8 +6,11 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  ExplicitStep<dim>::ExplicitStep(const Constraints<dim> &constraints, const Forcing<dim> &forcing)
+  ExplicitStep<dim>::ExplicitStep(const Constraints<dim> &constraints,
+                                  const WallGaps<dim> &wall_gaps,
+                                  const Forcing<dim> &forcing)
       : constraints(constraints)
+      , wall_gaps(wall_gaps)
       , forcing(forcing)
   {
   }
@@ -43,15 +46,16 @@ namespace scree
 
         if (const NodeConstraints<dim> *walls = constraints.at(node))
           {
-            const Tensor<1, dim> free         = after;
-            const HeldDirections<dim> stopped = walls->apply(after);
+            const Tensor<1, dim> free          = after;
+            const Tensor<1, dim> wall_velocity = walls->soil_velocity + wall_gaps.closing_velocity(node);
+            const HeldDirections<dim> stopped  = walls->apply(after, wall_velocity);
             const Tensor<1, dim> impulse      = mass * (after - free);
             balance.wall_impulse += impulse;
             balance.soil_walls.add(walls->soil_faces, impulse);
             // Forces do work with the velocity of the step's end, and so none on what is stopped.
             const Tensor<1, dim> slide = stopped.free_part(0.5 * (before + after));
-            balance.wall_dissipation += 0.5 * mass * stopped.held_part(before - walls->soil_velocity).norm_square() -
-                                        impulse * (stopped.held_part(walls->soil_velocity) + slide);
+            balance.wall_dissipation += 0.5 * mass * stopped.held_part(before - wall_velocity).norm_square() -
+                                        impulse * (stopped.held_part(wall_velocity) + slide);
           }
 
         for (unsigned int c = 0; c < dim; ++c)

@@ -15,17 +15,14 @@ namespace scree
 
     /// Fill of a cell from which on it has no gap.
     constexpr double full_beside_wall = 0.9;
-
-    /// Height of a fall, cells, up to the speed of which walls act as soon as a point is beside them.
-    constexpr double least_fall = 0.125;
   } // namespace
 
 
   template <int dim>
-  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const unsigned int n_points)
+  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const double least_fall)
       : grid(grid)
       , constraints(constraints)
-      , reach(reach_of_a_point / n_points)
+      , least_fall(least_fall)
   {
     reinit();
   }
@@ -62,16 +59,14 @@ namespace scree
 
 
   template <int dim>
-  void WallGaps<dim>::add(const PointSet<dim> &points)
+  void WallGaps<dim>::add(const PointSet<dim> &points, const double spacing)
   {
+    const double reach = reach_of_a_point * spacing / grid.cell_size();
     for (const auto &cell : points.cells())
       {
+        if (grid.open_knots(cell.cell) == 0)
+          continue; // not beside a face of the box
         const unsigned int *nodes = grid.nodes(cell.cell);
-        std::uint8_t walls        = 0;
-        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          walls |= grid.node_faces(nodes[i]);
-        if (walls == 0)
-          continue;
         std::array<double, dim> lowest, highest; // places of points, cells
         lowest.fill(1.);
         highest.fill(0.);
@@ -106,8 +101,7 @@ namespace scree
 
 
   template <int dim>
-  void WallGaps<dim>::release(const NodalField<dim> &soil,
-                              const NodalField<dim> &water,
+  void WallGaps<dim>::release(const std::vector<Fields> &all_fields,
                               const Forcing<dim> &forcing,
                               const double time_step)
   {
@@ -119,11 +113,6 @@ namespace scree
       {
         if (node >= grid.n_owned_nodes() || !constraints.has_walls_alone(node))
           continue;
-        const double *of_soil = soil[node], *of_water = water[node];
-        const double mass = of_soil[Field::mass] + of_water[Field::mass];
-        if (mass <= 0.)
-          continue;
-        const auto sum_of = [&](const unsigned int component) { return of_soil[component] + of_water[component]; };
         unsigned int open = 0;
         for (unsigned int a = 0; a < dim; ++a)
           {
@@ -132,12 +121,23 @@ namespace scree
             if (side == 0 || gap <= 0.)
               continue;
             const double to_inside = side == 1 ? 1. : -1.;
-            const double speed     = (sum_of(Field::momentum + a) + time_step * sum_of(Field::force + a)) / mass +
-                                 time_step * forcing.acceleration(node)[a];
+            double speed           = 0.; // away from the wall
+            for (const Fields &fields : all_fields)
+              {
+                double mass = 0., impulse = 0.;
+                for (const NodalField<dim> *field : fields)
+                  {
+                    const double *values = (*field)[node];
+                    mass += values[Field::mass];
+                    impulse += values[Field::momentum + a] + time_step * values[Field::force + a];
+                  }
+                if (mass > 0.)
+                  speed = std::min(speed, to_inside * (impulse / mass + time_step * forcing.acceleration(node)[a]));
+              }
             const double limit = -gap * grid.cell_size() / time_step;
-            if (to_inside * speed > -slow)
+            if (speed >= 0. || speed > -slow)
               continue;
-            if (to_inside * speed >= limit)
+            if (speed >= limit)
               open |= side << 2 * a;
             else
               closing[node][a] = to_inside * limit;

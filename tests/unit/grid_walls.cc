@@ -29,7 +29,7 @@ Tensor<1, 2> after_wall(const std::string &wall, const Tensor<1, 2> &velocity, c
   NodeConstraints<2> constraints;
   for (const auto &constraint : BoundaryConditions<2>(grid, parameters).constraints(faces))
     constraints.add(constraint);
-  constraints.apply(result);
+  constraints.apply(result, constraints.soil_velocity);
   return result;
 }
 
@@ -136,7 +136,7 @@ void test_constraints(std::ostream &out)
   const auto after_wall = [&](const Type type, Tensor<1, 2> velocity) {
     NodeConstraints<2> constraints;
     constraints.add({ normal, type, mu });
-    constraints.apply(velocity);
+    constraints.apply(velocity, constraints.soil_velocity);
     return velocity;
   };
   const auto is = [](const Tensor<1, 2> &a, const Tensor<1, 2> &b) { return (a - b).norm() < 1e-14; };

@@ -30,7 +30,7 @@ struct Box
       , walls(grid, boundaries())
       , water_walls(grid, WaterBoundaryParameters())
       , constraints(grid, walls, &water_walls)
-      , gaps(grid, constraints, 2)
+      , gaps(grid, constraints, .125)
       , points(grid.triangulation(), grid.mapping(), 1)
       , soil(grid)
       , water(grid)
@@ -79,10 +79,10 @@ struct Box
   void release(const double time_step, const Mixture<2> *mixture = nullptr)
   {
     gaps.clear();
-    gaps.add(points);
+    gaps.add(points, h / 2);
     if (mixture)
       gaps.add(*mixture);
-    gaps.release(soil, water, forcing, time_step);
+    gaps.release({ { &soil, &water } }, forcing, time_step);
   }
 
   /// Nodes of all ranks that walls hold, and the sum of their velocities towards walls.

@@ -140,10 +140,11 @@ namespace scree
     }
 
     /// Corrects the end-of-step velocity of dry soil, one constraint after the other; returns where they stop it.
-    HeldDirections<dim> apply(dealii::Tensor<1, dim> &velocity) const
+    /// @param wall_velocity m/s
+    HeldDirections<dim> apply(dealii::Tensor<1, dim> &velocity, const dealii::Tensor<1, dim> &wall_velocity) const
     {
       HeldDirections<dim> stopped;
-      velocity -= soil_velocity;
+      velocity -= wall_velocity;
       for (const NodeConstraint<dim> &constraint : soil)
         {
           const double normal_speed = velocity * constraint.normal;
@@ -159,7 +160,7 @@ namespace scree
           if (friction.sticks)
             stopped.hold_all();
         }
-      velocity += soil_velocity;
+      velocity += wall_velocity;
       return stopped;
     }
   };

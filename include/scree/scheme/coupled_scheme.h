@@ -87,6 +87,8 @@ namespace scree
     NodalField<dim> water_field;
     PorePressure<dim> pressure;
     WallGaps<dim> wall_gaps;
+    const double spacing; // of the points at the start, where they are widest apart, m
+    const std::vector<typename WallGaps<dim>::Fields> fields;
     MixtureStep<dim> step;
     std::unique_ptr<ViscousStep<dim>> viscosity;              // null if there is none
     std::unique_ptr<BedProjection<dim>> bed;                  // null if there is none

@@ -15,7 +15,7 @@ namespace scree
   template <int dim>
   struct GroupSurroundings
   {
-    const Constraints<dim> *constraints;
+    Constraints<dim> *constraints;
     std::unique_ptr<BedContact<dim>> bed; ///< contact with rigid surfaces; null without any
   };
 
@@ -51,14 +51,28 @@ namespace scree
     struct Group
     {
       SoilMotion<dim> soil;
+      WallGaps<dim> *wall_gaps;
       ExplicitStep<dim> step;
       std::unique_ptr<BedContact<dim>> bed;
     };
+
+    /// Groups with the same constraints, and the gaps between them and the walls.
+    struct AtWalls
+    {
+      Constraints<dim> *constraints;
+      WallGaps<dim> gaps;
+      std::vector<typename WallGaps<dim>::Fields> fields; ///< one a group
+    };
+
+    /// That of these constraints; made where there is none yet.
+    AtWalls &at_walls(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
 
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, StepReport<dim> &report);
 
     std::list<SoilBody<dim>> &bodies;
+    const Forcing<dim> &forcing;
+    std::list<AtWalls> walls;
     std::list<Group> groups;
     std::list<BodyContact<dim>> contacts;
     std::unique_ptr<NodalField<dim>> mean_field; // of all groups; null if there is one

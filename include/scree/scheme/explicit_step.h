@@ -6,6 +6,7 @@
 #include <scree/grid/nodal_field.h>
 #include <scree/scheme/forcing.h>
 #include <scree/scheme/step_balance.h>
+#include <scree/scheme/wall_gaps.h>
 
 namespace scree
 {
@@ -14,13 +15,14 @@ namespace scree
   class ExplicitStep
   {
   public:
-    ExplicitStep(const Constraints<dim> &constraints, const Forcing<dim> &forcing);
+    ExplicitStep(const Constraints<dim> &constraints, const WallGaps<dim> &wall_gaps, const Forcing<dim> &forcing);
 
     /// v = (momentum + dt force)/mass + dt acceleration at the active nodes, then their constraints.
     StepBalance<dim> solve(NodalField<dim> &field, const double time_step) const;
 
   private:
     const Constraints<dim> &constraints;
+    const WallGaps<dim> &wall_gaps;
     const Forcing<dim> &forcing;
   };
 } // namespace scree

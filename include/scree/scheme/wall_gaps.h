@@ -15,20 +15,23 @@
 
 namespace scree
 {
-  /// Walls of the box act on what has reached them.
+  /// A wall of the box constrains a node only once a particle has reached the wall.
   ///
-  /// A node on a wall moves with all that is in the cells beside it. Were it held from the moment that a point comes
-  /// into one of them, what falls would be stopped up to a cell before the wall, by stress of soil that is pressed
-  /// together there and by pressure that grows as steps shrink. So a wall does not act on a node that comes towards it
-  /// faster than after a fall through an eighth of a cell, v^2 > g h/4, while their gap is open; if it would close
-  /// within the step, the wall holds the node at the speed that just closes it. The gap is that of the nearest point
-  /// less .6 of the points' spacing; beside a cell that is full there is none.
+  /// A node on a wall moves with everything in the cells beside it. Constraining it as soon as a particle enters one of
+  /// them would stop a falling body up to a cell before the wall, and compress the soil there. So a wall does not act on
+  /// a node that approaches it while the gap is open; if the gap would close within the step, the wall constrains the
+  /// node at the speed that just closes it. The gap is that of the nearest particle less .6 of the particle spacing.
+  /// In wet scenes nodes slower than after a fall through an eighth of a cell, v^2 < g h/4, are constrained at once, and
+  /// beside a full cell there is no gap.
   template <int dim>
   class WallGaps
   {
   public:
-    /// @param n_points of a cell along each axis at the start; where they are fewest
-    WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const unsigned int n_points);
+    /// Fields whose mass moves with one velocity: that of one group of bodies, or of soil and water together.
+    using Fields = std::vector<const NodalField<dim> *>;
+
+    /// @param least_fall a wall acts at once on what is slower than after a fall through so many cells
+    WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const double least_fall);
 
     /// Fits the gaps to the grid's current nodes.
     void reinit();
@@ -37,15 +40,13 @@ namespace scree
     void clear();
 
     /// Heeds points, and cells that are full of water and wet soil, which have no gap.
-    void add(const PointSet<dim> &points);
+    /// @param spacing of the points at the start, m
+    void add(const PointSet<dim> &points, const double spacing);
     void add(const Mixture<dim> &mixture);
 
-    /// Frees nodes of walls for the step, s. `soil` and `water` hold mass, momentum and force of owned nodes.
-    /// Collective.
-    void release(const NodalField<dim> &soil,
-                 const NodalField<dim> &water,
-                 const Forcing<dim> &forcing,
-                 const double time_step);
+    /// Frees nodes of walls for the step, s. The fields hold mass, momentum and force of owned nodes; of several `Fields`
+    /// the one that approaches a wall fastest decides. Collective.
+    void release(const std::vector<Fields> &all_fields, const Forcing<dim> &forcing, const double time_step);
 
     /// Velocity, m/s, at which walls hold an owned node that closes its gap in this step; else 0.
     const dealii::Tensor<1, dim> &closing_velocity(const unsigned int node) const
@@ -66,7 +67,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     Constraints<dim> &constraints;
-    const double reach;                          // of a point, cells
+    const double least_fall;                     // cells
     std::array<NodeVector, dim> gaps;            // to the wall that a node lies on across an axis, cells
     NodeVector released;                         // faces, bit f: face f
     std::vector<dealii::Tensor<1, dim>> closing; // by owned node
