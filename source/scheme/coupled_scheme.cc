@@ -8,14 +8,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Height of a fall, cells, up to the speed of which walls act as soon as a point is beside them: slow wet soil and
-    /// its water come to rest beside a wall together.
-    constexpr double least_fall_at_walls = 0.125;
-  } // namespace
-
-
   template <int dim>
   CoupledScheme<dim>::CoupledScheme(const BackgroundGrid<dim> &grid,
                                     Constraints<dim> &constraints,
@@ -57,7 +49,7 @@ namespace scree
       , pores(grid)
       , water_field(grid)
       , pressure(grid, water_walls, pressure_parameters, water_parameters, forcing.gravity(), open_cells, timer)
-      , wall_gaps(grid, constraints, least_fall_at_walls)
+      , wall_gaps(grid, constraints, true)
       , spacing(grid.cell_size() / std::min(soil_points, water_parameters.points_per_cell))
       , fields{ { &soil.field, &water_field } }
       , step(grid, constraints, wall_gaps, forcing, water_density, pressure_parameters.splitting_kind())

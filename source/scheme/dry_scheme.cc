@@ -48,7 +48,7 @@ namespace scree
     for (AtWalls &one : walls)
       if (one.constraints == &constraints)
         return one;
-    walls.push_back({ &constraints, WallGaps<dim>(grid, constraints, 0.), {} });
+    walls.push_back({ &constraints, WallGaps<dim>(grid, constraints, false), {} });
     return walls.back();
   }
 

@@ -15,15 +15,19 @@ namespace scree
 
     /// Fill of a cell from which on it has no gap.
     constexpr double full_beside_wall = 0.9;
+
+    /// Heights of a fall, cells.
+    constexpr double fall_of_wet_soil = 0.125, fall_onto_fixed_wall = 0.5;
   } // namespace
 
 
   template <int dim>
-  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const double least_fall)
+  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const bool is_wet)
       : grid(grid)
       , constraints(constraints)
-      , least_fall(least_fall)
   {
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      least_fall[face] = is_wet ? fall_of_wet_soil : constraints.is_fixed(face) ? fall_onto_fixed_wall : 0.;
     reinit();
   }
 
@@ -108,7 +112,9 @@ namespace scree
     using Field = NodalField<dim>;
     for (NodeVector &gap : gaps)
       gap.compress(VectorOperation::min);
-    const double slow = std::sqrt(2. * least_fall * forcing.gravity().norm() * grid.cell_size());
+    std::array<double, 2 * dim> slow; // m/s
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      slow[face] = std::sqrt(2. * least_fall[face] * forcing.gravity().norm() * grid.cell_size());
     for (const unsigned int node : on_walls)
       {
         if (node >= grid.n_owned_nodes() || !constraints.has_walls_alone(node))
@@ -135,7 +141,7 @@ namespace scree
                   speed = std::min(speed, to_inside * (impulse / mass + time_step * forcing.acceleration(node)[a]));
               }
             const double limit = -gap * grid.cell_size() / time_step;
-            if (speed >= 0. || speed > -slow)
+            if (speed >= 0. || speed > -slow[2 * a + side - 1])
               continue;
             if (speed >= limit)
               open |= side << 2 * a;

@@ -30,7 +30,7 @@ struct Box
       , walls(grid, boundaries())
       , water_walls(grid, WaterBoundaryParameters())
       , constraints(grid, walls, &water_walls)
-      , gaps(grid, constraints, .125)
+      , gaps(grid, constraints, true)
       , points(grid.triangulation(), grid.mapping(), 1)
       , soil(grid)
       , water(grid)

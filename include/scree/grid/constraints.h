@@ -70,6 +70,12 @@ namespace scree
     /// Faces of the box that are not open to soil, bit f: face f.
     std::uint8_t faces_closed_to_soil() const;
 
+    /// Whether soil sticks to a face of the box.
+    bool is_fixed(const unsigned int face) const
+    {
+      return walls.walls()[face].type == WallType::fixed;
+    }
+
     /// Those of a node of this rank's cells; null where there are none.
     const NodeConstraints<dim> *at(const unsigned int node) const
     {
