@@ -15,6 +15,9 @@ namespace scree
   {
     constexpr unsigned int n_sweeps = 4;
 
+    /// Overlap, cells, from which on a contact follows the rise of the interpolated distance.
+    constexpr double overlap_with_full_rise = 0.08;
+
     /// Cells as far apart along an axis share no nodes.
     constexpr unsigned int colours_1d = 3;
 
@@ -84,8 +87,10 @@ namespace scree
         surface.samples->view(point.cell, point.reference_location + 0.5 * dt / grid.cell_size() * slip);
     const Tensor<1, dim> &normal = half_way.normal;
     // Distances and normals are interpolated separately, so that the distance also changes by motion across the normal,
-    // m/s.
-    const double rise = slip * normal - 2. / dt * (half_way.distance - candidate.distance);
+    // m/s. At once, that would throw up what slides over ground that is rough within a cell; ignored, it would press it
+    // deep into the ground.
+    const double rise    = slip * normal - 2. / dt * (half_way.distance - candidate.distance);
+    const double overlap = std::clamp((-candidate.gap - slack) / (overlap_with_full_rise * grid.cell_size()), 0., 1.);
     const double depth = std::clamp(candidate.distance, 0., body.spacing);
     contacts.emplace_back();
     Contact &contact         = contacts.back();
@@ -97,7 +102,7 @@ namespace scree
     contact.foot             = point.location - depth * normal;
     contact.normal           = to_row<dim>(normal);
     contact.surface_velocity = to_row<dim>(surface.velocity);
-    contact.approach         = least_approach(candidate.gap, dt) + rise;
+    contact.approach         = least_approach(candidate.gap, dt) + overlap * rise;
     const Tensor<1, dim> J   = dt * vector_of<dim>(contact.force);
     const double across      = J * normal;
     contact.normal_impulse   = std::max(0., across);
