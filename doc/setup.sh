@@ -102,4 +102,4 @@ configure_scree()
   cmake -S "$root" -B "$root/$1" ${generator:+"$generator"} -DCMAKE_BUILD_TYPE="$2" ${CI:+-DSCREE_WARNINGS_AS_ERRORS=ON}
 }
 
-configure_scree build Release && cmake --build "$root/build" || exit 1
+configure_scree build Release && cmake --build "$root/build" --target scree || exit 1
