@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/step_part.h>
 #include <scree/step_control.h>
+#include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +17,45 @@ namespace scree
   {
     const std::string remedy_for_instability =
         "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in subsection Stabilisation.";
+
+    /// What and where the fastest point of this rank is, its speed beside, m/s; "" and 0 without points.
+    template <int dim>
+    std::pair<double, std::string> fastest_point(const Scene<dim> &scene)
+    {
+      std::pair<double, std::string> fastest{ 0., "" };
+      Point<dim> place;
+      const auto look = [&](const std::string &name, const PointSet<dim> &points, const unsigned int velocity) {
+        for (const auto &cell : points.cells())
+          for (unsigned int p = 0; p < cell.n_points; ++p)
+            {
+              const double speed = vector_of<dim>(cell.properties_of(p) + velocity).norm();
+              if (std::isfinite(speed) && speed <= fastest.first)
+                continue;
+              place   = cell.location_of(p);
+              fastest = { std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity(),
+                          "a point of " + name + " at (" + number_text(place) + ") m" };
+            }
+      };
+      for (const auto &body : scene.bodies)
+        look(body.name, body.points, PropertyLayout<dim>::velocity);
+      for (const auto &part : scene.water)
+        if (part.carrier() == nullptr)
+          look("the water", part.points(), part.layout.velocity);
+      if (fastest.second.empty())
+        return fastest;
+      const unsigned int face = nearest_face(scene.grid, place);
+      const double to_wall    = face % 2 == 0 ? place[face / 2] - scene.grid.lower_corner()[face / 2]
+                                              : scene.grid.upper_corner()[face / 2] - place[face / 2];
+      if (to_wall < 2. * scene.grid.cell_size())
+        {
+          const auto of_soil = scene.walls.face_crossed(place);
+          fastest.second += " beside the wall '" + of_soil.first + "'";
+          if (scene.water_walls && of_soil.second != scene.water_walls->face_crossed(place).second)
+            fastest.second += of_soil.second ? ", which is open to soil and closed to water: open it to both" :
+                                               ", which is closed to soil and open to water: close it to both";
+        }
+      return fastest;
+    }
   } // namespace
 
 
@@ -103,10 +144,13 @@ namespace scree
   template <int dim>
   void StepControl<dim>::require_stable_speed(const double time_step) const
   {
-    AssertThrow(std::isfinite(speeds.points) && speeds.points * time_step < 2 * scene.grid.cell_size(),
-                ExcMessage("The motion is unstable at t = " + Utilities::to_string(clock.time()) +
-                           " s: a point moves at " + Utilities::to_string(speeds.points) + " m/s. " +
-                           remedy_for_instability));
+    if (std::isfinite(speeds.points) && speeds.points * time_step < 2 * scene.grid.cell_size())
+      return;
+    const auto of_ranks = Utilities::MPI::all_gather(communicator, fastest_point(scene));
+    const auto fastest  = *std::max_element(of_ranks.begin(), of_ranks.end());
+    AssertThrow(false,
+                ExcMessage("The motion is unstable at t = " + number_text(clock.time()) + " s: " + number_text(speeds.points) +
+                           " m/s, " + fastest.second + ". " + remedy_for_instability));
   }
 
   template class StepControl<2>;

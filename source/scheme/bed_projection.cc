@@ -361,7 +361,7 @@ namespace scree
           double mean                       = 0.;
           for (unsigned int v = 0; v < corners.size(); ++v)
             mean += segment.ground_hats[v] * corners[v];
-          const Tensor<1, dim> impulse = -time_step * std::max(mean, 0.) * segment.area * segment.normal;
+          const Tensor<1, dim> impulse = -time_step * mean * segment.area * segment.normal;
           obstacle->pressure_impulse += impulse;
           obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
           obstacle->work += impulse * open_cells.velocity(segment);
