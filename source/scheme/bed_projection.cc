@@ -2,6 +2,7 @@
 #include <scree/points/batch_pointers.h>
 #include <scree/scheme/bed_projection.h>
 #include <scree/scheme/box_walls.h>
+#include <scree/transfer/closures.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -201,10 +202,9 @@ namespace scree
                                                    const double ground_share,
                                                    const double viscosity) const
   {
-    constexpr double slip_length      = 0.01; // cells
     const GroundSegment<dim> &segment = open_cells.segments()[s];
     const Tensor<1, dim> velocity     = mean_velocity(segment, motion) - ground_share * open_cells.velocity(segment);
-    return -viscosity * segment.area / (slip_length * grid.cell_size()) * velocity;
+    return -viscosity * segment.area / (closures::slip_length * grid.cell_size()) * velocity;
   }
 
 
@@ -370,8 +370,7 @@ namespace scree
 
 
   template <int dim>
-  void
-  BedProjection<dim>::put_back(PointSet<dim> &points, const double farthest, const std::uint8_t closed_faces) const
+  void BedProjection<dim>::put_back(PointSet<dim> &points, const double farthest, const std::uint8_t closed_faces) const
   {
     const double width         = grid.cell_size();
     const double inside        = 1e-6 * width; // where points are put

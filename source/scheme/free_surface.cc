@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/free_surface.h>
+#include <scree/transfer/closures.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +12,6 @@ namespace scree
 
   namespace
   {
-    /// Of a cell: less of it that is open counts as so much.
-    constexpr double least_open = 1e-6;
-
-    /// Of an unknown corner, cells.
-    constexpr double least_depth = 0.25;
-
-    /// Of what is filled at a corner in soil: not scraps of it in a jet.
-    constexpr double least_grains = 0.2;
-
     double distance_from_fill(const double fill)
     {
       return fill < 0.5 ? std::sqrt(2. * fill) - 1. : 1. - std::sqrt(2. * std::max(1. - fill, 0.));
@@ -111,13 +103,13 @@ namespace scree
   template <int dim>
   double FreeSurfaceLocator<dim>::fill_with_ground(const unsigned int corner, const double fill) const
   {
-    constexpr double least_fill = 0.25; // less is no depth of water
-    const double *sums          = filling[corner];
+    const double *sums = filling[corner];
     if (full_ground.empty() || full_ground[corner] == 0. || sums[filled] <= 0.)
       return fill;
     // Soil that collapses would run too far.
-    const double free = std::max(1. - (sums[filled] - sums[water]) / (least_grains * sums[filled]), 0.);
-    return 1. - (1. - fill) * (1. - full_ground[corner] * free * std::min(fill / least_fill, 1.));
+    using closures::least_fill_above_ground, closures::least_solid_fraction;
+    const double free = std::max(1. - (sums[filled] - sums[water]) / (least_solid_fraction * sums[filled]), 0.);
+    return 1. - (1. - fill) * (1. - full_ground[corner] * free * std::min(fill / least_fill_above_ground, 1.));
   }
 
 
@@ -150,7 +142,7 @@ namespace scree
   double FreeSurfaceLocator<dim>::open_cells_around(const unsigned int corner) const
   {
     const double all = cells_in_box(corner);
-    return closed_cells.empty() ? all : std::max(all - closed_cells[corner], least_open);
+    return closed_cells.empty() ? all : std::max(all - closed_cells[corner], closures::least_open_fraction);
   }
 
 
@@ -177,7 +169,7 @@ namespace scree
     switch (rule)
       {
       case FreeSurface::distance:
-        return distances[corner] >= least_depth - 1e-9;
+        return distances[corner] >= closures::least_vertex_depth - 1e-9;
       case FreeSurface::half_full:
         return fill >= 0.5 - 1e-9;
       default:
@@ -195,7 +187,8 @@ namespace scree
         {
           filling.activate_cell(cell.cell);
           const unsigned int *nodes = corners.nodes(cell.cell);
-          const double open         = open_cells ? std::max(open_cells->open_fraction(cell.cell), least_open) : 1.;
+          const double open =
+              open_cells ? std::max(open_cells->open_fraction(cell.cell), closures::least_open_fraction) : 1.;
           for (unsigned int v = 0; v < cell.n_corners; ++v)
             {
               double *node = filling[nodes[v]];
@@ -283,7 +276,7 @@ namespace scree
     const auto may_be_in_gap = [&](const unsigned int corner) {
       const double *sums = filling[corner];
       return kinds[corner] == CornerKind::dry && distances[corner] >= -1e-9 && sums[water] > 0. &&
-             sums[filled] - sums[water] >= least_grains * sums[filled];
+             sums[filled] - sums[water] >= closures::least_solid_fraction * sums[filled];
     };
     const auto presses = [&](const unsigned int corner) { // Across a gap nothing pulls.
       return kinds[corner] == CornerKind::unknown && pressure_of_points(corner) >= 0.;
@@ -312,7 +305,7 @@ namespace scree
         if (of_corner[2 * a] > 0. && of_corner[2 * a + 1] > 0.)
           {
             kinds[corner]                  = CornerKind::unknown;
-            distances[corner]              = least_depth;
+            distances[corner]              = closures::least_vertex_depth;
             pressure.local_element(corner) = pressure_of_points(corner);
           }
     });
@@ -359,8 +352,9 @@ namespace scree
           return;
         const double *sums = neighbours[corner];
         // The slope of a corner inside the water is bounded already, however near the surface it is.
-        const double steep = target == CornerKind::surface ? steepest * sums[sum_of_distances] / sums[number]
-                                                           : std::numeric_limits<double>::infinity();
+        const double steep = target == CornerKind::surface
+                                 ? closures::steepest_extrapolation * sums[sum_of_distances] / sums[number]
+                                 : std::numeric_limits<double>::infinity();
         pressure.local_element(corner) =
             std::max(distances[corner], -steep) * sums[sum_of_pressures] / sums[sum_of_distances];
       });

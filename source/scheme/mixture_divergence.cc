@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/mixture_divergence.h>
+#include <scree/transfer/closures.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -10,14 +11,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Fills of a cell from which on its whole, and up to which only the part that is filled is looked at; between them
-    /// a share of both, so that the scatter of points changes nothing at once.
-    constexpr double full = 0.95, partly_full = 0.85;
-  } // namespace
-
 
   template <int dim>
   template <unsigned int n_1d>
@@ -68,7 +61,10 @@ namespace scree
   {
     const Point<dim> centre = cell.centre();
     const double fill       = cell.fill * cell.volume / Utilities::fixed_power<dim>(grid.cell_size()); // of the whole
-    const double share      = std::clamp((full - fill) / (full - partly_full), 0., 1.);
+    const double share      = std::clamp((closures::full_cell_in_divergence - fill) /
+                                        (closures::full_cell_in_divergence - closures::partly_full_cell_in_divergence),
+                                    0.,
+                                    1.);
     Tensor<1, dim> off;
     for (unsigned int a = 0; a < dim; ++a)
       off[a] = share * (centre[a] - 0.5);
@@ -214,7 +210,7 @@ namespace scree
             for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
               add_ground<n>(open_cells->segments()[s], flow, integrals);
           }
-        else if (cell.fill < full && cell.soil_mass > 0.)
+        else if (cell.fill < closures::full_cell_in_divergence && cell.soil_mass > 0.)
           add_integrals<n>(rule_in(cell), whole.weights.data(), scale, open, flow, integrals);
         else
           add_integrals<n>(whole, whole.weights.data(), scale, open, flow, integrals);

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/soil_gaps.h>
+#include <scree/transfer/closures.h>
 
 #include <array>
 
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Fill of a cell from which on its soil reaches all of its sides.
-    constexpr double full_beside_gap = 0.95;
-
-    /// Distance of the centre of what fills a cell from its middle, cells.
-    constexpr double least_offset = 0.1;
-  } // namespace
-
 
   template <int dim>
   SoilGaps<dim>::SoilGaps(const BackgroundGrid<dim> &grid,
@@ -45,12 +36,13 @@ namespace scree
       if (surface.kind(of_cell[v]) == CornerKind::unknown)
         for (unsigned int a = 0; a < dim; ++a)
           ++n_unknown[2 * a + (v >> a & 1u)];
-    const bool is_full = cell.fill >= full_beside_gap;
+    const bool is_full = cell.fill >= closures::full_cell_beside_gap;
     for (unsigned int side = 0; side < n_sides; ++side)
       if (n_unknown[side] == 0 && n_unknown[side ^ 1u] == cell.n_corners / 2)
         {
           const double off = cell.centre()[side / 2] - 0.5;
-          faces.push_back({ record, side, is_full, !is_full && (side % 2 == 1 ? -off : off) >= least_offset });
+          faces.push_back(
+              { record, side, is_full, !is_full && (side % 2 == 1 ? -off : off) >= closures::least_offset_beside_gap });
         }
   }
 

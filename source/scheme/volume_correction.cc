@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/volume_correction.h>
+#include <scree/transfer/closures.h>
 #include <scree/transfer/node_rows.h>
 
 #include <algorithm>
@@ -7,13 +8,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Below it a corner is full: water at rest must not follow its rounding.
-    constexpr double least_surplus = 1e-6;
-  } // namespace
-
 
   template <int dim>
   VolumeCorrection<dim>::VolumeCorrection(const BackgroundGrid<dim> &grid,
@@ -75,7 +69,7 @@ namespace scree
           const double surplus = surface.fill(corner) - 1., volume = surface.volume_under(corner);
           const bool inside = volume_inside.local_element(corner) > (1. - 1e-9) * volume;
           // A lack beside the surface is the surface.
-          if (surplus > least_surplus || (inside && surplus < -least_surplus))
+          if (surplus > closures::least_surplus || (inside && surplus < -closures::least_surplus))
             source.local_element(corner) = part * surplus * volume / time_step;
         }
     if (source.linfty_norm() == 0.)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/scheme/wall_gaps.h>
+#include <scree/transfer/closures.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,26 +9,15 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Of the points' spacing: a little more than the half that a point fills.
-    constexpr double reach_of_a_point = 0.6;
-
-    /// Fill of a cell from which on it has no gap.
-    constexpr double full_beside_wall = 0.9;
-
-    /// Heights of a fall, cells.
-    constexpr double fall_of_wet_soil = 0.125, fall_onto_fixed_wall = 0.5;
-  } // namespace
-
-
   template <int dim>
   WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const bool is_wet)
       : grid(grid)
       , constraints(constraints)
   {
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      least_fall[face] = is_wet ? fall_of_wet_soil : constraints.is_fixed(face) ? fall_onto_fixed_wall : 0.;
+      least_fall[face] = is_wet                       ? closures::fall_of_wet_soil
+                         : constraints.is_fixed(face) ? closures::fall_onto_fixed_wall
+                                                      : 0.;
     reinit();
   }
 
@@ -65,7 +55,7 @@ namespace scree
   template <int dim>
   void WallGaps<dim>::add(const PointSet<dim> &points, const double spacing)
   {
-    const double reach = reach_of_a_point * spacing / grid.cell_size();
+    const double reach = closures::reach_of_a_point * spacing / grid.cell_size();
     for (const auto &cell : points.cells())
       {
         if (grid.open_knots(cell.cell) == 0)
@@ -96,7 +86,7 @@ namespace scree
   void WallGaps<dim>::add(const Mixture<dim> &mixture)
   {
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.fill >= full_beside_wall)
+      if (cell.fill >= closures::full_cell_at_wall)
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
           if (const unsigned int node = grid.nodes(cell.cell)[i]; grid.node_faces(node) != 0)
             for (NodeVector &gap : gaps)
@@ -105,9 +95,8 @@ namespace scree
 
 
   template <int dim>
-  void WallGaps<dim>::release(const std::vector<Fields> &all_fields,
-                              const Forcing<dim> &forcing,
-                              const double time_step)
+  void
+  WallGaps<dim>::release(const std::vector<Fields> &all_fields, const Forcing<dim> &forcing, const double time_step)
   {
     using Field = NodalField<dim>;
     for (NodeVector &gap : gaps)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/grid/shape_functions.h>
+#include <scree/transfer/closures.h>
 #include <scree/transfer/load_transfer.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,9 +15,6 @@ namespace scree
 
   namespace
   {
-    /// The least part of a patch's area that the soil's points must give to a column of nodes for it to be the soil's
-    /// surface: inside a body they give some hundredths, from the scatter of points.
-    constexpr double least_area = 0.25;
 
     /// The force on a marker, N (2D: per m).
     template <int dim, typename Marker>
@@ -159,8 +157,9 @@ namespace scree
           total += face(i);
         for (unsigned int k = 0, i = first; k < n; ++k, i += stride)
           {
-            result[i] =
-                total > least_area * marked ? shape * face(i) / total : (nodes[of_cell[i]][mass] > 0 ? shapes[i] : 0.);
+            result[i] = total > closures::least_area_of_surface * marked
+                            ? shape * face(i) / total
+                            : (nodes[of_cell[i]][mass] > 0 ? shapes[i] : 0.);
             sum += result[i];
           }
       }

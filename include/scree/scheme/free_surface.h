@@ -4,6 +4,7 @@
 
 #include <scree/grid/water_walls.h>
 #include <scree/scheme/pressure_parameters.h>
+#include <scree/transfer/closures.h>
 #include <scree/transfer/mixture.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -69,7 +70,8 @@ namespace scree
     /// Pressure at `surface_corner` over that at an unknown corner of the same cell, as the matrix sees it.
     double ratio(const unsigned int surface_corner, const unsigned int unknown_corner) const
     {
-      return std::max(distances[surface_corner] / depth(unknown_corner, surface_corner), -steepest);
+      return std::max(distances[surface_corner] / depth(unknown_corner, surface_corner),
+                      -closures::steepest_extrapolation);
     }
 
     /// Volume of water under the linear function of an owned corner, m^3.
@@ -146,8 +148,6 @@ namespace scree
       sum_of_distances, // cells
       sum_of_pressures  // Pa
     };
-
-    static constexpr double steepest = 3.; // bounds the extrapolation from shallow corners
 
     /// Distance of a corner from the surface that is beside its neighbour, cells. Fills near 1 tell it badly, and not
     /// at all beyond one cell: a corner deeper than its neighbour in the water is taken to be a cell deeper.

@@ -4,6 +4,7 @@
 
 #include <scree/grid/nodal_field.h>
 #include <scree/grid/open_cells.h>
+#include <scree/transfer/closures.h>
 #include <scree/transfer/node_rows.h>
 #include <scree/transfer/porosity_of_parts.h>
 
@@ -16,54 +17,6 @@
 
 namespace scree
 {
-  /// How far the volume of water may differ from that of the soil's pores by the scatter of points alone, over the
-  /// latter: of four points an axis three or five may be in a cell.
-  constexpr double point_scatter = 0.3;
-
-  /// Effective saturation: part of the pores that water fills; 1 also where the scatter of points explains what is
-  /// missing (CellContents::saturation() is the part itself). Without this the scatter takes buoyancy from the grains:
-  /// a saturated soil settles under its own weight by 2 % too much.
-  inline double effective_saturation_of(const double water_volume, const double pore_volume)
-  {
-    const double full = (1. - point_scatter) * pore_volume;
-    return water_volume < full ? water_volume / full : (water_volume > 0 ? 1. : 0.);
-  }
-
-  /// Drag on the water of a cell's soil over that on water that fills its pores: in proportion to the water's volume,
-  /// as the force of the pressure on it is, within the scatter of points. Bounded by 1, soil consolidates 4 % too fast,
-  /// since a surplus then flows faster and a lack does not flow more slowly. Water outside the soil has no part in it:
-  /// that of the room that soil leaves of a full cell, but none where grains lack that no water has taken the place of.
-  inline double
-  drag_share_of(const double cell_volume, const double grains, const double pore_volume, const double water_volume)
-  {
-    constexpr double whole = 0.9, part = 0.75; // of a cell, which soil fills from and up to, as far as scatter can tell
-    if (pore_volume <= 0.)
-      return 0.;
-    const double soil    = grains + pore_volume;
-    const double room    = cell_volume - soil * std::max(1., (cell_volume - water_volume) / grains);
-    const double ends    = std::clamp((whole - soil / cell_volume) / (whole - part), 0., 1.);
-    const double outside = ends * std::max(0., room);
-    return std::clamp((water_volume - outside) / pore_volume, 0., 1. + point_scatter);
-  }
-
-  /// Part of a node or cell that grains take of the mixture there: its velocity is this part of the soil's, the rest of
-  /// the water's. Between the grains is the water, but the wet pores where water lacks more of these than the scatter
-  /// of points explains. There few points would lend the flow their own porosity, which is too small: the tip of a
-  /// wetting front would run ahead.
-  inline double grain_fraction_of(const double grains, const double water_volume, const double wet_pores)
-  {
-    constexpr double scatter = 0.15, sure = 0.25; // of the wet pores
-    if (grains <= 0.)
-      return 0.;
-    double between = water_volume;
-    if (wet_pores > 0.)
-      {
-        const double lack = wet_pores - water_volume;
-        between += lack * std::clamp((lack / wet_pores - scatter) / (sure - scatter), 0., 1.);
-      }
-    return grains / (grains + between);
-  }
-
   /// What the points of a cell weigh and fill (2D: per m).
   template <int dim>
   struct MixtureCell

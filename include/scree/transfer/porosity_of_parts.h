@@ -2,6 +2,7 @@
 #ifndef scree_transfer_porosity_of_parts_h
 #define scree_transfer_porosity_of_parts_h
 
+#include <scree/transfer/closures.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/utilities.h>
 
@@ -44,7 +45,8 @@ namespace scree
       const double whole = filled / dealii::Utilities::fixed_power<dim>(n_1d);
       for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
         if (parts[p].volume > 0.)
-          parts[p].inverse_porosity = 1. / std::max(smallest, 1. - parts[p].grains / std::max(parts[p].volume, whole));
+          parts[p].inverse_porosity =
+              1. / std::max(closures::least_porosity, 1. - parts[p].grains / std::max(parts[p].volume, whole));
     }
 
     /// 1 over the porosity about a place of the cell, -; 1 without soil.
@@ -69,7 +71,6 @@ namespace scree
     }
 
     static constexpr unsigned int most_1d = dim == 2 ? 4 : 2;
-    static constexpr double smallest      = 0.1; // where grains crowd water shall not race
 
     unsigned int n_1d; // parts along an axis
     std::array<Part, dealii::Utilities::pow(most_1d, dim)> parts;
