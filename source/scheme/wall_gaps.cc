@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -104,6 +105,10 @@ namespace scree
     std::array<double, 2 * dim> slow; // m/s
     for (unsigned int face = 0; face < 2 * dim; ++face)
       slow[face] = std::sqrt(2. * least_fall[face] * forcing.gravity().norm() * grid.cell_size());
+    if (forcing.gravity().norm() == 0.) // Nothing falls.
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        if (least_fall[face] == closures::fall_onto_fixed_wall)
+          slow[face] = std::numeric_limits<double>::infinity();
     for (const unsigned int node : on_walls)
       {
         if (node >= grid.n_owned_nodes() || !constraints.has_walls_alone(node))
