@@ -25,16 +25,14 @@ namespace scree
       std::pair<double, std::string> fastest{ 0., "" };
       Point<dim> place;
       const auto look = [&](const std::string &name, const PointSet<dim> &points, const unsigned int velocity) {
-        for (const auto &cell : points.cells())
-          for (unsigned int p = 0; p < cell.n_points; ++p)
-            {
-              const double speed = vector_of<dim>(cell.properties_of(p) + velocity).norm();
-              if (std::isfinite(speed) && speed <= fastest.first)
-                continue;
-              place   = cell.location_of(p);
-              fastest = { std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity(),
-                          "a point of " + name + " at (" + number_text(place) + ") m" };
-            }
+        for_each_point(points, [&](const auto &point) {
+          const double speed = vector_of<dim>(point.properties + velocity).norm();
+          if (std::isfinite(speed) && speed <= fastest.first)
+            return;
+          place   = point.location;
+          fastest = { std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity(),
+                      "a point of " + name + " at (" + number_text(place) + ") m" };
+        });
       };
       for (const auto &body : scene.bodies)
         look(body.name, body.points, PropertyLayout<dim>::velocity);
@@ -149,8 +147,9 @@ namespace scree
     const auto of_ranks = Utilities::MPI::all_gather(communicator, fastest_point(scene));
     const auto fastest  = *std::max_element(of_ranks.begin(), of_ranks.end());
     AssertThrow(false,
-                ExcMessage("The motion is unstable at t = " + number_text(clock.time()) + " s: " + number_text(speeds.points) +
-                           " m/s, " + fastest.second + ". " + remedy_for_instability));
+                ExcMessage("The motion is unstable at t = " + number_text(clock.time()) +
+                           " s: " + number_text(speeds.points) + " m/s, " + fastest.second + ". " +
+                           remedy_for_instability));
   }
 
   template class StepControl<2>;

@@ -49,12 +49,12 @@ namespace scree
       , pores(grid)
       , water_field(grid)
       , pressure(grid, water_walls, pressure_parameters, water_parameters, forcing.gravity(), open_cells, timer)
-      , wall_gaps(grid, constraints, true)
+      , wall_gaps(grid, constraints)
       , spacing(grid.cell_size() / std::min(soil_points, water_parameters.points_per_cell))
-      , fields{ { &soil.field, &water_field } }
       , step(grid, constraints, wall_gaps, forcing, water_density, pressure_parameters.splitting_kind())
       , bed(std::move(bed))
   {
+    wall_gaps.add({ &soil.field, &water_field });
     for (const auto &body : bodies)
       shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
     if (water_parameters.viscosity > 0)
@@ -193,7 +193,7 @@ namespace scree
       soil.field.add_contributions();
       water_field.add_contributions();
       pores.add_contributions();
-      wall_gaps.release(fields, forcing, time_step);
+      wall_gaps.release(forcing, time_step);
       step.predict(nodes, time_step, report.balance);
       soil.field.update_ghosts();
       water_field.update_ghosts();

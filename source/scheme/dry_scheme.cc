@@ -26,12 +26,12 @@ namespace scree
     for (auto &around : surroundings)
       {
         const unsigned int number = groups.size();
-        AtWalls &of_group         = at_walls(grid, *around.constraints);
+        WallGaps<dim> &gaps       = gaps_of(grid, *around.constraints);
         groups.push_back({ SoilMotion<dim>(grid, transfer, stabilisation, bodies, loads, number),
-                           &of_group.gaps,
-                           ExplicitStep<dim>(*around.constraints, of_group.gaps, forcing),
+                           &gaps,
+                           ExplicitStep<dim>(*around.constraints, gaps, forcing),
                            std::move(around.bed) });
-        of_group.fields.push_back({ &groups.back().soil.field });
+        gaps.add({ &groups.back().soil.field });
         at_nodes.push_back({ number, &groups.back().soil.field, around.constraints });
       }
     for (const ContactPair &pair : pairs)
@@ -42,22 +42,20 @@ namespace scree
 
 
   template <int dim>
-  typename DryScheme<dim>::AtWalls &DryScheme<dim>::at_walls(const BackgroundGrid<dim> &grid,
-                                                             Constraints<dim> &constraints)
+  WallGaps<dim> &DryScheme<dim>::gaps_of(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints)
   {
-    for (AtWalls &one : walls)
-      if (one.constraints == &constraints)
-        return one;
-    walls.push_back({ &constraints, WallGaps<dim>(grid, constraints, false), {} });
-    return walls.back();
+    for (WallGaps<dim> &gaps : wall_gaps)
+      if (gaps.are_of(constraints))
+        return gaps;
+    return wall_gaps.emplace_back(grid, constraints);
   }
 
 
   template <int dim>
   void DryScheme<dim>::reinit()
   {
-    for (AtWalls &one : walls)
-      one.gaps.reinit();
+    for (WallGaps<dim> &gaps : wall_gaps)
+      gaps.reinit();
     for (Group &group : groups)
       {
         group.soil.reinit();
@@ -85,8 +83,8 @@ namespace scree
     const TimedPart part(timer, StepPart::points_to_grid);
     for (Group &group : groups)
       group.soil.to_grid(time);
-    for (AtWalls &one : walls)
-      one.gaps.clear();
+    for (WallGaps<dim> &gaps : wall_gaps)
+      gaps.clear();
     for (const auto &body : bodies)
       if (!body.is_rigid)
         std::next(groups.begin(), body.group)->wall_gaps->add(body.points, body.spacing);
@@ -102,10 +100,10 @@ namespace scree
         group.soil.add_loads(0.); // Velocity and place leap over each other: the acceleration is that of the start.
         group.soil.field.add_contributions();
       }
-    for (AtWalls &one : walls)
+    for (WallGaps<dim> &gaps : wall_gaps)
       {
         const TimedPart part(timer, StepPart::nodes);
-        one.gaps.release(one.fields, forcing, time_step);
+        gaps.release(forcing, time_step);
       }
     for (Group &group : groups)
       {

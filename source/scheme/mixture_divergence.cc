@@ -61,10 +61,8 @@ namespace scree
   {
     const Point<dim> centre = cell.centre();
     const double fill       = cell.fill * cell.volume / Utilities::fixed_power<dim>(grid.cell_size()); // of the whole
-    const double share      = std::clamp((closures::full_cell_in_divergence - fill) /
-                                        (closures::full_cell_in_divergence - closures::partly_full_cell_in_divergence),
-                                    0.,
-                                    1.);
+    constexpr double full   = closures::full_cell_in_divergence;
+    const double share = std::clamp((full - fill) / (full - closures::partly_full_cell_in_divergence), 0., 1.);
     Tensor<1, dim> off;
     for (unsigned int a = 0; a < dim; ++a)
       off[a] = share * (centre[a] - 0.5);

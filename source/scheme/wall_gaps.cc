@@ -11,14 +11,11 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints, const bool is_wet)
+  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints)
       : grid(grid)
       , constraints(constraints)
+      , closed_faces(constraints.closed_faces())
   {
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      least_fall[face] = is_wet                       ? closures::fall_of_wet_soil
-                         : constraints.is_fixed(face) ? closures::fall_onto_fixed_wall
-                                                      : 0.;
     reinit();
   }
 
@@ -32,7 +29,7 @@ namespace scree
     closing.assign(grid.n_owned_nodes(), Tensor<1, dim>());
     on_walls.clear();
     for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
-      if (grid.node_faces(node) != 0)
+      if ((grid.node_faces(node) & closed_faces) != 0)
         on_walls.push_back(node);
     clear();
   }
@@ -59,8 +56,8 @@ namespace scree
     const double reach = closures::reach_of_a_point * spacing / grid.cell_size();
     for (const auto &cell : points.cells())
       {
-        if (grid.open_knots(cell.cell) == 0)
-          continue; // not beside a face of the box
+        if ((grid.open_knots(cell.cell) & closed_faces) == 0)
+          continue;
         const unsigned int *nodes = grid.nodes(cell.cell);
         std::array<double, dim> lowest, highest; // places of points, cells
         lowest.fill(1.);
@@ -96,19 +93,28 @@ namespace scree
 
 
   template <int dim>
-  void
-  WallGaps<dim>::release(const std::vector<Fields> &all_fields, const Forcing<dim> &forcing, const double time_step)
+  double WallGaps<dim>::slow(const unsigned int face, const double gravity) const
+  {
+    if (!constraints.has_water() && !constraints.is_fixed(face))
+      return 0.;
+    if (!constraints.has_water() && gravity == 0.)
+      return std::numeric_limits<double>::infinity(); // Nothing falls.
+    const double fall = constraints.has_water() ? closures::fall_of_wet_soil : closures::fall_onto_fixed_wall;
+    return std::sqrt(2. * fall * gravity * grid.cell_size());
+  }
+
+
+  template <int dim>
+  void WallGaps<dim>::release(const Forcing<dim> &forcing, const double time_step)
   {
     using Field = NodalField<dim>;
+    if (closed_faces == 0)
+      return;
     for (NodeVector &gap : gaps)
       gap.compress(VectorOperation::min);
-    std::array<double, 2 * dim> slow; // m/s
+    std::array<double, 2 * dim> slow_of_face;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      slow[face] = std::sqrt(2. * least_fall[face] * forcing.gravity().norm() * grid.cell_size());
-    if (forcing.gravity().norm() == 0.) // Nothing falls.
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (least_fall[face] == closures::fall_onto_fixed_wall)
-          slow[face] = std::numeric_limits<double>::infinity();
+      slow_of_face[face] = slow(face, forcing.gravity().norm());
     for (const unsigned int node : on_walls)
       {
         if (node >= grid.n_owned_nodes() || !constraints.has_walls_alone(node))
@@ -135,7 +141,7 @@ namespace scree
                   speed = std::min(speed, to_inside * (impulse / mass + time_step * forcing.acceleration(node)[a]));
               }
             const double limit = -gap * grid.cell_size() / time_step;
-            if (speed >= 0. || speed > -slow[2 * a + side - 1])
+            if (speed >= 0. || speed > -slow_of_face[2 * a + side - 1])
               continue;
             if (speed >= limit)
               open |= side << 2 * a;

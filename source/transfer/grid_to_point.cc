@@ -14,8 +14,6 @@ namespace scree
 
   namespace
   {
-
-
     /// Throws PointFault of the point of a block that is deformed most, if it is too much for a step.
     template <int dim>
     void throw_fault(const SoilBody<dim> &body,
@@ -24,8 +22,8 @@ namespace scree
                      const BlockMotion<dim> &motion,
                      const double time_step)
     {
-      unsigned int worst = 0;
-      double largest = 0., of_worst = 1.; // |dF - I|, det dF
+      unsigned int worst    = 0;
+      double largest        = 0., of_worst = 1.; // |dF - I|, det dF
       for (unsigned int p = 0; p < n_points; ++p)
         {
           Tensor<2, dim> increment;
@@ -33,8 +31,8 @@ namespace scree
           for (unsigned int c = 0; c < dim * dim; ++c)
             {
               increment[c / dim][c % dim] = motion.deformation_increment[c * motion.pitch + p];
-              const double part           = std::abs(increment[c / dim][c % dim] - (c % (dim + 1) == 0 ? 1. : 0.));
-              change                      = part <= change ? change : part; // NaN counts
+              const double part = std::abs(increment[c / dim][c % dim] - (c % (dim + 1) == 0 ? 1. : 0.));
+              change            = part <= change ? change : part; // NaN counts
             }
           if (!(change <= largest))
             {

@@ -15,7 +15,6 @@ namespace scree
 
   namespace
   {
-
     /// The force on a marker, N (2D: per m).
     template <int dim, typename Marker>
     Tensor<1, dim> force_on(const SurfaceLoad<dim> &load, const Marker &marker, const double time)

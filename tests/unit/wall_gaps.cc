@@ -30,13 +30,14 @@ struct Box
       , walls(grid, boundaries())
       , water_walls(grid, WaterBoundaryParameters())
       , constraints(grid, walls, &water_walls)
-      , gaps(grid, constraints, true)
+      , gaps(grid, constraints)
       , points(grid.triangulation(), grid.mapping(), 1)
       , soil(grid)
       , water(grid)
       , forcing(grid, { 0., -10. }, BodyForceParameters(), BaseMotionParameters())
   {
     forcing.set_start();
+    gaps.add({ &soil, &water });
   }
 
   static GridParameters parameters()
@@ -82,7 +83,7 @@ struct Box
     gaps.add(points, h / 2);
     if (mixture)
       gaps.add(*mixture);
-    gaps.release({ { &soil, &water } }, forcing, time_step);
+    gaps.release(forcing, time_step);
   }
 
   /// Nodes of all ranks that walls hold, and the sum of their velocities towards walls.

@@ -70,6 +70,17 @@ namespace scree
     /// Faces of the box that are not open to soil, bit f: face f.
     std::uint8_t faces_closed_to_soil() const;
 
+    /// The same, and faces that are not open to water, if there is any.
+    std::uint8_t closed_faces() const
+    {
+      return faces_closed_to_soil() | (water_walls ? water_walls->closed_faces() : 0);
+    }
+
+    bool has_water() const
+    {
+      return water_walls != nullptr;
+    }
+
     /// Whether soil sticks to a face of the box.
     bool is_fixed(const unsigned int face) const
     {

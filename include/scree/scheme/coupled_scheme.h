@@ -88,7 +88,6 @@ namespace scree
     PorePressure<dim> pressure;
     WallGaps<dim> wall_gaps;
     const double spacing; // of the points at the start, where they are widest apart, m
-    const std::vector<typename WallGaps<dim>::Fields> fields;
     MixtureStep<dim> step;
     std::unique_ptr<ViscousStep<dim>> viscosity;              // null if there is none
     std::unique_ptr<BedProjection<dim>> bed;                  // null if there is none

@@ -56,23 +56,15 @@ namespace scree
       std::unique_ptr<BedContact<dim>> bed;
     };
 
-    /// Groups with the same constraints, and the gaps between them and the walls.
-    struct AtWalls
-    {
-      Constraints<dim> *constraints;
-      WallGaps<dim> gaps;
-      std::vector<typename WallGaps<dim>::Fields> fields; ///< one a group
-    };
-
-    /// That of these constraints; made where there is none yet.
-    AtWalls &at_walls(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
+    /// Those at nodes with these constraints, which groups may share; made where there are none yet.
+    WallGaps<dim> &gaps_of(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
 
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, StepReport<dim> &report);
 
     std::list<SoilBody<dim>> &bodies;
     const Forcing<dim> &forcing;
-    std::list<AtWalls> walls;
+    std::list<WallGaps<dim>> wall_gaps;
     std::list<Group> groups;
     std::list<BodyContact<dim>> contacts;
     std::unique_ptr<NodalField<dim>> mean_field; // of all groups; null if there is one

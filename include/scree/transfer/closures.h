@@ -6,9 +6,9 @@
 
 namespace scree
 {
-  /// Where soil, water and gaps are, from points that scatter: all thresholds, each with its unit and with what a scene
-  /// shows without it (doc/verification.md). They are fractions of a cell, of pores or of a spacing; none is a length
-  /// or a time of a case.
+  /// Where soil, water and gaps are, from points that scatter: thresholds, each with its unit and, where it was
+  /// switched off by itself, what a scene then shows. They are fractions of a cell, of pores or of a spacing; none is a
+  /// length or a time of a case.
   namespace closures
   {
     /// How far the volume of water in a cell may differ from that of the soil's pores by the scatter of points alone,
