@@ -44,7 +44,7 @@ struct ScatteredMixture
       , water_walls(grid, scree::WaterBoundaryParameters())
       , constraints(grid, walls, &water_walls)
       , forcing(grid, std::vector<double>(dim, 0.), scree::BodyForceParameters(), scree::BaseMotionParameters())
-      , wall_gaps(grid, constraints, 4)
+      , wall_gaps(grid, constraints)
       , step(grid, constraints, wall_gaps, forcing, 1000., scree::Splitting())
       , soil(grid)
       , water(grid)
