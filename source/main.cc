@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/advise.h>
-#include <scree/simulation.h>
+#include <scree/run/simulation.h>
 #include <scree/version.h>
 
 #include <deal.II/base/mpi.h>

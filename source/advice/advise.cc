@@ -4,7 +4,7 @@
 #include <scree/advice/report.h>
 #include <scree/advice/survey.h>
 #include <scree/input/input_error.h>
-#include <scree/memory.h>
+#include <scree/case/memory.h>
 
 #include <deal.II/base/mpi.h>
 

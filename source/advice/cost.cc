@@ -18,7 +18,7 @@ namespace scree
     class StepsSoFar
     {
     public:
-      StepsSoFar(const std::vector<Passage> &passages, const Clock &clock, const double cell_size)
+      StepsSoFar(const std::vector<Passage> &passages, const TimeStepper &clock, const double cell_size)
           : passages(passages)
           , clock(clock)
           , cell_size(cell_size)
@@ -50,7 +50,7 @@ namespace scree
       }
 
       const std::vector<Passage> &passages;
-      const Clock &clock;
+      const TimeStepper &clock;
       const double cell_size;
       std::size_t index = 0;
       double begin = 0, n = 0; // of the current passage
@@ -89,7 +89,7 @@ namespace scree
       for (StepCost *steps : { &seen.first, &seen.later })
         {
           const double rest = steps->rest();
-          steps->seconds    = act(StepPart::output, rest);
+          steps->seconds    = act(TimerSection::output, rest);
           for (auto &[part, seconds] : steps->parts)
             {
               seconds = act(part, seconds);
@@ -100,7 +100,7 @@ namespace scree
   } // namespace
 
 
-  double StepCost::seconds_of(const StepPart part) const
+  double StepCost::seconds_of(const TimerSection part) const
   {
     const auto found = parts.find(part);
     return found == parts.end() ? 0. : found->second;
@@ -127,7 +127,7 @@ namespace scree
 
   RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule)
   {
-    const Clock clock(schedule.time_step);
+    const TimeStepper clock(schedule.time_step);
     StepsSoFar so_far(seen.passages, clock, scene.cell_size);
     RunCost cost;
     cost.first_step     = so_far.step();
@@ -152,7 +152,7 @@ namespace scree
       {
         const double first = pilot.first.seconds_of(part);
         const bool is_event =
-            part == StepPart::sort || part == StepPart::repartition; // which first steps need not meet
+            part == TimerSection::sort || part == TimerSection::repartition; // which first steps need not meet
         const double seconds = is_event || first < hardly * pilot.first.seconds
                                    ? in_pilot * points
                                    : in_pilot / first * first_steps.first.seconds_of(part);
@@ -185,7 +185,7 @@ namespace scree
   Observation with_cell_size(Observation seen, const SceneNumbers &scene, const double cell_size)
   {
     const double factor = std::pow(scene.cell_size / cell_size, scene.dim);
-    for_each_part(seen, [&](const StepPart, const double seconds) { return factor * seconds; });
+    for_each_part(seen, [&](const TimerSection, const double seconds) { return factor * seconds; });
     for (double *number : { &seen.n_points, &seen.setup, &seen.picture, &seen.row })
       *number *= factor;
     seen.memory = seen.program_memory + std::max(0., seen.memory - seen.program_memory) * factor;
@@ -196,15 +196,15 @@ namespace scree
   Observation without_water(Observation seen, const SceneNumbers &scene)
   {
     const double soil = scene.n_soil_points / scene.n_points();
-    for_each_part(seen, [&](const StepPart part, const double seconds) {
+    for_each_part(seen, [&](const TimerSection part, const double seconds) {
       switch (part)
         {
-        case StepPart::nodes:
-        case StepPart::pressure_system:
-        case StepPart::pressure_solve:
-        case StepPart::water_points:
+        case TimerSection::nodes:
+        case TimerSection::pressure_system:
+        case TimerSection::pressure_solve:
+        case TimerSection::water_points:
           return 0.;
-        case StepPart::stress:
+        case TimerSection::stress:
           return seconds;
         default:
           return soil * seconds;

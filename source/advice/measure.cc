@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/measure.h>
-#include <scree/output/progress.h>
+#include <scree/io/progress.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -100,10 +100,10 @@ namespace scree
       Observation seen;
 
     private:
-      std::map<StepPart, double> times_of_parts() const
+      std::map<TimerSection, double> times_of_parts() const
       {
-        std::map<StepPart, double> seconds;
-        for (const StepPart part : step_parts)
+        std::map<TimerSection, double> seconds;
+        for (const TimerSection part : step_parts)
           if (const double of_part = scree::seconds_of(simulation.times_of_parts(), part); of_part > 0.)
             seconds[part] = of_part;
         return seconds;

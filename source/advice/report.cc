@@ -118,7 +118,7 @@ namespace scree
         writer.line(name, rounded(to_ns * first) + "; " + rounded(to_ns * later) + " ns a point");
       };
       of_steps("a step at the start; later", seen.first.seconds, seen.later.seconds);
-      for (const StepPart part : step_parts)
+      for (const TimerSection part : step_parts)
         if (seen.first.seconds_of(part) >= 0.02 * seen.first.seconds ||
             seen.later.seconds_of(part) >= 0.02 * seen.later.seconds)
           of_steps("  " + name_of(part), seen.first.seconds_of(part), seen.later.seconds_of(part));
@@ -167,13 +167,12 @@ namespace scree
       Schedule schedule         = advice.schedule;
       schedule.time_step        = time_step_for(wanted, schedule.time_step);
       const RunCost cost        = cost_of_run(wanted, seen, schedule);
-      writer.line("step",
-                  "about " + rounded(cost.mean_step) +
-                      " s, with Courant number = " + rounded(schedule.time_step.courant_number) +
-                      ", Maximum time step = " +
-                      (std::isfinite(schedule.time_step.maximum_time_step)
-                           ? rounded(schedule.time_step.maximum_time_step)
-                           : schedule.time_step.maximum));
+      writer.line(
+          "step",
+          "about " + rounded(cost.mean_step) +
+              " s, with Courant number = " + rounded(schedule.time_step.courant_number) + ", Maximum time step = " +
+              (std::isfinite(schedule.time_step.maximum_time_step) ? rounded(schedule.time_step.maximum_time_step)
+                                                                   : schedule.time_step.maximum));
       writer.line("points", wanted.n_points(), "");
       writer.line("memory", megabytes(cost.memory));
       writer.line("run", core_time(cost.seconds()));

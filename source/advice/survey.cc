@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/survey.h>
-#include <scree/points/drag_law.h>
+#include <scree/bodies/drag_law.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>

@@ -127,7 +127,7 @@ namespace scree
             "write an angle above 0, in degrees, or \"Type = free slip\".");
     require(
         is_set() || n_given == 0, given, "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
-    require(is_set() || !holds_water(),
+    require(is_set() || !no_slip(),
             std::make_pair(std::string("Type for water"), for_water),
             "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
     if (!is_set())

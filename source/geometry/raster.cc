@@ -124,8 +124,7 @@ namespace scree
 
   std::pair<double, double> Raster::range() const
   {
-    std::pair<double, double> result(std::numeric_limits<double>::infinity(),
-                                     -std::numeric_limits<double>::infinity());
+    std::pair<double, double> result(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
     for (const double value : values)
       if (!std::isnan(value))
         result = { std::min(result.first, value), std::max(result.second, value) };
@@ -180,10 +179,9 @@ namespace scree
       result += "\n" + name + ": " + std::to_string(missing) + " of " + std::to_string(values.size()) +
                 " heights of the raster are missing (NODATA). " + where_missing;
     if (n_strange > 0)
-      result += "\nIs this meant? " + name + ": " + std::to_string(n_strange) +
-                " heights of the raster lie outside " + number_text(lowest_on_earth) + " to " +
-                number_text(highest_on_earth) + " m, the first is " + text(strange) +
-                ". If they stand for missing ones, write that value as NODATA_value.";
+      result += "\nIs this meant? " + name + ": " + std::to_string(n_strange) + " heights of the raster lie outside " +
+                number_text(lowest_on_earth) + " to " + number_text(highest_on_earth) + " m, the first is " +
+                text(strange) + ". If they stand for missing ones, write that value as NODATA_value.";
     if (n_steps > 0)
       result += "\nIs this meant? " + name + ": " + std::to_string(n_steps) +
                 " steps between neighbouring heights of the raster are steeper than 80 degrees; the largest is from " +
@@ -254,8 +252,8 @@ namespace scree
       raster.spacing   = head.cell_size();
       if (!(raster.spacing > 0))
         throw EntryError(name + "cellsize = " + number_text(raster.spacing) + " must be positive, in m.");
-      raster.x             = head.origin("x", raster.spacing);
-      raster.y             = head.origin("y", raster.spacing);
+      raster.x              = head.origin("x", raster.spacing);
+      raster.y              = head.origin("y", raster.spacing);
       const bool may_be_nan = head.misses_nan();
       const double missing  = head.has("nodata_value") && !may_be_nan ? head.number("nodata_value") : -9999.;
 

@@ -182,7 +182,8 @@ namespace scree
     std::string result;
     const auto add = [&](const std::optional<Raster> &raster, const std::string &entry) {
       if (raster)
-        result += (result.empty() ? "" : "\n") + raster->remark_on_heights(body + ", \"" + entry + '"', "There is no soil.");
+        result +=
+            (result.empty() ? "" : "\n") + raster->remark_on_heights(body + ", \"" + entry + '"', "There is no soil.");
     };
     add(thickness, "Thickness");
     add(upper_surface, "Upper surface");
@@ -222,7 +223,7 @@ namespace scree
     double below = lower, above = upper;
     for (unsigned int i = 0; i < n_halvings; ++i)
       {
-        const double middle                                    = 0.5 * (below + above);
+        const double middle                                 = 0.5 * (below + above);
         (ground->is_open({ x, y, middle }) ? above : below) = middle;
       }
     return above;

@@ -112,7 +112,8 @@ namespace scree
       constexpr double largest = 1, largest_stress = 1e9; // Pa
       for (unsigned int i = 0; i < 3; ++i)
         if (const double strain = 0.5 * std::log(left_cauchy_green[i]); !(std::abs(strain) <= largest))
-          throw ValueError((std::abs(stress[i]) > largest_stress ? entry : modulus) + ": the initial stress at " + number_text(x) + " m, " + number_text(stress[i]) +
+          throw ValueError((std::abs(stress[i]) > largest_stress ? entry : modulus) + ": the initial stress at " +
+                           number_text(x) + " m, " + number_text(stress[i]) +
                            " Pa, would strain the soil elastically by " +
                            (std::isfinite(strain) ? number_text(strain) : "a number beyond all bounds") +
                            ", and at most 1 is allowed. Write a larger modulus, in Pa (1 MPa = 1e6 Pa), or less stress "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/initial_state.h>
 #include <scree/input/input_error.h>
-#include <scree/points/region.h>
+#include <scree/particles/region.h>
 
 #include <algorithm>
 

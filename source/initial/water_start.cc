@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/water_start.h>
 #include <scree/input/input_error.h>
-#include <scree/points/water_seeding.h>
+#include <scree/seeding/water_seeding.h>
 
 namespace scree
 {

@@ -131,9 +131,7 @@ namespace scree
     auto function             = std::make_unique<Expression<dim>>(where + " = " + text, n_components, with_time);
     const std::string fault   = read_expressions(*function, text, with_time);
     const std::string last    = dim == 1 ? "0.1*t" : "-2*x";
-    const std::string example = n_components == 1   ? of_one
-                                : n_components == 2 ? "0; " + last
-                                                    : "0; 0; " + last;
+    const std::string example = n_components == 1 ? of_one : n_components == 2 ? "0; " + last : "0; 0; " + last;
     const std::string names   = dim == 1 ? "t" : dim == 2 ? "x, y" : "x, y, z";
     // muParser reads "&&y" as "&" and a word "&y".
     const bool blank_missing =

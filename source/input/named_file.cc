@@ -11,10 +11,8 @@ namespace scree
 {
   using namespace dealii;
 
-  void add_file_entry(ParameterHandler &prm,
-                      const std::string &entry,
-                      std::string &path,
-                      const std::string &documentation)
+  void
+  add_file_entry(ParameterHandler &prm, const std::string &entry, std::string &path, const std::string &documentation)
   {
     prm.add_parameter(entry,
                       path,

@@ -30,7 +30,8 @@ namespace scree
   {
     std::ifstream in(file);
     if (!in)
-      throw EntryError(name + "the file cannot be read. Write its path from the folder of the file in which the entry stands.");
+      throw EntryError(
+          name + "the file cannot be read. Write its path from the folder of the file in which the entry stands.");
     if (in.peek() == 0xEF) // A mark of byte order may come first.
       {
         char mark[3];
@@ -69,10 +70,10 @@ namespace scree
           continue;
         const std::string place = name + "line " + std::to_string(number) + ' ';
         if (!is_whole)
-          throw EntryError(place + "is no row of " + std::to_string(columns.size()) + " numbers. Write " + wanted +
-                           " in each line, separated by commas" +
-                           (std::regex_search(line, std::regex("[0-9],[0-9]")) ? "; decimals have a point: 0.5, not 0,5."
-                                                                               : "."));
+          throw EntryError(
+              place + "is no row of " + std::to_string(columns.size()) + " numbers. Write " + wanted +
+              " in each line, separated by commas" +
+              (std::regex_search(line, std::regex("[0-9],[0-9]")) ? "; decimals have a point: 0.5, not 0,5." : "."));
         if (first_column == FirstColumn::ascending && !rows.empty() && !(row[0] > rows.back()[0]))
           throw EntryError(place + "has " + number_text(row[0]) + " after " + number_text(rows.back()[0]) +
                            " in the first column. Sort the rows by ascending " + columns[0] + ", each once.");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
-#include <scree/points/batch_pointers.h>
-#include <scree/transfer/closures.h>
+#include <scree/particles/batch_pointers.h>
+#include <scree/mixture/closures.h>
 #include <scree/transfer/point_fault.h>
 #include <scree/transfer/transfer.h>
 #include <scree/transfer/velocity_transfer.h>
@@ -22,8 +22,8 @@ namespace scree
                      const BlockMotion<dim> &motion,
                      const double time_step)
     {
-      unsigned int worst    = 0;
-      double largest        = 0., of_worst = 1.; // |dF - I|, det dF
+      unsigned int worst = 0;
+      double largest = 0., of_worst = 1.; // |dF - I|, det dF
       for (unsigned int p = 0; p < n_points; ++p)
         {
           Tensor<2, dim> increment;
@@ -31,8 +31,8 @@ namespace scree
           for (unsigned int c = 0; c < dim * dim; ++c)
             {
               increment[c / dim][c % dim] = motion.deformation_increment[c * motion.pitch + p];
-              const double part = std::abs(increment[c / dim][c % dim] - (c % (dim + 1) == 0 ? 1. : 0.));
-              change            = part <= change ? change : part; // NaN counts
+              const double part           = std::abs(increment[c / dim][c % dim] - (c % (dim + 1) == 0 ? 1. : 0.));
+              change                      = part <= change ? change : part; // NaN counts
             }
           if (!(change <= largest))
             {
@@ -98,7 +98,7 @@ namespace scree
         {
           const simd::Mask<Batch> is_loose = body.density * own[Layout::volume] > closures::loose * own[Layout::mass];
           if (simd::bits_of(is_loose) != 0)
-            carry_along<dim>(affine, time_step, is_loose);
+            push_forward_gradient<dim>(affine, time_step, is_loose);
         }
       for (unsigned int c = 0; c < dim; ++c)
         location[c] += time_step * at_points.velocity[c];

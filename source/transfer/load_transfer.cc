@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/grid/shape_functions.h>
-#include <scree/transfer/closures.h>
+#include <scree/mesh/shape_functions.h>
+#include <scree/mixture/closures.h>
 #include <scree/transfer/load_transfer.h>
 
 #include <deal.II/base/mpi.h>

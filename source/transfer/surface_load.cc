@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/points/lattice.h>
+#include <scree/particles/lattice.h>
 #include <scree/transfer/surface_load.h>
 
 #include <algorithm>

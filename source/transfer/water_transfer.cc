@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/points/batch_pointers.h>
+#include <scree/particles/batch_pointers.h>
 #include <scree/transfer/cell_sums.h>
 #include <scree/transfer/mixture_sums.h>
 #include <scree/transfer/pore_velocity.h>
@@ -160,7 +160,7 @@ namespace scree
         if (porosity != nullptr)
           {
             pores.activate_cell(cell.cell);
-            scatter<dim, n>(grains_about, grid.nodes(cell.cell), PoreField<dim>::grains_about_water, pores);
+            scatter<dim, n>(grains_about, grid.nodes(cell.cell), PoreField<dim>::local_solid_volume, pores);
           }
       }
   }

@@ -6,8 +6,8 @@
 // fuzz COUNT            checks COUNT cases in the folder where it is started
 // fuzz COUNT FOLDERS    writes COUNT cases into FOLDERS/0, FOLDERS/1, ... for a program to be started with them
 
-#include <scree/memory.h>
-#include <scree/scene.h>
+#include <scree/case/memory.h>
+#include <scree/model/scene.h>
 
 #include <deal.II/base/mpi.h>
 

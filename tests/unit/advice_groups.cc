@@ -168,7 +168,7 @@ void test_resolution()
 /// Steps of a clock that always may take `step`.
 double clock_steps(const Schedule &schedule, const double end, const double step)
 {
-  Clock clock(schedule.time_step);
+  TimeStepper clock(schedule.time_step);
   double next = schedule.output.interval;
   while (clock.time() < end * (1 - 1e-12))
     {
@@ -186,10 +186,10 @@ Observation seen(const SceneNumbers &scene)
   Observation seen;
   seen.n_first       = 10;
   seen.n_points      = scene.n_points();
-  seen.first.parts   = { { StepPart::stress, 5e-4 },
-                         { StepPart::points_to_grid, 2e-4 },
-                         { StepPart::pressure_solve, 2e-4 },
-                         { StepPart::sort, 1e-4 } };
+  seen.first.parts   = { { TimerSection::stress, 5e-4 },
+                         { TimerSection::points_to_grid, 2e-4 },
+                         { TimerSection::pressure_solve, 2e-4 },
+                         { TimerSection::sort, 1e-4 } };
   seen.first.seconds = 1e-3;
   seen.later         = seen.first;
   seen.memory        = 2e8;
@@ -211,18 +211,20 @@ void test_cost()
 
   // A pilot with a quarter of the points: its solve takes three times as long later, its sort, of which it saw nothing
   // at first, 2e-5 s; waves are twice as fast in the second half.
-  Observation pilot   = start;
-  pilot.n_points      = start.n_points / 4;
-  pilot.first.seconds = 2.5e-4;
-  pilot.first.parts   = { { StepPart::stress, 2e-4 }, { StepPart::pressure_solve, 5e-5 } };
-  pilot.later.parts   = { { StepPart::stress, 2e-4 }, { StepPart::pressure_solve, 1.5e-4 }, { StepPart::sort, 2e-5 } };
-  const double wave   = column.fastest.speed();
-  pilot.passages      = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
+  Observation pilot       = start;
+  pilot.n_points          = start.n_points / 4;
+  pilot.first.seconds     = 2.5e-4;
+  pilot.first.parts       = { { TimerSection::stress, 2e-4 }, { TimerSection::pressure_solve, 5e-5 } };
+  pilot.later.parts       = { { TimerSection::stress, 2e-4 },
+                              { TimerSection::pressure_solve, 1.5e-4 },
+                              { TimerSection::sort, 2e-5 } };
+  const double wave       = column.fastest.speed();
+  pilot.passages          = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
   const Observation whole = with_pilot(start, pilot);
   const RunCost of_whole  = cost_of_run(column, whole, schedule);
-  std::cout << "With a pilot: law " << whole.later.seconds_of(StepPart::stress) / 5e-4 << ", solve "
-            << whole.later.seconds_of(StepPart::pressure_solve) / 2e-4 << ", sort "
-            << whole.later.seconds_of(StepPart::sort) / 2e-5 << " times; steps over the first guess "
+  std::cout << "With a pilot: law " << whole.later.seconds_of(TimerSection::stress) / 5e-4 << ", solve "
+            << whole.later.seconds_of(TimerSection::pressure_solve) / 2e-4 << ", sort "
+            << whole.later.seconds_of(TimerSection::sort) / 2e-5 << " times; steps over the first guess "
             << std::round(100 * of_whole.n_steps / cost.n_steps) / 100 << ", seconds of later steps "
             << (of_whole.step_seconds - 10 * whole.first.seconds) / (of_whole.n_steps - 10) / whole.later.seconds
             << '\n';

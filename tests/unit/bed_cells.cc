@@ -8,9 +8,9 @@
 #include "random_numbers.h"
 
 #include <scree/geometry/expression_surface.h>
-#include <scree/grid/open_cells.h>
-#include <scree/grid/shape_functions.h>
-#include <scree/points/region.h>
+#include <scree/mesh/cut_cells.h>
+#include <scree/mesh/shape_functions.h>
+#include <scree/particles/region.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
@@ -63,9 +63,9 @@ Point<dim> lower_corner(const BackgroundGrid<dim> &grid, const unsigned int cell
 /// Integral of x^p (x along all axes, over the cell's width) over the open part of the box, by cells.
 template <int dim>
 double
-moment(const BackgroundGrid<dim> &grid, const OpenCells<dim> &cells, const LevelSet<dim> &ground, const unsigned int p)
+moment(const BackgroundGrid<dim> &grid, const CutCells<dim> &cells, const LevelSet<dim> &ground, const unsigned int p)
 {
-  const auto points  = OpenCells<dim>::gauss_points();
+  const auto points  = CutCells<dim>::gauss_points();
   const double width = grid.cell_size(), volume = Utilities::fixed_power<dim>(width);
   CutCell<dim> whole;
   whole.weights.fill(0.);
@@ -141,9 +141,9 @@ void test_planes()
           plane.origin[k / 2] = k % 2 ? 0.5 : 0.5 + 0.3 * width;
         }
       plane.normal /= plane.normal.norm();
-      const SampledSurface<dim> surface(grid, plane);
-      const RigidGround<dim> ground({ { &surface } });
-      const OpenCells<dim> cells(grid, ground);
+      const DiscreteLevelSet<dim> surface(grid, plane);
+      const RigidBoundary<dim> ground({ { &surface } });
+      const CutCells<dim> cells(grid, ground);
       expect(moment(grid, cells, plane, 0), exact(plane).first, 1e-11, "volume beyond a plane");
       double area = 0;
       for (const CutCell<dim> &cut : cells.cells())
@@ -151,21 +151,21 @@ void test_planes()
           expect(sum(cut.open_hats), cut.open_fraction, 1e-12, "sum of the hat functions in the open");
           expect(sum(cut.weights), cut.open_fraction, 1e-12, "sum of the weights");
         }
-      for (const GroundSegment<dim> &segment : cells.segments())
+      for (const CutFacet<dim> &segment : cells.segments())
         {
           area += segment.area;
-          expect(sum(segment.ground_hats), 1., 1e-12, "sum of the hat functions on the ground");
+          expect(sum(segment.vertex_weights), 1., 1e-12, "sum of the hat functions on the ground");
           expect(sum(segment.shapes), 1., 1e-12, "sum of the shape functions on the ground");
           expect((segment.normal + plane.normal).norm(), 0., 1e-10, "normal");
           // Hats and shapes are exact for what is linear: the ground's mean distance is 0.
           double by_hats = 0, by_shapes = 0;
           for (unsigned int v = 0; v < CutCell<dim>::n_corners; ++v)
-            by_hats +=
-                segment.ground_hats[v] * plane
-                                             .view(lower_corner(grid, segment.cell) +
-                                                       width * Tensor<1, dim>(GeometryInfo<dim>::unit_cell_vertex(v)),
-                                                   1.)
-                                             .distance;
+            by_hats += segment.vertex_weights[v] *
+                       plane
+                           .view(lower_corner(grid, segment.cell) +
+                                     width * Tensor<1, dim>(GeometryInfo<dim>::unit_cell_vertex(v)),
+                                 1.)
+                           .distance;
           for (unsigned int i = 0; i < segment.shapes.size(); ++i)
             by_shapes += segment.shapes[i] * plane.view(grid.node_position(grid.nodes(segment.cell)[i]), 1.).distance;
           expect(by_hats, 0., 1e-12, "distance of the ground by hat functions");
@@ -180,9 +180,9 @@ void test_planes()
       expect(area, (exact(behind).first - exact(ahead).first) / (2 * step), 1e-7, "area of a plane");
       // x y (z) is of first degree an axis; x^3 y^3 (z^3) of third: against a grid of other cells.
       const BackgroundGrid<dim> other = box<dim>(0.5);
-      const SampledSurface<dim> other_surface(other, plane);
-      const RigidGround<dim> other_ground({ { &other_surface } });
-      const OpenCells<dim> other_cells(other, other_ground);
+      const DiscreteLevelSet<dim> other_surface(other, plane);
+      const RigidBoundary<dim> other_ground({ { &other_surface } });
+      const CutCells<dim> other_cells(other, other_ground);
       expect(moment(grid, cells, plane, 1), moment(other, other_cells, plane, 1), 1e-11, "moment of first degree");
       expect(moment(grid, cells, plane, 3), moment(other, other_cells, plane, 3), 1e-11, "moment of third degree");
     }
@@ -199,13 +199,13 @@ void test_ball()
                                       dim == 2 ? "sqrt((x - 0.52)^2 + (y - 0.49)^2) - 0.35"
                                                : "sqrt((x - 0.52)^2 + (y - 0.49)^2 + (z - 0.5)^2) - 0.35",
                                       cell_size);
-    const SampledSurface<dim> surface(grid, ball);
-    const RigidGround<dim> ground({ { &surface } });
-    const OpenCells<dim> cells(grid, ground);
+    const DiscreteLevelSet<dim> surface(grid, ball);
+    const RigidBoundary<dim> ground({ { &surface } });
+    const CutCells<dim> cells(grid, ground);
     const double volume = 1. - moment(grid, cells, ball, 0),
                  exact  = dim == 2 ? numbers::PI * 0.35 * 0.35 : 4. / 3. * numbers::PI * 0.35 * 0.35 * 0.35;
     double area         = 0;
-    for (const GroundSegment<dim> &segment : cells.segments())
+    for (const CutFacet<dim> &segment : cells.segments())
       area += segment.area;
     const double exact_area = dim == 2 ? 2 * numbers::PI * 0.35 : 4 * numbers::PI * 0.35 * 0.35;
     return std::max(std::abs(volume / exact - 1.), std::abs(area / exact_area - 1.));

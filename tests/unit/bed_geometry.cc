@@ -10,7 +10,7 @@
 #include <scree/geometry/expression_surface.h>
 #include <scree/geometry/height_surface.h>
 #include <scree/geometry/profile.h>
-#include <scree/grid/rigid_ground.h>
+#include <scree/mesh/rigid_boundary.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -153,7 +153,7 @@ void test_samples()
                                       dim == 2 ? "2 - sqrt((x - 0.8)^2 + (y - 2.3)^2)"
                                                : "2 - sqrt((x - 0.8)^2 + (y - 0.8)^2 + (z - 2.3)^2)",
                                       cell_size);
-    const SampledSurface<dim> sampled(grid, bowl);
+    const DiscreteLevelSet<dim> sampled(grid, bowl);
     Point<dim> centre;
     for (unsigned int a = 0; a < dim; ++a)
       centre[a] = a + 1 == dim ? 2.3 : 0.8;
@@ -192,7 +192,7 @@ void test_moved_samples()
   const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
   const ExpressionSurface<dim> plane(
       "", dim == 2 ? "0.6*(x - 0.43) + 0.8*(y - 0.52)" : "0.6*(x - 0.43) + 0.8*(z - 0.52)", 0.1);
-  SampledSurface<dim> sampled(grid, plane, SurfaceMotion::rigid);
+  DiscreteLevelSet<dim> sampled(grid, plane, SurfaceMotion::rigid);
   RandomNumbers random;
   for (unsigned int k = 0; k < 40; ++k)
     {
@@ -236,12 +236,12 @@ void test_batches()
   const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
   const ExpressionSurface<dim> plane("", dim == 2 ? "0.6*x + 0.8*y - 0.4" : "0.6*x + 0.8*z - 0.4", 0.1),
       wall("", "0.7 - x", 0.1);
-  const SampledSurface<dim> at_rest(grid, plane);
-  SampledSurface<dim> moving(grid, wall, SurfaceMotion::rigid);
+  const DiscreteLevelSet<dim> at_rest(grid, plane);
+  DiscreteLevelSet<dim> moving(grid, wall, SurfaceMotion::rigid);
   Tensor<1, dim> displacement;
   displacement[0] = -0.033;
   moving.move_to(displacement);
-  const RigidGround<dim> ground({ { &at_rest }, { &moving, &displacement } });
+  const RigidBoundary<dim> ground({ { &at_rest }, { &moving, &displacement } });
   RandomNumbers random;
   unsigned int n_near = 0;
   for (unsigned int cell = 0; cell < grid.triangulation().n_active_cells(); ++cell)

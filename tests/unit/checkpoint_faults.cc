@@ -5,8 +5,8 @@
 // written costs no older one.
 
 #include <scree/input/input_error.h>
-#include <scree/output/checkpoint.h>
-#include <scree/output/whole_file.h>
+#include <scree/io/checkpoint.h>
+#include <scree/io/whole_file.h>
 
 #include <deal.II/base/mpi.h>
 

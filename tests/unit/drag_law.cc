@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Drag of grains: Ergun's gradient of the pressure at all speeds, the law of a given conductivity, a step of soil and
 // water whose drag grows with the slip, and which water of a cell drag acts on.
-#include <scree/points/drag_law.h>
-#include <scree/scheme/drag_pair.h>
-#include <scree/transfer/mixture.h>
+#include <scree/bodies/drag_law.h>
+#include <scree/momentum/drag_block.h>
+#include <scree/mixture/mixture.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ void solve_steps()
   double error = 0;
   for (unsigned int trial = 0; trial < 10000; ++trial)
     {
-      DragPair<2> pair{ random.uniform(1e-3, 2.), random.uniform(1e-3, 2.), random.log_uniform(1e-9, 1e6), {}, {} };
+      DragBlock<2> pair{ random.uniform(1e-3, 2.), random.uniform(1e-3, 2.), random.log_uniform(1e-9, 1e6), {}, {} };
       const double angle = random.uniform(0., 6.3), inertial = random.log_uniform(1e-9, 1e6);
       const Tensor<1, 2> across({ std::cos(angle), std::sin(angle) }), along({ -across[1], across[0] });
       if (trial % 3 == 1)
@@ -58,10 +58,10 @@ void solve_steps()
           pair.held_water.hold(across);
         }
       SoilAndWater<2> r;
-      r.soil              = random.uniform(-1., 1.) * along + random.uniform(-1., 1.) * across;
-      r.water             = random.uniform(-1., 1.) * along + random.uniform(-1., 1.) * across;
-      const double slip   = pair.slip_speed(r, inertial);
-      DragPair<2> dragged = pair;
+      r.soil               = random.uniform(-1., 1.) * along + random.uniform(-1., 1.) * across;
+      r.water              = random.uniform(-1., 1.) * along + random.uniform(-1., 1.) * across;
+      const double slip    = pair.slip_speed(r, inertial);
+      DragBlock<2> dragged = pair;
       dragged.drag += inertial * slip;
       const SoilAndWater<2> v = dragged.solve(r);
       // Velocities, of which the slip is a difference, are known to 1e-16 of them.
@@ -71,9 +71,9 @@ void solve_steps()
   std::cout << "10000 random pairs: slip of the step: " << (error < 1e-10 ? "yes" : "NO") << std::endl;
 
   // Alone with the square of the slip: w' = -a w^2, of which a step of any length keeps the sign.
-  HeldDirections<2> all;
+  ConstrainedDirections<2> all;
   all.hold_all();
-  const DragPair<2> pair{ 1., 1., 0., all, {} };
+  const DragBlock<2> pair{ 1., 1., 0., all, {} };
   std::cout << "slip of 1 m/s after a step with a dt of 2 and of 6 s/m: "
             << pair.slip_speed({ Tensor<1, 2>(), Tensor<1, 2>({ 1., 0. }) }, 2.) << ' '
             << pair.slip_speed({ Tensor<1, 2>(), Tensor<1, 2>({ 0., -1. }) }, 6.) << std::endl;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Soil and water at a node, tied by drag: the equations hold for any drag and any walls, momentum is kept, the limits
 // are right.
-#include <scree/scheme/drag_pair.h>
+#include <scree/momentum/drag_block.h>
 
 #include <cmath>
 #include <iostream>
@@ -12,7 +12,7 @@ using namespace dealii;
 using namespace scree;
 
 /// Holds the axes, turned by an angle, whose bit is set.
-void hold(const unsigned int axes, const double angle, HeldDirections<2> &held)
+void hold(const unsigned int axes, const double angle, ConstrainedDirections<2> &held)
 {
   for (unsigned int a = 0; a < 2; ++a)
     if ((axes >> a) & 1)
@@ -29,7 +29,7 @@ int main()
       const double drag = random.log_uniform(1e-12, 1e12);
       // Walls along the axes, and every other time along axes that are turned.
       const double angle = trial % 32 < 16 ? 0. : random.uniform(0., 6.3);
-      DragPair<2> pair{ random.uniform(1e-6, 2.), random.uniform(1e-6, 2.), drag, {}, {} };
+      DragBlock<2> pair{ random.uniform(1e-6, 2.), random.uniform(1e-6, 2.), drag, {}, {} };
       hold(trial % 4, angle, pair.held_soil);
       hold((trial / 4) % 4, angle, pair.held_water);
       SoilAndWater<2> r;
@@ -63,15 +63,15 @@ int main()
   SoilAndWater<2> r;
   r.soil[0]          = 3.;
   r.water[0]         = -1.;
-  const auto no_wall = HeldDirections<2>();
-  SoilAndWater<2> v  = DragPair<2>{ 2., 1., 0., no_wall, no_wall }.solve(r);
+  const auto no_wall = ConstrainedDirections<2>();
+  SoilAndWater<2> v  = DragBlock<2>{ 2., 1., 0., no_wall, no_wall }.solve(r);
   std::cout << "no drag: " << v.soil[0] << ' ' << v.water[0] << std::endl;
-  v = DragPair<2>{ 2., 1., 1e300, no_wall, no_wall }.solve(r);
+  v = DragBlock<2>{ 2., 1., 1e300, no_wall, no_wall }.solve(r);
   std::cout << "endless drag: " << 3. * v.soil[0] << ' ' << 3. * v.water[0] << std::endl;
-  v = DragPair<2>{ 2., 0., 0., no_wall, no_wall }.solve({ r.soil, Tensor<1, 2>() });
+  v = DragBlock<2>{ 2., 0., 0., no_wall, no_wall }.solve({ r.soil, Tensor<1, 2>() });
   std::cout << "soil alone: " << v.soil[0] << ' ' << v.water[0] << std::endl;
-  HeldDirections<2> wall;
+  ConstrainedDirections<2> wall;
   hold(1, 0., wall);
-  v = DragPair<2>{ 2., 1., 3., wall, no_wall }.solve(r);
+  v = DragBlock<2>{ 2., 1., 3., wall, no_wall }.solve(r);
   std::cout << "soil fixed along x: " << v.soil[0] << ' ' << v.water[0] << std::endl;
 }

@@ -2,9 +2,9 @@
 #ifndef scree_tests_unit_elastic_soil_h
 #define scree_tests_unit_elastic_soil_h
 
-#include <scree/grid/background_grid.h>
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
 
 #include <string>
 

@@ -4,7 +4,7 @@
 // rounding, a random field has no jump across a face (splines: nor has its gradient), nodes are as many as the tensor
 // product of the one-dimensional bases has, and those on a wall say so.
 
-#include <scree/grid/background_grid.h>
+#include <scree/mesh/background_grid.h>
 
 #include <deal.II/base/mpi.h>
 

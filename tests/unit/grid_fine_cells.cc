@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Fine cells around two cubes in boxes of several sizes, none a multiple of the coarse cells: as many cells and nodes
 // in each, whose linear functions are exact; and the same after the cubes have moved away and come back.
-#include <scree/grid/background_grid.h>
+#include <scree/mesh/background_grid.h>
 
 #include <deal.II/base/mpi.h>
 

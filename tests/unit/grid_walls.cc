@@ -3,8 +3,8 @@
 // Walls: what each does to the velocity of a node, of soil and of water; walls oblique to the axes and Coulomb's law; a
 // gate; a block that slides on friction; points that leave.
 
-#include <scree/grid/constraints.h>
-#include <scree/simulation.h>
+#include <scree/boundary/constraints.h>
+#include <scree/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -78,7 +78,7 @@ void test_water(std::ostream &out)
   wet.check(3);
   const WaterBoundaryConditions<3> water(grid, wet);
   const std::uint8_t left = 1, right = 2, front = 4, top = 32;
-  const auto held = [](const HeldDirections<3> &directions) {
+  const auto held = [](const ConstrainedDirections<3> &directions) {
     unsigned int axes = 0;
     for (unsigned int a = 0; a < 3; ++a)
       if (directions.free_part(Point<3>::unit_vector(a)).norm() == 0)
@@ -109,8 +109,8 @@ void test_water(std::ostream &out)
       constraints.add(constraint);
     return constraints;
   };
-  AssertThrow(held(of_faces(left | back).soil_held) == 7 && held(of_faces(right | top).soil_held) == 1 &&
-                  held(of_faces(back | top).soil_held) == 0,
+  AssertThrow(held(of_faces(left | back).soil_constraint) == 7 && held(of_faces(right | top).soil_constraint) == 1 &&
+                  held(of_faces(back | top).soil_constraint) == 0,
               ExcMessage("The soil's walls hold the wrong components."));
   const auto friction = soil.constraints(back | top);
   AssertThrow(friction.size() == 1 && friction[0].type == NodeConstraint<3>::Type::unilateral &&
@@ -145,7 +145,7 @@ void test_constraints(std::ostream &out)
                   is(after_wall(Type::unilateral, -2. * normal + 3. * along), 2. * along) &&
                   is(after_wall(Type::unilateral, -2. * normal + 0.9 * along), Tensor<1, 2>()),
               ExcMessage("An oblique wall acts otherwise."));
-  HeldDirections<2> held;
+  ConstrainedDirections<2> held;
   held.hold(normal);
   held.hold((normal + along) / std::sqrt(2.));
   AssertThrow(held.free_part(needed).norm() < 1e-14, ExcMessage("Two walls leave something free in the plane."));
@@ -157,7 +157,7 @@ void test_constraints(std::ostream &out)
     unsigned int n = 0;
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
       if (const auto *at = constraints.at(node))
-        n += at->soil_held.free_part(Tensor<1, 2>({ 1., 2. })).norm() == 0;
+        n += at->soil_constraint.free_part(Tensor<1, 2>({ 1., 2. })).norm() == 0;
     return Utilities::MPI::sum(n, MPI_COMM_WORLD);
   };
   const unsigned int open = n_held();

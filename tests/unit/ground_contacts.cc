@@ -6,7 +6,7 @@
 #include "expect.h"
 #include "scattered_mixture.h"
 
-#include <scree/scheme/ground_contacts.h>
+#include <scree/contact/cut_cells/contact_solver.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -23,9 +23,9 @@ constexpr double tolerance = 1e-9; // of the flow
 
 /// The contacts of all segments: a third of the soil sticks, the rest rubs or slips, as little water as may leave.
 template <int dim>
-void add_contacts(const ScatteredMixture<dim> &mixture, const double first, GroundContacts<dim> &contacts)
+void add_contacts(const ScatteredMixture<dim> &mixture, const double first, ContactSolver<dim> &contacts)
 {
-  const auto &segments = mixture.open_cells.segments();
+  const auto &segments = mixture.cut_cells.segments();
   for (unsigned int s = 0; s < segments.size(); ++s)
     for (const Phase phase : { Phase::soil, Phase::water })
       {
@@ -50,8 +50,8 @@ template <int dim>
 void test(const std::string &ground_expression, std::ostream &out)
 {
   ScatteredMixture<dim> mixture(ground_expression);
-  GroundContacts<dim> contacts(mixture.grid, mixture.open_cells);
-  GroundResponse<dim> response(mixture.grid, mixture.open_cells);
+  ContactSolver<dim> contacts(mixture.grid, mixture.cut_cells);
+  DelassusOperator<dim> response(mixture.grid, mixture.cut_cells);
   std::array<double, 2> products;
   for (const double first : { 0., 0.2 })
     {

@@ -6,7 +6,7 @@
 #include "expect.h"
 #include "scattered_mixture.h"
 
-#include <scree/scheme/ground_response.h>
+#include <scree/contact/cut_cells/delassus_operator.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,14 +21,14 @@ void test(const std::string &ground_expression, std::ostream &out)
 {
   constexpr unsigned int mass = NodalField<dim>::mass, velocity = NodalField<dim>::velocity;
   ScatteredMixture<dim> mixture(ground_expression);
-  const BackgroundGrid<dim> &grid  = mixture.grid;
-  const OpenCells<dim> &open_cells = mixture.open_cells;
-  const MixtureStep<dim> &step     = mixture.step;
-  const MixtureNodes<dim> &nodes   = mixture.nodes;
+  const BackgroundGrid<dim> &grid   = mixture.grid;
+  const CutCells<dim> &cut_cells    = mixture.cut_cells;
+  const TwoPhaseMomentum<dim> &step = mixture.step;
+  const MixtureNodes<dim> &nodes    = mixture.nodes;
 
-  GroundResponse<dim> response(grid, open_cells);
+  DelassusOperator<dim> response(grid, cut_cells);
   response.begin_step();
-  const auto &segments = open_cells.segments();
+  const auto &segments = cut_cells.segments();
   std::vector<Tensor<1, dim>> first, second, of_first, of_second; // N s, and what they do, m/s
   for (unsigned int s = 0; s < segments.size(); ++s)
     for (const Phase phase : { Phase::soil, Phase::water })
@@ -64,15 +64,15 @@ void test(const std::string &ground_expression, std::ostream &out)
     expect(apart, 0., 1e-11, "velocities after changes of single impulses");
 
   // The nodes themselves: absent phases follow the other, but feel no impulse.
-  StepBalance<dim> balance;
+  Budget<dim> balance;
   response.take(first, nodes, step, balance);
   mixture.soil.update_ghosts();
   mixture.water.update_ghosts();
   double difference = 0, size = 0;
   for (unsigned int k = 0; k < first.size(); ++k)
     {
-      const GroundSegment<dim> &segment = segments[k / 2];
-      const NodalField<dim> &phase      = k % 2 == 0 ? mixture.soil : mixture.water;
+      const CutFacet<dim> &segment = segments[k / 2];
+      const NodalField<dim> &phase = k % 2 == 0 ? mixture.soil : mixture.water;
       Tensor<1, dim> mean;
       for (unsigned int i = 0; i < segment.shapes.size(); ++i)
         if (const double *node = phase[grid.nodes(segment.cell)[i]]; node[mass] > 0.)

@@ -2,7 +2,7 @@
 
 // Energy is the potential of the stress; plane strain is three dimensions without the third.
 
-#include <scree/material/table.h>
+#include <scree/materials/table.h>
 
 #include <deal.II/base/exceptions.h>
 

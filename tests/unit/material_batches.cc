@@ -3,11 +3,11 @@
 // Laws in batches against the same laws point by point, at random and odd states; what comes out of a point is the same
 // to the last bit wherever it stands among the others. Argument: states of each kind.
 
-#include <scree/material/batch_material.h>
-#include <scree/material/linear_elastic.h>
-#include <scree/material/mohr_coulomb_return.h>
-#include <scree/material/nor_sand_return.h>
-#include <scree/material/principal_batch_material.h>
+#include <scree/materials/batch_material.h>
+#include <scree/materials/laws/linear_elastic.h>
+#include <scree/materials/laws/mohr_coulomb_return.h>
+#include <scree/materials/laws/nor_sand_return.h>
+#include <scree/materials/principal_batch_material.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

@@ -2,7 +2,7 @@
 
 // A path seen by a turning observer: the stress turns along.
 
-#include <scree/material/table.h>
+#include <scree/materials/table.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/physics/transformations.h>

@@ -2,7 +2,7 @@
 
 // Motions, starts and parameters that cannot be: an exception that says why, never a hang or a quiet wrong number.
 
-#include <scree/material/table.h>
+#include <scree/materials/table.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -45,7 +45,8 @@ void test_motions(const std::string &law)
       increment[i][i] = 1;
     increment[0][0] = component;
     UpdateReport report;
-    material->update({ 1, 0, left_cauchy_green, stress, internal_variables }, { &increment[0][0], &one, &J, &one }, report);
+    material->update(
+        { 1, 0, left_cauchy_green, stress, internal_variables }, { &increment[0][0], &one, &J, &one }, report);
   };
   const std::string name = law + ", " + std::to_string(dim) + "D: ", wanted = "cannot follow";
   expect_refusal(

@@ -2,7 +2,7 @@
 
 // Random returns: on the yield surface, dissipating, dilating as the dilation angle says; a gap is kept and closed.
 
-#include <scree/material/mohr_coulomb.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Two masses in contact at a node: what is pulled apart is let go, nothing approaches faster than the gap allows,
 // friction obeys Coulomb's law and only slows down; momentum is kept, energy is not made; limits are right.
-#include <scree/scheme/node_contact.h>
+#include <scree/contact/node_contact.h>
 
 #include <cmath>
 #include <iostream>

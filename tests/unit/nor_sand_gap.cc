@@ -2,7 +2,7 @@
 
 // Sand pulled apart bears nothing until the gap is closed again, to the volume where it came apart.
 
-#include <scree/material/table.h>
+#include <scree/materials/table.h>
 
 #include <deal.II/base/exceptions.h>
 

@@ -2,7 +2,7 @@
 
 // Random and extreme returns: always a number, never tension, never outside the yield surface, never unresolved.
 
-#include <scree/material/nor_sand.h>
+#include <scree/materials/laws/nor_sand.h>
 
 #include <deal.II/base/exceptions.h>
 

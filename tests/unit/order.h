@@ -3,7 +3,7 @@
 #ifndef tests_order_h
 #define tests_order_h
 
-#include <scree/simulation.h>
+#include <scree/run/simulation.h>
 
 #include <cstdio>
 #include <fstream>

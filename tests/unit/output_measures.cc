@@ -4,11 +4,11 @@
 
 #include "expect.h"
 
-#include <scree/material/table.h>
-#include <scree/output/measures.h>
+#include <scree/materials/table.h>
+#include <scree/postprocess/measures.h>
 #include <scree/tensor/invariants.h>
-#include <scree/output/point_sums.h>
-#include <scree/points/seeding.h>
+#include <scree/postprocess/point_sums.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 

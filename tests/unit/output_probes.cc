@@ -5,10 +5,10 @@
 
 #include "expect.h"
 
-#include <scree/material/table.h>
-#include <scree/output/columns.h>
-#include <scree/output/place_values.h>
-#include <scree/points/seeding.h>
+#include <scree/materials/table.h>
+#include <scree/postprocess/columns.h>
+#include <scree/postprocess/place_values.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -5,10 +5,10 @@
 
 #include "expect.h"
 
-#include <scree/material/table.h>
-#include <scree/output/graphics.h>
-#include <scree/output/statistics.h>
-#include <scree/points/seeding.h>
+#include <scree/materials/table.h>
+#include <scree/postprocess/visualization/graphics.h>
+#include <scree/postprocess/statistics.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,7 +3,7 @@
 // K0 start: the vertical stress of every point is the weight above it, below an inclined surface and through a second
 // layer; horizontal stresses are K0 times that, shear is none. On one rank and on two.
 
-#include <scree/simulation.h>
+#include <scree/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,7 +3,7 @@
 // Points of the lower half of a box cost nine times those of the upper: the ranks' shares of points are even at first,
 // those of cost after a repartition by measured cost. A measurement that was interrupted spoils nothing.
 
-#include <scree/points/partition.h>
+#include <scree/particles/partition.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/mapping_cartesian.h>

@@ -4,9 +4,9 @@
 // where it is not; no point has less than a quarter of a cube's volume; all points lie where their cell says; 1 and 2
 // ranks make the same points.
 
-#include <scree/grid/background_grid.h>
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 

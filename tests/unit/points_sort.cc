@@ -7,7 +7,7 @@
 
 #include "random_numbers.h"
 
-#include <scree/points/point_set.h>
+#include <scree/particles/point_set.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria.h>

@@ -3,10 +3,10 @@
 // Seeding of water: it has the volume of its region outside the soil and of the pores inside, also where the surfaces
 // of water and soil cut the lattice; single-point water fills the pores of its soil; bodies without pores are refused.
 
-#include <scree/grid/background_grid.h>
+#include <scree/mesh/background_grid.h>
 #include <scree/input/input_error.h>
-#include <scree/material/table.h>
-#include <scree/points/water_seeding.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/water_seeding.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -4,10 +4,10 @@
 // is the weight above less the pressure. Below a level and an inclined bed, with the water table above and inside the
 // soil, in two layers, and with gravity along any axis.
 
-#include <scree/grid/background_grid.h>
+#include <scree/mesh/background_grid.h>
 #include <scree/initial/water_start.h>
-#include <scree/material/table.h>
-#include <scree/points/water_seeding.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/water_seeding.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,7 +3,7 @@
 #define scree_tests_unit_scattered_mixture_h
 
 #include <scree/geometry/expression_surface.h>
-#include <scree/scheme/mixture_step.h>
+#include <scree/momentum/two_phase_momentum.h>
 
 #include <cmath>
 #include <string>
@@ -39,7 +39,7 @@ struct ScatteredMixture
       , surface("", ground_expression, grid.cell_size())
       , samples(grid, surface)
       , ground({ { &samples } })
-      , open_cells(grid, ground)
+      , cut_cells(grid, ground)
       , walls(grid, scree::BoundaryParameters())
       , water_walls(grid, scree::WaterBoundaryParameters())
       , constraints(grid, walls, &water_walls)
@@ -75,22 +75,22 @@ struct ScatteredMixture
   }
 
   /// A place that tells a segment from others.
-  dealii::Point<dim> place_of(const scree::GroundSegment<dim> &segment) const
+  dealii::Point<dim> place_of(const scree::CutFacet<dim> &segment) const
   {
     return grid.node_position(grid.nodes(segment.cell)[0]);
   }
 
   const scree::BackgroundGrid<dim> grid;
   const scree::ExpressionSurface<dim> surface;
-  const scree::SampledSurface<dim> samples;
-  const scree::RigidGround<dim> ground;
-  const scree::OpenCells<dim> open_cells;
+  const scree::DiscreteLevelSet<dim> samples;
+  const scree::RigidBoundary<dim> ground;
+  const scree::CutCells<dim> cut_cells;
   const scree::BoundaryConditions<dim> walls;
   const scree::WaterBoundaryConditions<dim> water_walls;
   scree::Constraints<dim> constraints;
-  const scree::Forcing<dim> forcing;
+  const scree::BodyForces<dim> forcing;
   const scree::WallGaps<dim> wall_gaps;
-  const scree::MixtureStep<dim> step;
+  const scree::TwoPhaseMomentum<dim> step;
   scree::NodalField<dim> soil, water;
   scree::PoreField<dim> pores;
   const scree::MixtureNodes<dim> nodes;

@@ -8,8 +8,8 @@
 #include "elastic_soil.h"
 #include "expect.h"
 
-#include <scree/points/water_seeding.h>
-#include <scree/scheme/soil_gaps.h>
+#include <scree/seeding/water_seeding.h>
+#include <scree/pressure/soil_gaps.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/mpi.h>

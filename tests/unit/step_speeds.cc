@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Speeds that limit a step: the largest, and a point whose speed is not a number is told in whatever order it comes.
-#include <scree/scheme/step_report.h>
+#include <scree/step/step_report.h>
 
 #include <iostream>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Viscosity of suspensions against the laws as published, and how much of the soil is one.
-#include <scree/points/suspension.h>
+#include <scree/bodies/suspension.h>
 
 #include <cmath>
 #include <iostream>

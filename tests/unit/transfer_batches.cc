@@ -4,9 +4,9 @@
 // for every basis, transfer, F-bar and law, with cells of one point and batches that are not full. Nodes move at
 // random.
 
-#include <scree/material/hencky_material.h>
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
+#include <scree/materials/hencky_material.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/matrix.h>
 #include <scree/transfer/transfer.h>

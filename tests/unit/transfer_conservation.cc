@@ -14,7 +14,7 @@
 // which is B only where the nodes' motion is linear. PIC and FLIP carry no spin at all, and PIC loses what it cannot
 // carry at each step.
 
-#include <scree/simulation.h>
+#include <scree/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
 

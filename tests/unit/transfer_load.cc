@@ -4,8 +4,8 @@
 // moment; markers move with the nodes' velocity and stay in the box, and the work is that of the force at the nodes. A
 // uniform stress is in balance with the load wherever the soil's face lies in its cell. On one rank and on two.
 
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
 #include <scree/transfer/load_transfer.h>
 #include <scree/transfer/transfer.h>
 

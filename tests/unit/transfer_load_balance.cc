@@ -5,8 +5,8 @@
 // markers' shape functions a node that soil just reaches is pushed by several times what its soil bears.) The load
 // arrives whole. On one rank and on two.
 
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
 #include <scree/transfer/load_transfer.h>
 #include <scree/transfer/transfer.h>
 

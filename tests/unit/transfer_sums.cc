@@ -4,8 +4,8 @@
 // whole, and internal forces of any stress cancel, because shape functions sum to one and their gradients to zero. The
 // body touches walls and has oblique edges; stress, velocity and affine matrix are random.
 
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
 #include <scree/transfer/transfer.h>
 
 #include <deal.II/base/mpi.h>

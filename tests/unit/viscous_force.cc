@@ -3,8 +3,8 @@
 // part of the box with oblique edges: it is symmetric, takes energy, adds up to nothing with its moments, does not feel
 // rigid motion, dissipates mu V of unit shear, and no motion is slowed faster than largest_rate() says.
 
-#include <scree/points/water_seeding.h>
-#include <scree/transfer/viscous_force.h>
+#include <scree/seeding/water_seeding.h>
+#include <scree/viscosity/viscous_force.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -7,9 +7,9 @@
 
 #include "expect.h"
 
-#include <scree/points/water_seeding.h>
-#include <scree/scheme/box_walls.h>
-#include <scree/scheme/wall_gaps.h>
+#include <scree/seeding/water_seeding.h>
+#include <scree/boundary/clamp_to_box.h>
+#include <scree/boundary/wall_gaps.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/mpi.h>
@@ -106,7 +106,7 @@ struct Box
   WallGaps<2> gaps;
   PointSet<2> points;
   NodalField<2> soil, water;
-  Forcing<2> forcing;
+  BodyForces<2> forcing;
 };
 
 int main(int argc, char *argv[])
@@ -196,7 +196,7 @@ int main(int argc, char *argv[])
         Box box;
         box.add(start, rest);
         for_each_point(box.points, [&](const auto &point) { point.location = moved; });
-        hold_in_box(box.grid, box.water_walls.closed_faces(), box.points);
+        clamp_to_box(box.grid, box.water_walls.closed_faces(), box.points);
         double error = 0;
         for_each_point(box.points, [&](const auto &point) { error = point.location.distance(end); });
         expect(Utilities::MPI::max(error, MPI_COMM_WORLD), 0., 2e-6 * h, what + ": error of the place");

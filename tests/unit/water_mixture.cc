@@ -8,9 +8,9 @@
 #include "elastic_soil.h"
 #include "pattern.h"
 
-#include <scree/points/water_seeding.h>
-#include <scree/scheme/mixture_divergence.h>
-#include <scree/scheme/pressure_solver.h>
+#include <scree/seeding/water_seeding.h>
+#include <scree/pressure/divergence.h>
+#include <scree/pressure/pressure_solver.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
@@ -162,7 +162,7 @@ void test(const std::string &basis, std::ostream &out)
   surface.locate(mixture, pressure);
   double error = 0, unknowns = 0;
   for (const unsigned int corner : surface.wet_corners())
-    if (surface.kind(corner) == CornerKind::unknown)
+    if (surface.kind(corner) == PressureDofType::unknown)
       {
         ++unknowns;
         error = std::max(error, std::abs(pressure.local_element(corner) - linear(corners.position(corner))));
@@ -263,7 +263,7 @@ void test(const std::string &basis, std::ostream &out)
   PressureSolver<dim> solver(grid, corners, PressureParameters());
   CornerVector source(corners.partitioner()), change(corners.partitioner());
   for (const unsigned int corner : surface.wet_corners())
-    if (surface.kind(corner) == CornerKind::unknown)
+    if (surface.kind(corner) == PressureDofType::unknown)
       source.local_element(corner) = surface.volume_under(corner);
   double work[2];
   for (double &sum : work)

@@ -11,9 +11,9 @@
 
 #include "pattern.h"
 
-#include <scree/material/table.h>
-#include <scree/points/seeding.h>
-#include <scree/points/water_seeding.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
+#include <scree/seeding/water_seeding.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/mpi.h>
@@ -97,7 +97,7 @@ namespace
       water_field.add_contributions();
       for (const unsigned int node : pores.active_nodes())
         pores[node][PoreField<dim>::soil_share] =
-            soil_share(pores[node][PoreField<dim>::grain_volume], pores[node][PoreField<dim>::grains_about_water]);
+            soil_share(pores[node][PoreField<dim>::grain_volume], pores[node][PoreField<dim>::local_solid_volume]);
       for (const unsigned int node : water_field.active_nodes())
         for (unsigned int c = 0; c < dim; ++c)
           if (const double mass = water_field[node][Field::mass]; mass > 0.)

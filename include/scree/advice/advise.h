@@ -2,7 +2,7 @@
 #ifndef scree_advice_advise_h
 #define scree_advice_advise_h
 
-#include <scree/parameters.h>
+#include <scree/case/parameters.h>
 
 #include <mpi.h>
 

@@ -3,9 +3,9 @@
 #define scree_advice_cost_h
 
 #include <scree/advice/scene_numbers.h>
-#include <scree/output/output_parameters.h>
-#include <scree/scheme/step_part.h>
-#include <scree/scheme/time_step.h>
+#include <scree/io/output_parameters.h>
+#include <scree/step/timer_section.h>
+#include <scree/schemes/time_step.h>
 
 #include <map>
 #include <vector>
@@ -15,11 +15,11 @@ namespace scree
   /// What steps of a case take on this machine, core-seconds of all ranks together.
   struct StepCost
   {
-    double seconds = 0;               ///< a step
-    std::map<StepPart, double> parts; ///< of `seconds`
+    double seconds = 0;                   ///< a step
+    std::map<TimerSection, double> parts; ///< of `seconds`
 
     /// 0 if the part was not met.
-    double seconds_of(const StepPart part) const;
+    double seconds_of(const TimerSection part) const;
 
     /// What is in no part.
     double rest() const;

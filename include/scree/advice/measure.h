@@ -3,7 +3,7 @@
 #define scree_advice_measure_h
 
 #include <scree/advice/cost.h>
-#include <scree/simulation.h>
+#include <scree/run/simulation.h>
 
 namespace scree
 {

@@ -3,7 +3,7 @@
 #define scree_advice_regime_h
 
 #include <scree/advice/groups.h>
-#include <scree/points/water_parameters.h>
+#include <scree/bodies/water_parameters.h>
 
 #include <string>
 

@@ -3,8 +3,8 @@
 #define scree_advice_resolution_h
 
 #include <scree/advice/scene_numbers.h>
-#include <scree/grid/background_grid.h>
-#include <scree/scheme/time_step.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/schemes/time_step.h>
 
 #include <algorithm>
 #include <string>

@@ -3,7 +3,7 @@
 #define scree_advice_survey_h
 
 #include <scree/advice/scene_numbers.h>
-#include <scree/simulation.h>
+#include <scree/run/simulation.h>
 
 namespace scree
 {

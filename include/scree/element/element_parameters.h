@@ -3,7 +3,7 @@
 #ifndef scree_element_element_parameters_h
 #define scree_element_element_parameters_h
 
-#include <scree/material/table.h>
+#include <scree/materials/table.h>
 
 namespace scree
 {

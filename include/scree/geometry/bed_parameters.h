@@ -48,7 +48,7 @@ namespace scree
     BedType type_kind() const;
 
     /// Whether free water does not slip along it.
-    bool holds_water() const
+    bool no_slip() const
     {
       return for_water == "no slip";
     }

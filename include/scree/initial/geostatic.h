@@ -2,9 +2,9 @@
 #ifndef scree_initial_geostatic_h
 #define scree_initial_geostatic_h
 
-#include <scree/grid/background_grid.h>
-#include <scree/points/soil_body.h>
-#include <scree/points/region.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/bodies/soil_body.h>
+#include <scree/particles/region.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -76,8 +76,7 @@ namespace scree
   /// Collective; throws EntryError if the law cannot bear that.
   /// @param modulus entry and value of the soil's stiffness, for messages
   template <int dim>
-  void
-  set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0, const std::string &modulus);
+  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0, const std::string &modulus);
 
   /// Gives the points an isotropic stress, Pa, compression positive. Collective; throws EntryError if the law cannot
   /// bear that.

@@ -3,9 +3,9 @@
 #define scree_initial_water_start_h
 
 #include <scree/initial/geostatic.h>
-#include <scree/points/seeding.h>
-#include <scree/points/water_parameters.h>
-#include <scree/points/water_phase.h>
+#include <scree/seeding/seeding.h>
+#include <scree/bodies/water_parameters.h>
+#include <scree/bodies/water_phase.h>
 
 #include <vector>
 

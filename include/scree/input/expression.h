@@ -32,7 +32,7 @@ namespace scree
   std::unique_ptr<Expression<dim>> parse_expression(const std::string &where,
                                                     const std::string &text,
                                                     const unsigned int n_components,
-                                                    const bool with_time      = false,
+                                                    const bool with_time       = false,
                                                     const std::string &example = "");
 } // namespace scree
 

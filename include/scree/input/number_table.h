@@ -8,7 +8,8 @@
 
 namespace scree
 {
-  /// Opens a file that an entry names, behind a mark of byte order if it begins with one; throws EntryError if that fails.
+  /// Opens a file that an entry names, behind a mark of byte order if it begins with one; throws EntryError if that
+  /// fails.
   /// @param name entry_name() and the file's, for the message: `entry "Record" = a.csv: `
   std::ifstream open_file(const std::string &file, const std::string &name);
 

@@ -2,7 +2,7 @@
 #ifndef scree_transfer_affine_field_h
 #define scree_transfer_affine_field_h
 
-#include <scree/transfer/node_rows.h>
+#include <scree/mesh/node_rows.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <deal.II/base/config.h>

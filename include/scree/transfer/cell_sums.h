@@ -2,7 +2,7 @@
 #ifndef scree_transfer_cell_sums_h
 #define scree_transfer_cell_sums_h
 
-#include <scree/grid/nodal_field.h>
+#include <scree/mesh/nodal_field.h>
 #include <scree/simd/sums.h>
 #include <scree/transfer/affine_field.h>
 

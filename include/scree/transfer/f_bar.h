@@ -2,7 +2,7 @@
 #ifndef scree_transfer_f_bar_h
 #define scree_transfer_f_bar_h
 
-#include <scree/material/material.h>
+#include <scree/materials/material.h>
 #include <scree/simd/records.h>
 #include <scree/transfer/transfer_parameters.h>
 

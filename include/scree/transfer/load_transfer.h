@@ -2,7 +2,7 @@
 #ifndef scree_transfer_load_transfer_h
 #define scree_transfer_load_transfer_h
 
-#include <scree/grid/nodal_field.h>
+#include <scree/mesh/nodal_field.h>
 #include <scree/transfer/surface_load.h>
 
 #include <array>

@@ -23,7 +23,7 @@ namespace scree
     {
       bool any = false;
       for (unsigned int i = 0; i < n_nodes; ++i)
-        any |= pores[nodes[i]][PoreField<dim>::grains_about_water] > 0.;
+        any |= pores[nodes[i]][PoreField<dim>::local_solid_volume] > 0.;
       return any;
     }
 
@@ -61,7 +61,7 @@ namespace scree
       for (unsigned int i = 0; i < n_nodes; ++i)
         {
           const double mass   = nodes.water[ids[i]][NodalField<dim>::mass];
-          const double grains = nodes.pores[ids[i]][PoreField<dim>::grains_about_water];
+          const double grains = nodes.pores[ids[i]][PoreField<dim>::local_solid_volume];
           result[i]           = grains > 0. ? mass / (mass + water_density * grains) : 1.;
         }
       return result;

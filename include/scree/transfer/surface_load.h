@@ -2,8 +2,8 @@
 #ifndef scree_transfer_surface_load_h
 #define scree_transfer_surface_load_h
 
-#include <scree/grid/background_grid.h>
-#include <scree/points/soil_body.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/bodies/soil_body.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_handler.h>

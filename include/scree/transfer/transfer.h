@@ -2,10 +2,10 @@
 #ifndef scree_transfer_transfer_h
 #define scree_transfer_transfer_h
 
-#include <scree/grid/nodal_field.h>
-#include <scree/points/soil_body.h>
+#include <scree/mesh/nodal_field.h>
+#include <scree/bodies/soil_body.h>
 #include <scree/transfer/f_bar.h>
-#include <scree/transfer/mixture.h>
+#include <scree/mixture/mixture.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <vector>
@@ -62,8 +62,8 @@ namespace scree
                      const double keep,
                      const unsigned int first);
 
-    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws PointFault
-    /// if a point is deformed too much in a step.
+    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws
+    /// PointFault if a point is deformed too much in a step.
     void update_state(const SoilBody<dim> &body,
                       const CellPoints<dim> &cell,
                       const unsigned int n_points,

@@ -2,7 +2,7 @@
 #ifndef scree_transfer_velocity_transfer_h
 #define scree_transfer_velocity_transfer_h
 
-#include <scree/grid/nodal_field.h>
+#include <scree/mesh/nodal_field.h>
 #include <scree/simd/records.h>
 #include <scree/tensor/matrix.h>
 #include <scree/transfer/affine_field.h>
@@ -44,7 +44,7 @@ namespace scree
   ///
   /// @param where points concerned
   template <int dim>
-  void carry_along(Batch *gradient, const double time_step, const simd::Mask<Batch> &where)
+  void push_forward_gradient(Batch *gradient, const double time_step, const simd::Mask<Batch> &where)
   {
     Batch stretch[dim * dim], inverse[dim * dim], carried[dim * dim];
     Batch square = simd::broadcast<Batch>(0.), carried_square = square;
@@ -116,7 +116,7 @@ namespace scree
       if constexpr (carries_gradient(method))
         std::copy_n(gradient, dim * dim, affine);
       if constexpr (method == TransferMethod::aflip)
-        carry_along<dim>(affine, time_step, simd::first_lanes(batch_size));
+        push_forward_gradient<dim>(affine, time_step, simd::first_lanes(batch_size));
       return square;
     }
   };

@@ -2,9 +2,9 @@
 #ifndef scree_transfer_water_transfer_h
 #define scree_transfer_water_transfer_h
 
-#include <scree/points/drag_law.h>
-#include <scree/points/water_phase.h>
-#include <scree/transfer/mixture.h>
+#include <scree/bodies/drag_law.h>
+#include <scree/bodies/water_phase.h>
+#include <scree/mixture/mixture.h>
 #include <scree/transfer/transfer.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace scree
     static constexpr unsigned int grain_fraction = 2; ///< then: volume of grains over that of grains and water
 
     /// sum V_w (1/n_p - 1) phi_i, n_p the porosity about a point of water, m^3
-    static constexpr unsigned int grains_about_water = 3;
+    static constexpr unsigned int local_solid_volume = 3;
 
     static constexpr unsigned int wet_pores  = 4; ///< sum S n V phi_i of the soil in cells with water, m^3
     static constexpr unsigned int soil_share = 4; ///< then: soil_share(), -
@@ -40,9 +40,9 @@ namespace scree
   /// of next to no mass at any speed.
   ///
   /// @param grains of the node, as PoreField has them, m^3
-  inline double soil_share(const double grains, const double grains_about_water)
+  inline double soil_share(const double grains, const double local_solid_volume)
   {
-    return grains_about_water > 0. ? std::min(1., 4. * grains / grains_about_water) : 1.;
+    return local_solid_volume > 0. ? std::min(1., 4. * grains / local_solid_volume) : 1.;
   }
 
   /// Soil, water and pores at the nodes of the velocity, of one step.

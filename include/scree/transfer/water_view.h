@@ -2,8 +2,8 @@
 #ifndef scree_transfer_water_view_h
 #define scree_transfer_water_view_h
 
-#include <scree/points/water_phase.h>
-#include <scree/transfer/mixture.h>
+#include <scree/bodies/water_phase.h>
+#include <scree/mixture/mixture.h>
 
 #include <list>
 

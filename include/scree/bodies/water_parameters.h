@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_bodies_water_parameters_h
+#define scree_bodies_water_parameters_h
+
+#include <scree/bodies/suspension.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// How points carry soil and water.
+  enum class PointSets
+  {
+    double_point, ///< water has points of its own
+    single_point  ///< water rides on the soil's points
+  };
+
+  /// What the water's pressure is at the start.
+  enum class InitialPressure
+  {
+    hydrostatic, ///< the weight of the water above
+    none
+  };
+
+  /// How the hydraulic conductivity follows the porosity.
+  enum class ConductivityLaw
+  {
+    constant,
+    kozeny_carman
+  };
+
+  /// Subsection Water: where it is, and how it flows through the soil.
+  struct WaterParameters
+  {
+    std::string region            = "same"; ///< as the soil, or an expression
+    std::string point_sets        = "double";
+    unsigned int points_per_cell  = 4;             ///< along each axis
+    double jitter                 = 0;             ///< over the points' spacing
+    double density                = 1000;          ///< kg/m^3
+    double conductivity           = 1e-3;          ///< m/s, at the initial porosity; NaN: the entry is no number
+    std::string conductivity_text = "auto";        ///< the entry
+    std::string conductivity_law  = "constant";    ///< constant | Kozeny-Carman
+    double grain_diameter         = 0;             ///< m; 0: the conductivity says what the drag is
+    double viscosity              = 0;             ///< Pa s
+    double bulk_modulus           = 0;             ///< Pa; 0: incompressible
+    double fluidisation_porosity  = 1;             ///< soil looser than this bears no stress
+    double volume_correction_rate = 0;             ///< of free water, 1/s
+    std::string initial_pressure  = "hydrostatic"; ///< hydrostatic | none
+    std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
+    bool is_fed                   = false;         ///< as SeedingParameters::is_fed
+    SuspensionParameters suspension;
+
+    /// Declares the entries in the subsection that is open.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations.
+    /// @param gravity m/s^2, one number an axis
+    void check(const std::vector<double> &gravity, const unsigned int n_bodies) const;
+
+    PointSets point_sets_kind() const;
+    InitialPressure initial_pressure_kind() const;
+    ConductivityLaw conductivity_law_kind() const;
+
+    /// Throws EntryError unless a grain diameter alone, of subsection Water or of a body, says what the drag is.
+    /// @param conductivity of the same subsection, as text; empty: not given
+    void
+    check_grain_diameter(const std::string &subsection, const double diameter, const std::string &conductivity) const;
+
+    /// Whether the region is wherever soil is, and not an expression.
+    bool is_where_soil_is() const;
+
+  private:
+    void add_drag_parameters(dealii::ParameterHandler &prm);
+    void check_single_point() const;
+    void check_without_soil() const;
+  };
+} // namespace scree
+
+#endif

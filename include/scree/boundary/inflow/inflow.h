@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_boundary_inflow_inflow_h
+#define scree_boundary_inflow_inflow_h
+
+#include <scree/geometry/level_set.h>
+#include <scree/particles/cell_places.h>
+#include <scree/boundary/inflow/inflow_parameters.h>
+#include <scree/mixture/mixture.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// A section of the box through which points enter during the run, a layer of the lattice each time that what enters
+  /// has moved by the points' spacing.
+  ///
+  /// A layer stands behind the section as seeding would put it there, and its places do not change. The nodes of the
+  /// face move as what enters, so that nothing flows back.
+  template <int dim>
+  class Inflow
+  {
+  public:
+    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
+
+    /// A point of a layer.
+    struct Place
+    {
+      dealii::Point<dim> location; ///< m
+      double volume;               ///< m^3 (2D: per m)
+    };
+
+    /// Collective; throws EntryError if the section is nowhere open.
+    /// @param spacing of the points, m
+    /// @param porosity of the body; read if it is saturated
+    /// @param ground only what is in its open is filled; null: all
+    Inflow(const InflowParameters &parameters,
+           const BackgroundGrid<dim> &grid,
+           const double spacing,
+           const double porosity,
+           const LevelSet<dim> *ground);
+
+    /// Finds the cells of the section on the grid's current mesh.
+    void reinit();
+
+    /// Sets velocity() to the mean of the step, s, that comes.
+    void begin_step(const double time, const double time_step);
+
+    /// Moves the front by the step that begin_step() has told; returns how many layers have entered with it.
+    unsigned int end_step();
+
+    /// How far the layer that entered last but `back` is beyond its place, m: along the normal.
+    double advance_of(const unsigned int back) const
+    {
+      return front - (n_layers - back) * spacing;
+    }
+
+    /// Whether the inflow goes on at a time, s.
+    bool lasts(const double time) const
+    {
+      return time < end_time;
+    }
+
+    /// In the current step, m/s.
+    const dealii::Tensor<1, dim> &velocity() const
+    {
+      return mean_velocity;
+    }
+
+    /// The points of a layer, of all ranks, in an order that does not depend on their number.
+    const std::vector<Place> &places() const
+    {
+      return layer;
+    }
+
+    /// The inward unit normal of the section.
+    const dealii::Tensor<1, dim> &inward() const
+    {
+      return normal;
+    }
+
+    /// Open area, m^2 (2D: m).
+    double area() const
+    {
+      return open_area;
+    }
+
+    /// This rank's fine cell near the section that holds a place; null if there is none.
+    const CellIterator *cell_at(const dealii::Point<dim> &x) const;
+
+    /// Whether the inflow moves a node of the grid.
+    bool moves(const unsigned int node) const;
+
+    /// The blocks in which points enter.
+    const Blocks &blocks() const
+    {
+      return section_blocks;
+    }
+
+    /// What the water behind the section does to that before it, W (2D: per m): the integral of p v . n over this
+    /// rank's part.
+    double power_of_pressure(const PressureOfCell<dim> &pressure) const;
+
+    /// Tells the mixture of what has entered of the next layer, water and wet grains.
+    void add_to(Mixture<dim> &mixture) const;
+
+    const std::string name;
+    const std::string body;   ///< that it feeds, or Water
+    const std::string region; ///< the entry
+    const bool brings_soil;   ///< or only water
+    const double water_share; ///< volume of water over that of what enters: 1, a porosity, or 0
+    bool is_open = true;      ///< whether it lasted as the step began
+
+    /// What a run that goes on needs.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &front &n_layers &is_open;
+    }
+
+  private:
+    /// Finds the points of a layer. Collective.
+    void find_places(const InflowParameters &parameters, const LevelSet<dim> *ground);
+
+    /// Of a value of the hydrograph.
+    dealii::Tensor<1, dim> velocity_of(const double value) const;
+
+    const BackgroundGrid<dim> &grid;
+    const Hydrograph hydrograph;
+    const double spacing;  // m
+    const double end_time; // s
+    const bool is_at_wall, tells_discharge;
+    const unsigned int face; // in deal.II's numbering
+    const double section;    // m
+    dealii::Tensor<1, dim> normal, direction;
+    std::vector<Place> layer;
+    std::vector<CellPlace<dim>> cells_of_layer; // those of its points, each once
+    Blocks section_blocks;
+    double open_area = 0;
+    std::map<CellPlace<dim>, CellIterator> own_cells; // near the section
+    dealii::Tensor<1, dim> mean_velocity;
+    double step_advance         = 0; // m
+    double front                = 0; // how far what has entered first would have come, along the normal, m
+    unsigned long long n_layers = 0; // that have entered
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_boundary_water_walls_h
+#define scree_boundary_water_walls_h
+
+#include <scree/mesh/background_grid.h>
+#include <scree/boundary/face_entries.h>
+#include <scree/boundary/node_constraint.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+  /// What a face of the box does to the water.
+  enum class WaterWallType
+  {
+    impermeable, ///< no motion along the normal; free slip
+    no_slip,     ///< no motion
+    drained      ///< its pressure is prescribed; points may leave
+  };
+
+  struct WaterWall
+  {
+    WaterWallType type = WaterWallType::impermeable;
+    double pressure    = 0; ///< Pa; drained walls only
+  };
+
+  /// Subsection Water of subsection Boundaries: one entry a face of the box.
+  struct WaterBoundaryParameters : FaceEntries
+  {
+    WaterBoundaryParameters();
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
+    void check(const unsigned int dim) const;
+
+    /// The walls in deal.II's numbering of the faces.
+    std::vector<WaterWall> walls(const unsigned int dim) const;
+  };
+
+  /// Walls of the box acting on the water at the nodes. `faces` as in BackgroundGrid::node_faces().
+  template <int dim>
+  class WaterBoundaryConditions
+  {
+  public:
+    WaterBoundaryConditions(const BackgroundGrid<dim> &grid, const WaterBoundaryParameters &parameters);
+
+    /// The directions along which the water of a node on these faces may not move.
+    ConstrainedDirections<dim> held_directions(const std::uint8_t faces) const;
+
+    /// Which of these faces bear what they do to the water.
+    BearingFaces<dim> bearing_faces(const std::uint8_t faces) const;
+
+    /// Whether any of the faces is drained.
+    bool prescribes_pressure(const std::uint8_t faces) const;
+
+    /// Pressure of the drained ones among the faces, Pa: their mean, or 0 if there is none.
+    double pressure(const std::uint8_t faces) const;
+
+    bool is_drained(const unsigned int face) const
+    {
+      return wall_list[face].type == WaterWallType::drained;
+    }
+
+    /// The faces that are not drained.
+    std::uint8_t closed_faces() const;
+
+    /// Name of the face of the box nearest to a point outside, and whether it is drained.
+    std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const;
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    const std::vector<WaterWall> wall_list;
+  };
+} // namespace scree
+
+#endif

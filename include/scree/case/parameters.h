@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_case_parameters_h
+#define scree_case_parameters_h
+
+#include <scree/case/body_parameters.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/boundary/boundary_conditions.h>
+#include <scree/boundary/water_walls.h>
+#include <scree/input/case_entries.h>
+#include <scree/input/input_file.h>
+#include <scree/io/output_parameters.h>
+#include <scree/postprocess/probe_parameters.h>
+#include <scree/geometry/bed_parameters.h>
+#include <scree/geometry/obstacle_parameters.h>
+#include <scree/transfer/surface_load.h>
+#include <scree/bodies/water_parameters.h>
+#include <scree/contact/contact_parameters.h>
+#include <scree/momentum/explicit_update.h>
+#include <scree/boundary/inflow/inflow_parameters.h>
+#include <scree/pressure/pressure_parameters.h>
+#include <scree/schemes/time_step.h>
+#include <scree/transfer/transfer_parameters.h>
+
+namespace scree
+{
+  /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
+  class Parameters
+  {
+  public:
+    /// Reads and checks `file`. Throws InputError, which names file, subsection, entry, value and remedy.
+    explicit Parameters(const std::string &file);
+
+    /// The defaults, as needed to print a template of all entries.
+    Parameters();
+
+    unsigned int dimension = 2;
+    double end_time        = 1;
+    std::string output_directory{ "results/scree" };
+    std::vector<double> gravity{ 0., -9.81 };
+    std::vector<double> local_origin{ 0., 0. }; ///< on the map, m
+
+    GridParameters grid;
+    TimeStepParameters time_step;
+    TransferParameters transfer;
+    StabilisationParameters stabilisation;
+    BodyForceParameters body_force;
+    BaseMotionParameters base_motion;
+    std::vector<BodyParameters> bodies;
+    BoundaryParameters boundaries;
+    BedParameters bed;
+    std::vector<ObstacleParameters> obstacles; ///< also those that are not set
+    std::vector<InflowParameters> inflows;
+    std::vector<ContactParameters> contacts; ///< also those that are not set
+    SurfaceLoadParameters surface_load;
+    SettlingParameters settling;
+    OutputParameters output;
+    ProbeParameters probes;
+
+    std::string text_of_box; ///< for the log, of a box that follows from the raster; else empty
+
+    bool has_water = false; ///< whether there is a subsection Water; without it, nothing reads the next three
+    WaterParameters water;
+    PressureParameters pressure;
+    WaterBoundaryParameters water_boundaries;
+
+    /// Where the bodies are, and how porous and heavy.
+    std::vector<SoilRegion> soil_regions() const;
+
+    /// The bed, and the obstacles that are set.
+    unsigned int n_rigid_surfaces() const;
+
+    /// The body of this name; null if there is none.
+    const BodyParameters *find_body(const std::string &name) const;
+
+    /// Points of what an inflow brings, along each axis of a cell.
+    unsigned int points_per_cell(const InflowParameters &inflow) const;
+
+    /// The bodies that stick to each other, and which of them slide. Throws EntryError if contacts do not fit.
+    ContactGroups contact_groups() const;
+
+    /// Every entry with its value.
+    CaseEntries entries() const;
+
+    /// The text of the file as it was read.
+    const std::string &original() const;
+
+    /// An error met later, with file and line before its message.
+    InputError error(const EntryError &error) const;
+
+    /// Writes every entry with its value, default and explanation.
+    void print(std::ostream &out);
+
+    /// The same of one subsection, such as `Soil/Initial state`. Throws InputError if there is none of that path.
+    void print_subsection(const std::string &path, std::ostream &out);
+
+    /// All entries as a case that lies in `folder`: paths of files count from there.
+    void print_into(const std::string &folder, std::ostream &out);
+
+  private:
+    void name_bodies();
+    void name_obstacles();
+    void name_inflows();
+
+    /// The subsections with this prefix. Throws EntryError if two differ by case only.
+    /// @param kind `obstacle`, for the message
+    std::vector<std::string> named_subsections(const std::string &prefix, const std::string &kind) const;
+    void name_contacts();
+    void declare(dealii::ParameterHandler &prm);
+    void declare_water(dealii::ParameterHandler &prm);
+    void take_box_from_raster();
+    void read_maps();
+    void check_dry() const;
+
+    double size_of_gravity() const; // m/s^2
+    double wave_speed() const;      // of the stiffest body, m/s; 0 without bodies
+
+    /// The remedy for a subsection that is not declared but looks like that of a body; empty if it does not.
+    std::string unlisted_body(const std::string &subsection) const;
+
+    InputFile file;
+    std::vector<NamedFile> named_files;
+    std::vector<std::string> body_names{ "Soil" };
+    dealii::ParameterHandler handler;
+  };
+} // namespace scree
+
+#endif

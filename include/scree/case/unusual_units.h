@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_case_unusual_units_h
+#define scree_case_unusual_units_h
+
+#include <scree/case/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// A question about each value that is possible, but usual in another unit only: angles in radians, moduli in MPa.
+  std::vector<std::string> unusual_units(const Parameters &parameters);
+} // namespace scree
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_contact_contact_parameters_h
+#define scree_contact_contact_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// Subsection Contact NAME: two bodies of soil that slide on each other and come apart, instead of sticking.
+  struct ContactParameters
+  {
+    /// What the names of the subsections begin with.
+    static const std::string prefix;
+
+    std::string subsection;
+    std::string bodies;        ///< names, separated by a comma; empty: no contact
+    double friction_angle = 0; ///< degrees
+
+    /// @param subsection prefix and name
+    explicit ContactParameters(const std::string &subsection)
+        : subsection(subsection)
+    {
+    }
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    bool is_set() const
+    {
+      return !bodies.empty();
+    }
+
+    double friction_coefficient() const;
+  };
+
+  /// Two groups of bodies that slide on each other.
+  struct ContactPair
+  {
+    unsigned int first, second;                ///< numbers of groups, the first one less
+    unsigned int rough;                        ///< that of the two whose bodies tell the friction
+    std::vector<double> friction_coefficients; ///< by number of body; of those of the rough group
+  };
+
+  /// The groups of bodies that stick to each other.
+  struct ContactGroups
+  {
+    std::vector<unsigned int> of_body; ///< numbers of groups, from 0 in the order of their first bodies
+    unsigned int n = 1;
+    std::vector<ContactPair> pairs; ///< any two groups
+  };
+
+  /// What contacts need to know of a body.
+  struct ContactBody
+  {
+    std::string name;
+    bool is_rigid;
+  };
+
+  /// Sorts bodies into groups. Throws EntryError at contacts that do not fit the bodies or each other.
+  ContactGroups contact_groups(const std::vector<ContactParameters> &contacts, const std::vector<ContactBody> &bodies);
+} // namespace scree
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_io_checkpoint_h
+#define scree_io_checkpoint_h
+
+#include <scree/mesh/background_grid.h>
+#include <scree/input/case_entries.h>
+#include <scree/io/checkpoint_files.h>
+#include <scree/particles/point_set.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// A whole checkpoint of a run.
+  struct Checkpoint
+  {
+    std::string folder;
+    Manifest manifest;
+    CaseEntries entries; ///< of the case that wrote it
+  };
+
+  /// Writes `entries`, the points of all `sets` and the `state` of a run at `time` s to a new checkpoint of the run. It
+  /// gets its name when all of it has been read again and found whole; before that no older one is touched. Collective.
+  /// Throws EntryError on all ranks if that fails: it tells the file, what the checkpoint needs and what is still
+  /// there.
+  template <int dim>
+  void save_checkpoint(const std::string &run_folder,
+                       const double time,
+                       const std::uint64_t step,
+                       const CaseEntries &entries,
+                       const BackgroundGrid<dim> &grid,
+                       const std::vector<PointSet<dim> *> &sets,
+                       const std::function<void(boost::archive::binary_oarchive &)> &state);
+
+  /// The newest checkpoint of the run that is whole; `log` gets a line for each newer one that is not. Collective;
+  /// throws EntryError if there is none.
+  Checkpoint find_checkpoint(const std::string &run_folder,
+                             const std::function<void(const std::string &)> &log,
+                             const MPI_Comm communicator);
+
+  /// Reads a checkpoint, on any number of ranks. The grid must be of the same box; it gets the fine cells of then. The
+  /// sets, in the order in which they were saved, lose the points they have. Collective; throws
+  /// EntryError if the files do not fit.
+  template <int dim>
+  void load_checkpoint(const Checkpoint &checkpoint,
+                       BackgroundGrid<dim> &grid,
+                       const std::vector<PointSet<dim> *> &sets,
+                       const std::function<void(boost::archive::binary_iarchive &)> &state);
+} // namespace scree
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_io_output_parameters_h
+#define scree_io_output_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace scree
+{
+  /// What a run prints on the screen.
+  enum class Screen
+  {
+    progress,   ///< start, progress with time left, timings
+    statistics, ///< the last row of the statistics only: numbers that do not depend on the machine
+    nothing
+  };
+
+  /// The pictures a run writes.
+  enum class Pictures
+  {
+    none,
+    points,
+    points_and_grid
+  };
+
+  /// Subsection Maps of subsection Output.
+  struct MapParameters
+  {
+    bool write             = false;
+    double least_thickness = 0; ///< m, of soil that counts as having arrived
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at maps of a scene that has none.
+    void check(const bool has_soil) const;
+  };
+
+  /// Subsection Output.
+  struct OutputParameters
+  {
+    double interval                = 0.1; ///< s, of pictures
+    double statistics_interval     = 0;   ///< s; 0: as pictures
+    double checkpoint_interval     = 0;   ///< s; 0: none
+    double wall_time_limit         = 0;   ///< s of the clock on the wall; 0: none
+    std::string checkpoint_failure = "stop";
+    std::string graphics           = "points and grid";
+    std::string screen             = "progress";
+    MapParameters maps;
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at an interval that no run to `end_time`, s, can meet.
+    void check(const double end_time) const;
+
+    Screen screen_kind() const;
+
+    /// Whether a checkpoint that cannot be written ends the run.
+    bool stops_without_checkpoint() const
+    {
+      return checkpoint_failure == "stop";
+    }
+
+    Pictures graphics_kind() const;
+    double interval_of_statistics() const;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_materials_batch_return_h
+#define scree_materials_batch_return_h
+
+#include <scree/materials/law.h>
+#include <scree/simd/pair.h>
+#include <scree/tensor/elastic_strain.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  /// The response of a law in invariants (see law.h) to the trial strain of batches.
+  template <int dim, typename Law>
+  class BatchReturn
+  {
+  public:
+    using Mask   = simd::Mask<Batch>;
+    using Strain = ElasticStrain<dim, Batch>;
+    using Trial  = typename Law::template Trial<Batch>;
+
+    static constexpr unsigned int n_components = n_symmetric_components<dim>;
+    static constexpr unsigned int n_internal   = Law::n_internal_variables;
+
+    /// What a return starts from.
+    struct TrialState
+    {
+      Strain strain;
+      Trial trial;
+      Batch volume_ratio, reference_volume;
+      Batch internal_variables[n_internal + 1];
+    };
+
+    /// What the law makes of it.
+    struct Answer
+    {
+      Batch volume_strain, deviator_factor, mean_stress; // Kirchhoff, Pa
+      Batch dissipation;                                 // per reference volume, J/m^3
+      Mask is_plastic, is_separated;
+    };
+
+    explicit BatchReturn(const Law &law)
+        : law(law)
+        , shear(law.shear_modulus())
+    {
+    }
+
+    /// Returns the points `todo` of two batches, with their internal variables, if it can (`is_plastic`); of the others
+    /// the trial strain stands. Two, because the steps of Newton's method wait for each other.
+    void respond(TrialState (&states)[2], const Mask (&todo)[2], Answer (&answers)[2]) const;
+
+    /// Cauchy stress of a mean Kirchhoff stress and a factor on the elastic deviator.
+    void set_stress(const Strain &strain,
+                    const Batch &factor,
+                    const Batch &mean_stress,
+                    const Batch &volume_ratio,
+                    Batch *stress) const
+    {
+      const Batch inverse = 1. / volume_ratio, mean = mean_stress * inverse, slope = 2. * shear * factor * inverse;
+      for (unsigned int c = 0; c < n_components; ++c)
+        stress[c] = c < 3 ? mean + slope * strain.deviator[c] : slope * strain.deviator[c];
+    }
+
+    /// Raises the report's largest modulus and compression by the points `counted`.
+    void report_largest(const Strain &strain,
+                        const Batch &factor,
+                        const Batch &mean_stress,
+                        const Mask &counted,
+                        UpdateReport &report) const;
+
+  private:
+    const Law law;
+    const double shear; // Pa
+  };
+
+
+  template <int dim, typename Law>
+  void BatchReturn<dim, Law>::respond(TrialState (&states)[2], const Mask (&todo)[2], Answer (&answers)[2]) const
+  {
+    const auto trial = simd::join<typename Law::template Trial<BatchPair>>(states[0].trial, states[1].trial);
+    BatchPair internal[n_internal + 1];
+    for (unsigned int i = 0; i < n_internal; ++i)
+      internal[i] = { states[0].internal_variables[i], states[1].internal_variables[i] };
+    InvariantReturn<BatchPair> returned{};
+    const simd::PairMask is_plastic = law.return_to_surface(trial, { todo[0], todo[1] }, internal, returned);
+
+    InvariantReturn<Batch> results[2];
+    simd::split(returned, results[0], results[1]);
+    for (unsigned int h = 0; h < 2; ++h)
+      {
+        const Strain &strain                = states[h].strain;
+        const InvariantReturn<Batch> &found = results[h];
+        const Mask plastic                  = h == 0 ? is_plastic.first : is_plastic.second;
+        for (unsigned int i = 0; i < n_internal; ++i)
+          states[h].internal_variables[i] = simd::select<Batch>(
+              plastic, h == 0 ? internal[i].first : internal[i].second, states[h].internal_variables[i]);
+
+        const Batch factor = simd::select<Batch>(plastic, found.deviator_factor, simd::broadcast<Batch>(1.));
+        const Batch mean   = simd::select<Batch>(plastic, found.mean_stress, law.mean_stress(states[h].trial));
+        const Batch volume = simd::select<Batch>(plastic, found.volume_strain, strain.volume);
+        const Batch lost   = mean * (strain.volume - volume) + 2. * shear * factor * (1. - factor) * strain.square;
+        answers[h]         = { volume,  factor,
+                               mean,    simd::select<Batch>(plastic, lost, simd::broadcast<Batch>(0.)),
+                               plastic, plastic & found.is_separated };
+      }
+  }
+
+
+  template <int dim, typename Law>
+  void BatchReturn<dim, Law>::report_largest(const Strain &strain,
+                                             const Batch &factor,
+                                             const Batch &mean_stress,
+                                             const Mask &counted,
+                                             UpdateReport &report) const
+  {
+    const Batch zero    = simd::broadcast<Batch>(0.);
+    const Batch modulus = simd::select<Batch>(counted, law.bulk_modulus_at(mean_stress), zero);
+    if (simd::any(modulus > report.largest_bulk_modulus))
+      report.largest_bulk_modulus = simd::largest_lane<Batch>(modulus);
+
+    // No principal value of a deviator is beyond sqrt(2/3) of its size: the largest compression is rarely in a batch.
+    const Batch slope   = 2. * shear * factor;
+    const Batch size    = simd::sqrt<Batch>(2. / 3. * strain.square);
+    const Mask is_large = counted & (slope * size - mean_stress > report.largest_compression);
+    if (!simd::any(is_large))
+      return;
+    const Batch compression    = -(mean_stress + slope * strain.least_deviator());
+    report.largest_compression = std::max(report.largest_compression,
+                                          simd::largest_lane<Batch>(simd::select<Batch>(is_large, compression, zero)));
+  }
+} // namespace scree
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_materials_law_h
+#define scree_materials_law_h
+
+#include <scree/materials/material.h>
+#include <scree/simd/batch.h>
+#include <scree/tensor/principal.h>
+
+namespace scree
+{
+  /// What a return map did to the trial strain.
+  ///
+  /// A law is a class with the members of MohrCoulomb, all in principal values: logarithmic elastic strain and
+  /// Kirchhoff stress (Pa), tension positive. HenckyMaterial makes a Material of it, point by point.
+  ///
+  /// If it also has MohrCoulomb's template of `Number`, double or a Batch of points,
+  ///   respond(strain, internal variables, stress)                   the return map of all points
+  /// PrincipalBatchMaterial makes a Material of it that updates several points at a time.
+  ///
+  /// A law whose yield surface has no corners needs the invariants of strain only. It has the members of NorSand that
+  /// are templates of `Number`, and BatchMaterial makes a Material of it that updates several points at a time:
+  ///   trial(volume strain, |dev strain|^2, J, internal variables)   state before the return
+  ///   is_admissible(trial), mean_stress(trial)                      and that state itself, if it stands
+  ///   bulk_modulus_at(mean stress)                                  tangent, Pa
+  ///   return_to_surface(trial, todo, internal variables, result)    of the points `todo`; says which it could return,
+  ///                                                                 others are left to return_map()
+  enum class Response
+  {
+    elastic, ///< The trial strain stands
+    plastic  ///< The strain was changed
+  };
+
+  /// What became of points in a return in principal values.
+  template <typename Number>
+  struct PrincipalResponse
+  {
+    simd::Mask<Number> is_plastic; ///< The strain was changed
+    simd::Mask<Number> is_vertex;  ///< As counted in UpdateReport, like the next two
+    simd::Mask<Number> is_separated;
+    simd::Mask<Number> is_unresolved;
+  };
+
+  /// Invariants of a state on the yield surface.
+  template <typename Number>
+  struct InvariantReturn
+  {
+    Number volume_strain;            ///< elastic
+    Number deviator_factor;          ///< elastic deviatoric strain over the trial one
+    Number mean_stress;              ///< Kirchhoff, Pa
+    simd::Mask<Number> is_separated; ///< whether grains are apart
+  };
+} // namespace scree
+
+#endif

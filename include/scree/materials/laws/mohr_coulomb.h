@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_materials_laws_mohr_coulomb_h
+#define scree_materials_laws_mohr_coulomb_h
+
+#include <scree/materials/laws/linear_elastic.h>
+
+namespace scree
+{
+  /// Entries of subsection "Mohr-Coulomb"; angles in degrees.
+  struct MohrCoulombParameters
+  {
+    double young_modulus   = 1e6;
+    double poisson_ratio   = 0.3;
+    double friction_angle  = 30;
+    double dilation_angle  = 0;
+    double cohesion        = 0;
+    double tension_cut_off = 0;
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError if a combination is impossible.
+    void check(const std::string &subsection) const;
+  };
+
+
+  /// Perfectly plastic Mohr-Coulomb with tension cut-off on Hencky elasticity (de Souza Neto, Peric & Owen 2008, 8.2).
+  ///
+  /// With sorted principal Kirchhoff stresses, f_ij = (1 + sin phi) tau_i - (1 - sin phi) tau_j - 2 c cos phi <= 0,
+  /// flow along (1 + sin psi) n_i - (1 - sin psi) n_j, and tau_i <= cut-off with associated flow. The return finds
+  /// the face, edge or corner by trying the sets of surfaces a sorted stress can meet; each is a small linear system.
+  ///
+  /// Pulled apart beyond the vertex (all tau_i at the smaller of cut-off and c cot phi), b_e becomes isotropic and
+  /// keeps eps_v as a gap to be closed, as in NorSand: forgetting it would let loose grains gain volume at every
+  /// bounce. Without cohesion, grains with a gap do not dilate: eps_v > 0 means no stress.
+  class MohrCoulomb
+  {
+  public:
+    static constexpr unsigned int n_internal_variables = 1;
+    static constexpr bool is_elastic                   = false;
+
+    explicit MohrCoulomb(const MohrCoulombParameters &parameters);
+
+    /// No limit: the equations of a return are linear and have one root.
+    double substep_strain() const;
+
+    /// Pa.
+    double shear_modulus() const;
+
+    /// Pa.
+    double bulk_modulus(const double pressure) const;
+
+    /// J per m^3 of reference volume; a gap stores none.
+    double energy(const PrincipalValues &strain) const;
+
+    /// Zero: the law knows no pores.
+    double initial_porosity() const;
+
+    /// From trial to returned `strain` and internal variables; sets `stress`, counts in `report`.
+    Response return_map(PrincipalValues &strain,
+                        double *internal_variables,
+                        const double volume_ratio,
+                        PrincipalValues &stress,
+                        UpdateReport &report) const;
+
+    /// The same of a point or of a Batch of them; see law.h.
+    template <typename Number>
+    PrincipalResponse<Number>
+    respond(PrincipalNumbers<Number> &strain, Number *internal_variables, PrincipalNumbers<Number> &stress) const;
+
+    /// See Material::initialise(). Throws if the stress is outside the yield surface.
+    void initialise(const PrincipalValues &wanted_stress,
+                    PrincipalValues &strain,
+                    PrincipalValues &stress,
+                    double *internal_variables) const;
+
+    static std::vector<Quantity> internal_quantities();
+    static std::vector<Quantity> output_quantities();
+    void output(const PrincipalValues &strain,
+                const double *internal_variables,
+                const double volume_ratio,
+                double *values) const;
+
+    /// Largest of all yield functions, Pa; negative inside.
+    template <typename Number>
+    Number yield(const PrincipalNumbers<Number> &stress) const;
+
+  private:
+    /// A plane of the yield surface, normal . tau <= limit, and its flow direction.
+    struct Surface
+    {
+      PrincipalValues normal, flow, relaxation; // relaxation: elastic stiffness times flow, Pa
+      double limit;                             // Pa
+    };
+
+    /// Surfaces met together, and the inverse of normal_a . relaxation_b.
+    struct ActiveSet
+    {
+      std::vector<unsigned int> surfaces;
+      dealii::Tensor<2, 3> inverse;
+    };
+
+    void add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit);
+    void add_active_set(const std::vector<unsigned int> &surfaces);
+
+    /// How far a sorted stress is beyond a surface, Pa.
+    template <typename Number>
+    static Number excess(const Surface &surface, const PrincipalNumbers<Number> &stress);
+
+    /// Whether a sorted trial stress returns to the surfaces of a set, and to what stress, to a tolerance in Pa.
+    template <typename Number>
+    simd::Mask<Number> return_to(const ActiveSet &set,
+                                 const PrincipalNumbers<Number> &trial,
+                                 const Number &tolerance,
+                                 PrincipalNumbers<Number> &stress) const;
+
+    /// Returns a sorted stress of the points `todo`; those that meet no set of surfaces stay in it.
+    template <typename Number>
+    void return_sorted(PrincipalNumbers<Number> &stress, simd::Mask<Number> &todo) const;
+
+    /// The return of the points that yield, from trial strain and stress.
+    template <typename Number>
+    void plastic_return(PrincipalNumbers<Number> &strain,
+                        Number *internal_variables,
+                        PrincipalNumbers<Number> &stress,
+                        PrincipalResponse<Number> &response) const;
+
+    const LinearElastic elastic;
+    const double shear;  // Pa
+    const double bulk;   // Pa
+    const double vertex; // tau of the vertex, Pa
+    const bool cohesionless;
+    double largest_principal_stress; // of the cut-off, Pa
+    std::vector<Surface> surfaces;   // of sorted stresses: 13, 12, 23, then cut-off 1, 2, 3
+    std::vector<ActiveSet> active_sets;
+  };
+
+
+  inline double MohrCoulomb::substep_strain() const
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::yield(const PrincipalNumbers<Number> &stress) const
+  {
+    const Number largest  = simd::max<Number>(stress[0], simd::max<Number>(stress[1], stress[2]));
+    const Number smallest = simd::min<Number>(stress[0], simd::min<Number>(stress[1], stress[2]));
+    const Surface &shear  = surfaces[0];
+    return simd::max<Number>(shear.normal[0] * largest + shear.normal[2] * smallest - shear.limit,
+                             largest - largest_principal_stress);
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline PrincipalResponse<Number> MohrCoulomb::respond(PrincipalNumbers<Number> &strain,
+                                                                              Number *internal_variables,
+                                                                              PrincipalNumbers<Number> &stress) const
+  {
+    const Number volume_part = (bulk - 2. / 3. * shear) * (strain[0] + strain[1] + strain[2]);
+    for (unsigned int i = 0; i < 3; ++i)
+      stress[i] = volume_part + 2 * shear * strain[i];
+
+    PrincipalResponse<Number> response{};
+    response.is_plastic = yield<Number>(stress) > 0.;
+    if (simd::any(response.is_plastic))
+      plastic_return(strain, internal_variables, stress, response);
+    return response;
+  }
+} // namespace scree
+
+#endif

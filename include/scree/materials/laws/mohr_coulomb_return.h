@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_materials_laws_mohr_coulomb_return_h
+#define scree_materials_laws_mohr_coulomb_return_h
+
+#include <scree/materials/laws/mohr_coulomb.h>
+
+namespace scree
+{
+  /// Three numbers in falling order, and what it takes to bring others of their places back.
+  template <typename Number>
+  struct Sorted
+  {
+    DEAL_II_ALWAYS_INLINE inline explicit Sorted(const PrincipalNumbers<Number> &numbers)
+        : numbers(numbers)
+    {
+      exchanged[0] = exchange(this->numbers, 0, this->numbers[0] < this->numbers[1]);
+      exchanged[1] = exchange(this->numbers, 1, this->numbers[1] < this->numbers[2]);
+      exchanged[2] = exchange(this->numbers, 0, this->numbers[0] < this->numbers[1]);
+    }
+
+    /// In the order before, for sorted `result`.
+    DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number> unsorted(PrincipalNumbers<Number> result) const
+    {
+      exchange(result, 0, exchanged[2]);
+      exchange(result, 1, exchanged[1]);
+      exchange(result, 0, exchanged[0]);
+      return result;
+    }
+
+    PrincipalNumbers<Number> numbers;
+
+  private:
+    DEAL_II_ALWAYS_INLINE inline static simd::Mask<Number>
+    exchange(PrincipalNumbers<Number> &numbers, const unsigned int i, const simd::Mask<Number> &condition)
+    {
+      const Number first = numbers[i], second = numbers[i + 1];
+      numbers[i]     = simd::select<Number>(condition, second, first);
+      numbers[i + 1] = simd::select<Number>(condition, first, second);
+      return condition;
+    }
+
+    simd::Mask<Number> exchanged[3];
+  };
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::excess(const Surface &surface,
+                                                          const PrincipalNumbers<Number> &stress)
+  {
+    return surface.normal[0] * stress[0] + surface.normal[1] * stress[1] + surface.normal[2] * stress[2] -
+           surface.limit;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number> MohrCoulomb::return_to(const ActiveSet &set,
+                                                                         const PrincipalNumbers<Number> &trial,
+                                                                         const Number &tolerance,
+                                                                         PrincipalNumbers<Number> &stress) const
+  {
+    const unsigned int n = set.surfaces.size();
+    Number beyond[3];
+    for (unsigned int a = 0; a < n; ++a)
+      beyond[a] = excess<Number>(surfaces[set.surfaces[a]], trial);
+
+    simd::Mask<Number> is_found = tolerance == tolerance;
+    stress                      = trial;
+    for (unsigned int a = 0; a < n; ++a)
+      {
+        Number multiplier = set.inverse[a][0] * beyond[0];
+        for (unsigned int b = 1; b < n; ++b)
+          multiplier += set.inverse[a][b] * beyond[b];
+        is_found = is_found & (multiplier * shear >= -tolerance);
+        for (unsigned int i = 0; i < 3; ++i)
+          stress[i] -= multiplier * surfaces[set.surfaces[a]].relaxation[i];
+      }
+    for (const Surface &surface : surfaces)
+      is_found = is_found & (excess<Number>(surface, stress) <= tolerance);
+    return is_found;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline void MohrCoulomb::return_sorted(PrincipalNumbers<Number> &stress,
+                                                               simd::Mask<Number> &todo) const
+  {
+    const PrincipalNumbers<Number> trial = stress;
+    const Number tolerance =
+        1e-13 * simd::max<Number>(simd::broadcast<Number>(surfaces[0].limit),
+                                  simd::max<Number>(simd::abs<Number>(trial[0]), simd::abs<Number>(trial[2])));
+    for (const ActiveSet &set : active_sets)
+      {
+        if (!simd::any(todo))
+          return;
+        PrincipalNumbers<Number> candidate;
+        const simd::Mask<Number> is_found = todo & return_to<Number>(set, trial, tolerance, candidate);
+        for (unsigned int i = 0; i < 3; ++i)
+          stress[i] = simd::select<Number>(is_found, candidate[i], stress[i]);
+        todo = todo & !is_found;
+      }
+  }
+
+
+  template <typename Number>
+  __attribute__((noinline)) void MohrCoulomb::plastic_return(PrincipalNumbers<Number> &strain,
+                                                             Number *internal_variables,
+                                                             PrincipalNumbers<Number> &stress,
+                                                             PrincipalResponse<Number> &response) const
+  {
+    const Number volume_strain    = strain[0] + strain[1] + strain[2];
+    const simd::Mask<Number> todo = response.is_plastic;
+    const simd::Mask<Number> is_kept_apart =
+        cohesionless ? todo & (volume_strain >= 0.) : simd::Mask<Number>{}; // grains with a gap do not dilate
+
+    Sorted<Number> sorted(stress);
+    simd::Mask<Number> left = todo & !is_kept_apart;
+    return_sorted(sorted.numbers, left);
+    const PrincipalNumbers<Number> returned = sorted.unsorted(sorted.numbers);
+    const simd::Mask<Number> at_vertex      = left | is_kept_apart;
+
+    PrincipalNumbers<Number> change;
+    for (unsigned int i = 0; i < 3; ++i)
+      change[i] = stress[i] - returned[i];
+    const Number mean        = (change[0] + change[1] + change[2]) * (1. / 3.);
+    const Number corner      = simd::max<Number>(volume_strain, simd::broadcast<Number>(vertex / bulk)) * (1. / 3.);
+    Number shear_square      = simd::broadcast<Number>(0.);
+    const Number volume_part = mean * (1. / (3 * bulk));
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const Number plastic_deviator = (change[i] - mean) * (1. / (2 * shear));
+        shear_square += plastic_deviator * plastic_deviator;
+        const Number on_surface = strain[i] - (volume_part + plastic_deviator);
+        strain[i]               = simd::select<Number>(todo, on_surface, strain[i]);
+        strain[i]               = simd::select<Number>(at_vertex, corner, strain[i]);
+        stress[i]               = simd::select<Number>(todo, returned[i], stress[i]);
+        stress[i]               = simd::select<Number>(at_vertex, simd::broadcast<Number>(vertex), stress[i]);
+      }
+    internal_variables[0] += simd::select<Number>(
+        todo & !at_vertex, simd::sqrt<Number>(2. / 3. * shear_square), simd::broadcast<Number>(0.));
+
+    response.is_unresolved = at_vertex & (volume_strain < vertex / bulk * (1 - 1e-10));
+    (vertex > 0 ? response.is_vertex : response.is_separated) = at_vertex & !response.is_unresolved;
+  }
+} // namespace scree
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_materials_material_h
+#define scree_materials_material_h
+
+#include <scree/tensor/components.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// A quantity of a point, in the field's words, and its unit.
+  struct Quantity
+  {
+    std::string name;
+    std::string unit; ///< "-" without
+  };
+
+  /// Where a law finds the state of points: records `stride` doubles apart, of which `slots` says which ones;
+  /// each pointer is into record 0. Tensors are stored as in tensor/components.h.
+  template <int dim>
+  struct MaterialPoints
+  {
+    unsigned int n_points      = 0;
+    std::size_t stride         = 0;
+    double *left_cauchy_green  = nullptr; ///< Elastic b_e, n_symmetric_components<dim>
+    double *stress             = nullptr; ///< Cauchy stress, Pa, tension positive, n_symmetric_components<dim>
+    double *internal_variables = nullptr; ///< As named by Material::internal_quantities()
+    const unsigned int *slots  = nullptr; ///< Records of the points; null: one behind the other
+
+    /// From record 0 to the one of point `p`, doubles.
+    std::size_t offset(const unsigned int p) const
+    {
+      return stride * (slots != nullptr ? slots[p] : p);
+    }
+  };
+
+  /// The motion of points over a step; arrays of MaterialPoints::n_points.
+  template <int dim>
+  struct MaterialMotion
+  {
+    /// dF of the step, after F-bar, in-plane part: dim x dim arrays, row-major, `pitch` doubles apart. (Of one point:
+    /// its components one behind the other.)
+    const double *deformation_increment = nullptr;
+    const double *out_of_plane_stretch  = nullptr; ///< dF_zz after F-bar, which scales all three axes; read if dim = 2
+    const double *volume_ratio          = nullptr; ///< J = V/V_0 at the end of the step
+    const double *reference_volume      = nullptr; ///< V_0, m^3 (dim = 2: per metre of depth)
+    std::size_t pitch                   = 1;
+
+    /// dF of a point.
+    dealii::Tensor<2, dim> deformation_increment_of(const unsigned int p) const
+    {
+      dealii::Tensor<2, dim> increment;
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        increment[c / dim][c % dim] = deformation_increment[c * pitch + p];
+      return increment;
+    }
+  };
+
+  /// What came out of a step's updates. The reports of cells and ranks add up.
+  struct UpdateReport
+  {
+    double largest_bulk_modulus = 0; ///< Tangent of the elastic law, Pa
+    double largest_compression  = 0; ///< Compressive principal Kirchhoff stress, or a bound on it, Pa
+    double plastic_dissipation  = 0; ///< Sum of V_0 tau : (trial - returned elastic strain), J
+
+    unsigned long long n_updates    = 0; ///< Points
+    unsigned long long n_substeps   = 0; ///< Return maps, at least one a point
+    unsigned long long n_fallbacks  = 0; ///< Newton gave up, the bracketed search found the root
+    unsigned long long n_vertices   = 0; ///< Returned to the vertex of the yield surface that is under stress
+    unsigned long long n_separated  = 0; ///< Pulled apart: no stress, the gap is kept as elastic volume strain
+    unsigned long long n_unresolved = 0; ///< Returned to an admissible state that is not the root; expected to stay 0
+
+    void add(const UpdateReport &other);
+  };
+
+  /// A constitutive law of a point in finite strain: logarithmic elastic strain, Kirchhoff stress tau = J sigma.
+  ///
+  /// One virtual call serves the points of several cells. A law holds no state of points, so threads may share it.
+  template <int dim>
+  class Material
+  {
+  public:
+    virtual ~Material() = default;
+
+    /// Advance stress, elastic state and internal variables of the points over a step. Throws dealii::ExcMessage if an
+    /// increment is not a number, turns a point inside out or is beyond 1000 sub-steps.
+    virtual void
+    update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const = 0;
+
+    /// Shear modulus, Pa.
+    virtual double shear_modulus() const = 0;
+
+    /// Tangent bulk modulus, Pa, at the mean compressive stress `pressure`, Pa.
+    virtual double initial_bulk_modulus(const double pressure) const = 0;
+
+    /// Speed c of pressure waves in space, m/s; 0 where there is no stiffness. With the stretch lambda along an axis
+    /// and tau = M ln(lambda), c^2 = lambda^2/rho_0 d(tau/lambda)/d(lambda) = (M - tau)/rho_0: compression makes it
+    /// faster.
+    /// @param bulk_modulus Pa
+    /// @param compression largest compressive principal Kirchhoff stress, Pa
+    /// @param density at J = 1, kg/m^3
+    double wave_speed(const double bulk_modulus, const double compression, const double density) const
+    {
+      return std::sqrt((bulk_modulus + 4. / 3. * shear_modulus() + compression) / density);
+    }
+
+    /// Stored energy, J per m^3 of reference volume, of the state `left_cauchy_green`.
+    virtual double elastic_energy(const double *left_cauchy_green) const = 0;
+
+    /// State of one point that has the Cauchy stress `wanted_stress` (Pa, components) at J = 1: fills
+    /// `left_cauchy_green`, `stress` and `internal_variables`. `stress` may be `wanted_stress`, and equals it but where
+    /// the law holds it for separated (no stress). Throws dealii::ExcMessage if the law cannot bear the stress.
+    virtual void initialise(const double *wanted_stress,
+                            double *left_cauchy_green,
+                            double *stress,
+                            double *internal_variables) const = 0;
+
+    /// Porosity at the start if the law fixes it (Nor-Sand: 1 - 1/v_0), else 0.
+    virtual double initial_porosity() const = 0;
+
+    /// Whether the law has no plastic strain.
+    virtual bool is_elastic() const = 0;
+
+    /// A point's internal variables in storage order.
+    virtual std::vector<Quantity> internal_quantities() const = 0;
+
+    /// Derived fields for output, in the order of output().
+    virtual std::vector<Quantity> output_quantities() const = 0;
+
+    /// Derived fields of one point at J = `volume_ratio`; `values` has the size of output_quantities().
+    virtual void output(const double *left_cauchy_green,
+                        const double *stress,
+                        const double *internal_variables,
+                        const double volume_ratio,
+                        double *values) const = 0;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_materials_principal_batch_material_h
+#define scree_materials_principal_batch_material_h
+
+#include <scree/materials/batch_records.h>
+#include <scree/materials/hencky_material.h>
+
+namespace scree
+{
+  /// A law in principal values (see law.h), several points at a time, elastic ones and others in one pass: a return
+  /// that is a few linear equations costs less than to gather the points that need it. Increments that HenckyMaterial
+  /// refuses are left to it, so that its messages tell of them; so are those beyond the law's sub-step strain.
+  template <int dim, typename Law>
+  class PrincipalBatchMaterial : public HenckyMaterial<dim, Law>
+  {
+  public:
+    explicit PrincipalBatchMaterial(const Law &law)
+        : HenckyMaterial<dim, Law>(law)
+        , law(law)
+        , largest_change(law.substep_strain())
+    {
+    }
+
+    void
+    update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const override
+    {
+      UpdateReport own;
+      for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+        update_batch(indices, n, points, motion, own);
+      });
+      own.n_updates            = points.n_points;
+      own.largest_bulk_modulus = std::max(own.largest_bulk_modulus, law.bulk_modulus(0));
+      report.add(own);
+    }
+
+  private:
+    using Mask    = simd::Mask<Batch>;
+    using Records = BatchRecords<dim, Law::n_internal_variables>;
+
+    static constexpr unsigned int n_components = n_symmetric_components<dim>;
+
+    void update_batch(const BatchIndices &indices,
+                      const unsigned int n,
+                      const MaterialPoints<dim> &points,
+                      const MaterialMotion<dim> &motion,
+                      UpdateReport &report) const
+    {
+      typename Records::Input input = Records::read(indices, n, points, motion);
+      Batch b[n_components], stress[n_components];
+      trial_left_cauchy_green<dim>(input.increment, input.out_of_plane_stretch, input.left_cauchy_green, b);
+      const PrincipalFrame<dim, Batch> frame(b);
+      const PrincipalNumbers<Batch> trial_strain = log_strain(frame.values());
+
+      const Mask is_finite =
+          simd::abs<Batch>(trial_strain[0] + trial_strain[1] + trial_strain[2]) <= std::numeric_limits<double>::max();
+      const Mask is_served =
+          Records::is_possible(input) & is_finite & (Records::largest_change_of(input) <= largest_change);
+      const unsigned int used = (1u << n) - 1, served = simd::bits_of(is_served) & used;
+
+      PrincipalNumbers<Batch> strain          = trial_strain, kirchhoff_stress;
+      const PrincipalResponse<Batch> response = law.respond(strain, input.internal_variables, kirchhoff_stress);
+      const unsigned int plastic              = simd::bits_of(response.is_plastic) & served;
+      if (plastic != 0)
+        {
+          Batch returned[n_components], dissipation = simd::broadcast<Batch>(0.);
+          left_cauchy_green_of(frame, strain, returned);
+          for (unsigned int c = 0; c < n_components; ++c)
+            b[c] = simd::select<Batch>(response.is_plastic, returned[c], b[c]);
+          for (unsigned int i = 0; i < 3; ++i)
+            dissipation += kirchhoff_stress[i] * (trial_strain[i] - strain[i]);
+          Records::template write<Law::n_internal_variables>(
+              input.internal_variables, indices, plastic, points, points.internal_variables);
+          report.plastic_dissipation +=
+              simd::sum_of_lanes<Batch>(simd::select<Batch>(response.is_plastic & is_served & simd::first_lanes(n),
+                                                            input.reference_volume * dissipation,
+                                                            simd::broadcast<Batch>(0.)));
+          const auto count = [&](const Mask &mask) { return __builtin_popcount(simd::bits_of(mask) & served); };
+          report.n_vertices += count(response.is_vertex);
+          report.n_separated += count(response.is_separated);
+          report.n_unresolved += count(response.is_unresolved);
+        }
+      report.n_substeps += __builtin_popcount(served);
+      report_largest_compression(kirchhoff_stress, is_served, report);
+
+      const Batch inverse = 1. / input.volume_ratio;
+      for (Batch &value : kirchhoff_stress)
+        value *= inverse;
+      frame.compose(kirchhoff_stress, stress);
+      Records::template write<n_components>(b, indices, served, points, points.left_cauchy_green);
+      Records::template write<n_components>(stress, indices, served, points, points.stress);
+
+      for (unsigned int others = used & ~served; others != 0; others &= others - 1)
+        this->update_point(indices[__builtin_ctz(others)], points, motion, report);
+    }
+
+    static void
+    report_largest_compression(const PrincipalNumbers<Batch> &stress, const Mask &counted, UpdateReport &report)
+    {
+      const Batch smallest = simd::min<Batch>(stress[0], simd::min<Batch>(stress[1], stress[2]));
+      const Mask is_larger = counted & (-smallest > report.largest_compression);
+      if (simd::any(is_larger))
+        report.largest_compression =
+            simd::largest_lane<Batch>(simd::select<Batch>(is_larger, -smallest, simd::broadcast<Batch>(0.)));
+    }
+
+    const Law law;
+    const double largest_change; // of dF - I in one return map
+  };
+} // namespace scree
+
+#endif

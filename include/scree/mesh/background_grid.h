@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_mesh_background_grid_h
+#define scree_mesh_background_grid_h
+
+#include <scree/mesh/node_numbering.h>
+#include <scree/mesh/occupied_blocks.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/fe/mapping_cartesian.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// Subsection Mesh: a box of equal cubes.
+  struct GridParameters
+  {
+    std::vector<double> lower_corner{ 0., 0. }, upper_corner{ 1., 1. }; ///< m
+    std::string box   = "corners";
+    double cell_size  = 0.1; ///< m
+    std::string basis = "spline";
+    std::string fine  = "around points";
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError unless the corners have `dim` coordinates and the cell size divides the box.
+    void check(const unsigned int dim) const;
+
+    Basis basis_kind() const;
+
+    /// Cells of this size along an axis of the box.
+    long n_cells_along(const unsigned int axis) const;
+
+    /// Cells of this size that fill the box.
+    double n_cells() const;
+
+    /// Whether cells are larger where no points are: in boxes of many cells. Few take less memory than the program, and
+    /// so little time that to follow the points would cost more.
+    bool is_adaptive() const;
+
+    /// Cells beside points that are fine, too, at least.
+    static constexpr unsigned int margin = 4;
+
+    /// With more than this part of the box, all of it is made fine: that costs less than to follow the points.
+    static constexpr double most_of_box = 0.5;
+  };
+
+  /// What refinement does to the ranks of cells.
+  enum class Shares
+  {
+    kept, ///< cells stay with their rank
+    even  ///< all ranks get about as many
+  };
+
+  /// The background mesh and the nodes of the velocity.
+  ///
+  /// Cells are fine, of the size that the user asks for, where points are and some way around; the others are larger,
+  /// the more so the further away, and hold no nodes. The mesh consists of coarse cells that p4est halves; it may reach
+  /// beyond the upper walls of the box, since a box need not be a multiple of coarse cells.
+  template <int dim>
+  class BackgroundGrid
+  {
+  public:
+    /// Fine cells everywhere. Collective.
+    BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator);
+
+    /// Fine cells where points are; everywhere if the parameters say so or the box has few cells. Collective.
+    BackgroundGrid(const GridParameters &parameters, const PlacesOfPoints<dim> &places, const MPI_Comm communicator);
+
+    /// Builds the nodes for the current mesh and partition. Collective; called again after a repartition and after
+    /// refine().
+    void distribute_nodes();
+
+    /// The blocks of all ranks with a margin around them, or all of the box if that makes little difference.
+    /// Collective.
+    /// @param blocks of this rank, in which points are
+    Blocks with_surroundings(const Blocks &blocks) const;
+
+    /// Makes the cells of these blocks fine, and others larger. Collective; no points may be on the mesh.
+    /// @param blocks of all ranks
+    void refine(const Blocks &blocks, const Shares shares);
+
+    /// This rank's blocks of fine cells.
+    Blocks fine_blocks() const;
+
+    /// Whether cells may be larger than the fine ones where no points are.
+    bool follows_points() const
+    {
+      return follows;
+    }
+
+    /// Adds the blocks on the way from `x` along `path`, m, as far as it lies in the box, if the first one is not the
+    /// last of `blocks`.
+    void append_blocks(const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &path, Blocks &blocks) const;
+
+    /// The cells that hold nodes.
+    const FineCells<dim> &fine_cells() const
+    {
+      return cells;
+    }
+
+    /// Cells of the finest size that fill the box.
+    double n_cells_of_box() const
+    {
+      return box.n_cells();
+    }
+
+    /// The nodes, see NodeNumbering.
+    const NodeNumbering<dim> &numbering() const
+    {
+      return nodes_of_mesh;
+    }
+
+    unsigned int n_nodes_1d() const
+    {
+      return nodes_of_mesh.n_nodes_1d();
+    }
+    unsigned int n_nodes_per_cell() const
+    {
+      return nodes_of_mesh.n_nodes_per_cell();
+    }
+    const unsigned int *nodes(const unsigned int cell) const
+    {
+      return nodes_of_mesh.nodes(cell);
+    }
+    OpenKnots open_knots(const unsigned int cell) const
+    {
+      return nodes_of_mesh.open_knots(cell);
+    }
+    unsigned int n_owned_nodes() const
+    {
+      return nodes_of_mesh.n_owned();
+    }
+    const dealii::Point<dim> &node_position(const unsigned int node) const
+    {
+      return nodes_of_mesh.position(node);
+    }
+    std::uint8_t node_faces(const unsigned int node) const
+    {
+      return nodes_of_mesh.faces(node);
+    }
+
+    const dealii::parallel::distributed::Triangulation<dim> &triangulation() const
+    {
+      return mesh;
+    }
+    dealii::parallel::distributed::Triangulation<dim> &triangulation()
+    {
+      return mesh;
+    }
+    const dealii::Mapping<dim> &mapping() const
+    {
+      return cartesian;
+    }
+    double cell_size() const
+    {
+      return width;
+    }
+    const dealii::Point<dim> &lower_corner() const
+    {
+      return lower;
+    }
+    const dealii::Point<dim> &upper_corner() const
+    {
+      return upper;
+    }
+
+  private:
+    /// Without fine cells.
+    BackgroundGrid(const GridParameters &parameters, const unsigned int n_levels, const MPI_Comm communicator);
+
+    /// Flags cells for the next step to these blocks; returns whether any rank refines.
+    bool set_flags(const Blocks &blocks);
+
+    const double width;
+    dealii::Point<dim> lower, upper;
+    const CellsOfBox<dim> box;
+    const unsigned int n_levels; // from the coarse cells to the fine ones
+    const bool follows;
+
+    dealii::parallel::distributed::Triangulation<dim> mesh;
+    dealii::MappingCartesian<dim> cartesian;
+    FineCells<dim> cells;
+    NodeNumbering<dim> nodes_of_mesh;
+    boost::signals2::scoped_connection after_repartition;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_mesh_cell_basis_h
+#define scree_mesh_cell_basis_h
+
+#include <scree/simd/batch.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/utilities.h>
+
+#include <array>
+#include <cstdint>
+
+namespace scree
+{
+  /// How a cell's faces enter the basis: bit 2 a is set where the lower face of axis a is open-knotted (a wall of the
+  /// box), bit 2 a + 1 for the upper face. Inside, the quadratic basis is C1 across the face.
+  using OpenKnots = std::uint8_t;
+
+  /// The one-dimensional shape functions along each axis at a point of a cell, and the nodes they belong to.
+  ///
+  /// With n = 3 these are quadratic B-splines: B are the Bernstein polynomials of the cell, l and r are 1 at an open
+  /// knot and 1/2 inside, N_0 = l B_0, N_1 = (1 - l) B_0 + B_1 + (1 - r) B_2, N_2 = r B_2. With all knots open this is
+  /// the C0 quadratic Bernstein basis. With n = 2 they are the linear functions. All are non-negative and sum to one.
+  /// The lexicographic tensor products (first axis fastest) are the n^dim shape functions of the cell.
+  ///
+  /// @tparam Number double, or Batch for as many points
+  template <int dim, int n, typename Number = double>
+  struct CellBasis
+  {
+    static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
+
+    std::array<std::array<Number, n>, dim> value;
+    std::array<std::array<Number, n>, dim> derivative; ///< per cell width
+
+    /// @param x place in the cell: a Point, or an array of `dim` batches
+    template <typename Place>
+    CellBasis(const Place &x, const OpenKnots open)
+    {
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          const Number s = x[a], t = 1. - s;
+          if constexpr (n == 2)
+            {
+              value[a]      = { { t, s } };
+              derivative[a] = { { simd::broadcast<Number>(-1.), simd::broadcast<Number>(1.) } };
+            }
+          else
+            {
+              const double l = lower(open, a), r = upper(open, a);
+              value[a][0]      = l * t * t;
+              value[a][2]      = r * s * s;
+              value[a][1]      = 1. - value[a][0] - value[a][2];
+              derivative[a][0] = -2. * l * t;
+              derivative[a][2] = 2. * r * s;
+              derivative[a][1] = -derivative[a][0] - derivative[a][2];
+            }
+        }
+    }
+
+    /// Positions of the n nodes of axis `a` (Greville abscissae, at which the splines have linear precision), in cell
+    /// widths from the cell's lower corner.
+    static std::array<double, n> node_positions(const OpenKnots open, const unsigned int a)
+    {
+      if constexpr (n == 2)
+        {
+          (void)open;
+          (void)a;
+          return { { 0., 1. } };
+        }
+      else
+        return { { lower(open, a) - 1., 0.5, 2. - upper(open, a) } };
+    }
+
+  private:
+    static double lower(const OpenKnots open, const unsigned int a)
+    {
+      return (open >> (2 * a)) & 1 ? 1. : 0.5;
+    }
+    static double upper(const OpenKnots open, const unsigned int a)
+    {
+      return (open >> (2 * a + 1)) & 1 ? 1. : 0.5;
+    }
+  };
+} // namespace scree
+
+#endif

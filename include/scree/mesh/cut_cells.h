@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_mesh_cut_cells_h
+#define scree_mesh_cut_cells_h
+
+#include <scree/geometry/open_part.h>
+#include <scree/mesh/rigid_boundary.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  /// What rigid ground leaves open of a cell. The ground is plane in each simplex of the cell (Kuhn's), between
+  /// distances at the corners.
+  template <int dim>
+  struct CutCell
+  {
+    static constexpr unsigned int n_corners = 1 << dim;
+    static constexpr unsigned int n_gauss   = 4; // an axis: Lagrange's cubics through them span what is integrated
+    static constexpr unsigned int n_points  = dealii::Utilities::pow(n_gauss, dim);
+    using AtCorners                         = std::array<double, n_corners>;
+
+    unsigned int cell    = 0;  ///< active cell index
+    double open_fraction = 0.; ///< of the volume
+    /// Of the Gauss points of the whole cell (first axis fastest), over its volume: they integrate polynomials of third
+    /// degree an axis exactly over the open part. Some are negative.
+    std::array<double, n_points> weights{};
+    AtCorners open_hats{}; ///< integrals of the corners' linear functions over the open part, over the cell's volume
+
+    unsigned int first_segment = 0, n_segments = 0; ///< of the ground in it
+    bool may_change = false;                        ///< whether ground that moves is near
+  };
+
+  /// What a cell has of one part of the ground.
+  template <int dim>
+  struct CutFacet
+  {
+    unsigned int cell = 0; ///< active cell index
+    unsigned int part = 0; ///< of RigidBoundary
+
+    double area = 0.;                                  ///< what its normals add up to, m^(dim-1)
+    dealii::Tensor<1, dim> normal;                     ///< unit, mean over the segment, out of the open
+    typename CutCell<dim>::AtCorners vertex_weights{}; ///< means of the corners' linear functions over the segment
+    std::vector<double> shapes;                        ///< the same of the velocity's functions
+  };
+
+  /// The cells of this rank that are not all open: cut by rigid ground, beside it, or below it.
+  template <int dim>
+  class CutCells
+  {
+  public:
+    /// Both are kept by reference.
+    /// @param thinnest open part of a cell beside ground that moves, cells: what is thinner counts as closed
+    CutCells(const BackgroundGrid<dim> &grid, const RigidBoundary<dim> &ground, const double thinnest = 0.);
+
+    /// Looks at the cells anew, after the ground has.
+    void reinit();
+
+    /// The same on the mesh as it was, where ground moves.
+    void follow();
+
+    /// For each segment its number before follow(), `none` if it is new.
+    const std::vector<unsigned int> &numbers_before() const
+    {
+      return before;
+    }
+
+    /// What the ground does to a cell; null if that is all open and has none on its faces.
+    const CutCell<dim> *find(const unsigned int cell) const
+    {
+      const unsigned int entry = entry_of_cell[cell];
+      return entry == none ? nullptr : &cut_cells[entry];
+    }
+
+    /// Part of a cell that is open: at least so much that what has got into a closed one fills it.
+    double open_fraction(const unsigned int cell) const
+    {
+      const CutCell<dim> *cut = find(cell);
+      return cut == nullptr ? 1. : std::max(cut->open_fraction, smallest);
+    }
+
+    const std::vector<CutCell<dim>> &cells() const
+    {
+      return cut_cells;
+    }
+
+    /// The ground in all cells, cell by cell.
+    const std::vector<CutFacet<dim>> &segments() const
+    {
+      return all_segments;
+    }
+
+    /// How fast the ground is at a segment, m/s.
+    dealii::Tensor<1, dim> velocity(const CutFacet<dim> &segment) const
+    {
+      const dealii::Tensor<1, dim> *of_part = ground.parts()[segment.part].velocity;
+      return of_part == nullptr ? dealii::Tensor<1, dim>() : *of_part;
+    }
+
+    /// The Gauss points of CutCell::weights along an axis.
+    static std::array<double, CutCell<dim>::n_gauss> gauss_points();
+
+    static constexpr double smallest   = 1e-9;
+    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
+  private:
+    /// Adds a cell, if it is not all open, and its segments.
+    void look_at(const unsigned int cell);
+
+    void integrate_open_part(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut) const;
+
+    /// Adds the segments of a cell.
+    void integrate_ground(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut);
+
+    const BackgroundGrid<dim> &grid;
+    const RigidBoundary<dim> &ground;
+    const double thinnest;
+    const std::vector<Simplex<dim>> unit_cube;
+    std::vector<unsigned int> entry_of_cell; // by active cell index
+    std::vector<CutCell<dim>> cut_cells;
+    std::vector<CutFacet<dim>> all_segments;
+    std::vector<unsigned int> before;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_mesh_discrete_level_set_h
+#define scree_mesh_discrete_level_set_h
+
+#include <scree/geometry/level_set.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/simd/batch.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace scree
+{
+  /// Whether a surface may move.
+  enum class SurfaceMotion
+  {
+    none,
+    rigid ///< without turning
+  };
+
+  /// A rigid surface as this rank's fine cells near it see it: distance and normal at the corners of a lattice of such
+  /// cells, multilinear between. The normals are those of the corners and not the gradient of the distance, which jumps
+  /// between cells. The lattice moves with the surface, which so keeps its shape; at rest it is that of the mesh.
+  template <int dim>
+  class DiscreteLevelSet
+  {
+  public:
+    /// Both are kept by reference.
+    DiscreteLevelSet(const BackgroundGrid<dim> &grid,
+                     const LevelSet<dim> &surface,
+                     const SurfaceMotion motion = SurfaceMotion::none);
+
+    /// Looks at the surface from the grid's current cells. Collective; throws EntryError if an expression is no number
+    /// at one of the corners.
+    /// @param displacement from where the level set has it, m; 0 unless it may move
+    void reinit(const dealii::Tensor<1, dim> &displacement = {});
+
+    /// The same on the mesh as it was, at little cost. Collective.
+    void move_to(const dealii::Tensor<1, dim> &displacement);
+
+    /// How far from the surface cells are near, m.
+    double reach() const
+    {
+      // A point crosses a cell in a step at most, and touches from less than a cell away.
+      return 3. * grid.cell_size();
+    }
+
+    /// Whether a cell is within some cells of the surface, so that the other functions may be asked.
+    bool is_near(const unsigned int cell) const
+    {
+      return entry_of_cell[cell] != none;
+    }
+
+    /// The smallest distance of a cell's corners, m: none of its places is nearer. Infinite if it is not near.
+    double least_distance(const unsigned int cell) const
+    {
+      return is_near(cell) ? least[entry_of_cell[cell]] : std::numeric_limits<double>::infinity();
+    }
+
+    /// The surface from a place (from 0 to 1) in a near cell.
+    SurfaceView<dim> view(const unsigned int cell, const dealii::Point<dim> &place) const;
+
+    /// How far a place is from a surface at rest, m; three cells if it is not near. Where the cells see it inside, it
+    /// is so only if it truly is: they do not resolve ground that is thinner than they are.
+    /// @param x the place, m
+    double distance_of(const unsigned int cell, const dealii::Point<dim> &place, const dealii::Point<dim> &x) const;
+
+    /// A place, m, where the surface at rest encloses less than a cell, so that cells see it wrong; none on other
+    /// ranks.
+    std::optional<dealii::Point<dim>> thin_place() const;
+
+    /// Its distance alone, m, from several places in a near cell; equal to that of view() but for rounding.
+    Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const;
+
+  private:
+    static constexpr unsigned int n_corners = 1u << dim;
+    static constexpr unsigned int none      = dealii::numbers::invalid_unsigned_int;
+
+    bool is_moving() const
+    {
+      return motion == SurfaceMotion::rigid;
+    }
+
+    /// Returns whether the lattice lies in other cells now.
+    bool place(const dealii::Tensor<1, dim> &displacement);
+
+    void look();
+    void sample();
+
+    /// The surface from a corner of the lattice.
+    const SurfaceView<dim> &at_corner(const CellPlace<dim> &corner);
+
+    const BackgroundGrid<dim> &grid;
+    const LevelSet<dim> &surface;
+    const SurfaceMotion motion;
+    const unsigned int n_1d;               // corners a cell and axis: a lattice that moves has two cells there
+    const unsigned int n_of_cell;          // corners
+    std::array<unsigned int, dim> strides; // of a cell's corners along the axes
+    std::array<unsigned int, n_corners> corner_offset;        // of the corners of one cell of the lattice
+    CellPlace<dim> whole_cells{};                             // that the surface has moved
+    dealii::Tensor<1, dim> part_of_cell;                      // the rest, from 0 to 1
+    std::unordered_map<std::uint64_t, SurfaceView<dim>> seen; // corners are shared by cells
+    std::vector<unsigned int> entry_of_cell;                  // by active cell index
+    std::vector<SurfaceView<dim>> corners;                    // of the near cells
+    std::vector<double> least;
+  };
+} // namespace scree
+
+#endif

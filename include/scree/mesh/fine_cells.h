@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_mesh_fine_cells_h
+#define scree_mesh_fine_cells_h
+
+#include <scree/particles/cell_places.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace scree
+{
+  /// The cells that hold nodes, of this rank and around it: those of the finest size inside the box.
+  ///
+  /// Their order is that of the curve through the mesh, whatever the mesh was before: so a run that goes on from a
+  /// checkpoint adds in the same order as one that was not interrupted.
+  template <int dim>
+  class FineCells
+  {
+  public:
+    struct Cell
+    {
+      std::uint64_t number; ///< of its place on the curve
+      CellPlace<dim> place;
+      unsigned int index;                ///< active cell index
+      dealii::types::subdomain_id owner; ///< rank
+    };
+
+    /// No cells yet.
+    FineCells(const dealii::parallel::distributed::Triangulation<dim> &mesh, const CellsOfBox<dim> &box);
+
+    /// Finds them on the current mesh, and sets the CellUse of all cells. Collective.
+    void reinit();
+
+    /// Cells of this rank and its ghosts.
+    const std::vector<Cell> &cells() const
+    {
+      return cell_list;
+    }
+
+    /// How many are this rank's.
+    unsigned int n_owned() const
+    {
+      return std::count_if(cell_list.begin(), cell_list.end(), [this](const Cell &cell) { return is_owned(cell); });
+    }
+
+    bool is_owned(const Cell &cell) const
+    {
+      return cell.owner == rank;
+    }
+
+    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
+    /// Where in cells() the cell of this place is, or `none`.
+    unsigned int find(const CellPlace<dim> &place) const;
+
+    /// Where in cells() the cell with this active cell index is, or `none`.
+    unsigned int of_index(const unsigned int index) const
+    {
+      return entry_of_index[index];
+    }
+
+    const CellsOfBox<dim> &box() const
+    {
+      return cells_of_box;
+    }
+    const dealii::parallel::distributed::Triangulation<dim> &mesh() const
+    {
+      return triangulation;
+    }
+
+  private:
+    void list_cells();
+    void make_table();
+
+    /// Whether all neighbours of a cell in the box are fine.
+    bool is_inner(const CellPlace<dim> &place) const;
+
+    /// Tells other ranks which of this rank's cells are at the edge. Collective.
+    void exchange_uses() const;
+
+    const dealii::parallel::distributed::Triangulation<dim> &triangulation;
+    const CellsOfBox<dim> cells_of_box;
+    const dealii::types::subdomain_id rank;
+    std::vector<Cell> cell_list;
+    std::vector<unsigned int> entry_of_index;
+    std::vector<unsigned int> table; // of entries, by scattered numbers, with open addressing
+  };
+} // namespace scree
+
+#endif

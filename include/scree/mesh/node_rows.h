@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_mesh_node_rows_h
+#define scree_mesh_node_rows_h
+
+#include <scree/mesh/cell_basis.h>
+
+#include <cstring>
+
+namespace scree
+{
+  /// The up to three nodes of a cell along the first axis, as one register (the fourth lane stays 0). A compiler vector
+  /// because Debian builds deal.II's VectorizedArray with a single lane.
+  using NodeRow = double __attribute__((vector_size(4 * sizeof(double))));
+
+  /// Four numbers that lie behind each other, on no boundary in particular.
+  inline NodeRow load_row(const double *values)
+  {
+    NodeRow row;
+    std::memcpy(&row, values, sizeof(row));
+    return row;
+  }
+
+  inline double sum(const NodeRow &row)
+  {
+    return (row[0] + row[1]) + row[2];
+  }
+
+  template <std::size_t n>
+  NodeRow make_row(const std::array<double, n> &values)
+  {
+    if constexpr (n == 2)
+      return NodeRow{ values[0], values[1], 0., 0. };
+    else
+      return NodeRow{ values[0], values[1], values[2], 0. };
+  }
+
+  /// A vector in a row.
+  template <int dim>
+  NodeRow to_row(const dealii::Tensor<1, dim> &vector)
+  {
+    NodeRow row{};
+    for (unsigned int c = 0; c < dim; ++c)
+      row[c] = vector[c];
+    return row;
+  }
+
+  /// The vector that a row begins with.
+  template <int dim>
+  dealii::Tensor<1, dim> to_vector(const NodeRow &row)
+  {
+    dealii::Tensor<1, dim> vector;
+    for (unsigned int c = 0; c < dim; ++c)
+      vector[c] = row[c];
+    return vector;
+  }
+
+  /// The factors that the axes other than the first contribute to a row of nodes: product of their shape functions, and
+  /// the same with one of them differentiated.
+  template <int dim, int n>
+  struct RowFactors
+  {
+    static constexpr unsigned int n_rows = dealii::Utilities::pow(n, dim - 1);
+
+    std::array<double, n_rows> value;
+    std::array<std::array<double, n_rows>, dim - 1> derivative; ///< per cell width, along axes 1, 2
+
+    explicit RowFactors(const CellBasis<dim, n> &basis)
+    {
+      for (unsigned int j = 0; j < n; ++j)
+        if constexpr (dim == 2)
+          {
+            value[j]         = basis.value[1][j];
+            derivative[0][j] = basis.derivative[1][j];
+          }
+        else
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              value[k * n + j]         = basis.value[1][j] * basis.value[2][k];
+              derivative[0][k * n + j] = basis.derivative[1][j] * basis.value[2][k];
+              derivative[1][k * n + j] = basis.value[1][j] * basis.derivative[2][k];
+            }
+    }
+  };
+
+  /// A point as the nodes of its cell see it.
+  template <int dim, int n>
+  struct PointShape
+  {
+    const dealii::Point<dim> &x; ///< place in the cell
+    const OpenKnots open;
+    const CellBasis<dim, n> basis;
+    const RowFactors<dim, n> rows;
+    const NodeRow value_x, derivative_x; ///< shape functions of the first axis; the derivative per cell width
+
+    PointShape(const dealii::Point<dim> &x, const OpenKnots open)
+        : x(x)
+        , open(open)
+        , basis(x, open)
+        , rows(basis)
+        , value_x(make_row(basis.value[0]))
+        , derivative_x(make_row(basis.derivative[0]))
+    {
+    }
+  };
+
+  /// sum over the rows of factor times values
+  template <std::size_t n_rows>
+  NodeRow contract(const std::array<double, n_rows> &factor, const NodeRow (&values)[n_rows])
+  {
+    NodeRow result = values[0] * factor[0];
+    for (unsigned int r = 1; r < n_rows; ++r)
+      result += values[r] * factor[r];
+    return result;
+  }
+} // namespace scree
+
+#endif

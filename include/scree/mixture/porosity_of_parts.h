@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_mixture_porosity_of_parts_h
+#define scree_mixture_porosity_of_parts_h
+
+#include <scree/mixture/closures.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <array>
+
+namespace scree
+{
+  /// The porosity about points of water: of the soil in the part of their cell that holds them. The parts are those
+  /// that a point of soil has at the start, but for no finer than a quarter (3D: half) of a cell along each axis.
+  template <int dim>
+  class PorosityOfParts
+  {
+  public:
+    /// @param soil_points in a cell along each axis, at the start
+    explicit PorosityOfParts(const unsigned int soil_points)
+        : n_1d(std::min(soil_points, most_1d))
+    {
+    }
+
+    /// Adds a point of soil.
+    ///
+    /// @param x its place in the cell
+    /// @param grains volume of its grains, m^3
+    /// @param volume with pores, m^3
+    void add_soil(const dealii::Point<dim> &x, const double grains, const double volume)
+    {
+      Part &part = parts[part_of(x)];
+      part.grains += grains;
+      part.volume += volume;
+    }
+
+    /// Finds the porosities, when all soil is in. Soil that does not fill its part shares it with free water.
+    ///
+    /// @param filled volume of water and wet grains in the cell, at most that of the cell, m^3
+    void find(const double filled)
+    {
+      // Less than `whole` is no scatter of points: to take it for that lends water at a face the grains of its
+      // neighbourhood, and consolidating mud blows up.
+      const double whole = filled / dealii::Utilities::fixed_power<dim>(n_1d);
+      for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
+        if (parts[p].volume > 0.)
+          parts[p].inverse_porosity =
+              1. / std::max(closures::least_porosity, 1. - parts[p].grains / std::max(parts[p].volume, whole));
+    }
+
+    /// 1 over the porosity about a place of the cell, -; 1 without soil.
+    double inverse_at(const dealii::Point<dim> &x) const
+    {
+      return parts[part_of(x)].inverse_porosity;
+    }
+
+  private:
+    struct Part
+    {
+      double grains = 0, volume = 0; // m^3
+      double inverse_porosity = 1;
+    };
+
+    unsigned int part_of(const dealii::Point<dim> &x) const
+    {
+      unsigned int part = 0;
+      for (unsigned int a = 0; a < dim; ++a)
+        part = part * n_1d + std::min(n_1d - 1, static_cast<unsigned int>(std::max(0., x[a] * n_1d)));
+      return part;
+    }
+
+    static constexpr unsigned int most_1d = dim == 2 ? 4 : 2;
+
+    unsigned int n_1d; // parts along an axis
+    std::array<Part, dealii::Utilities::pow(most_1d, dim)> parts;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_model_scene_h
+#define scree_model_scene_h
+
+#include <scree/boundary/constraints.h>
+#include <scree/mesh/cut_cells.h>
+#include <scree/case/memory.h>
+#include <scree/postprocess/statistics.h>
+#include <scree/case/parameters.h>
+#include <scree/schemes/explicit_scheme.h>
+#include <scree/boundary/body_forces.h>
+#include <scree/boundary/inflow/inflow.h>
+#include <scree/schemes/scheme.h>
+
+#include <deal.II/base/timer.h>
+
+#include <list>
+#include <optional>
+
+namespace scree
+{
+  /// What a case describes: the mesh, its walls, bodies of soil, water and loads.
+  template <int dim>
+  class Scene
+  {
+  public:
+    /// Makes all of it, without points but for the markers of loads. Collective; throws EntryError if the memory is too
+    /// small for the case.
+    Scene(const Parameters &parameters, const MPI_Comm communicator);
+
+    /// Fills bodies and water with points, and gives them the state that the case starts from. Collective; throws
+    /// EntryError where the case does not fit itself.
+    void fill();
+
+    /// What acts on the soil in the step, s, that comes.
+    void begin_step(const double time, const double time_step);
+
+    /// Puts in the layers that enter with a step, s, and books them. Collective.
+    /// @param pressure of the water, for its points that enter; read in scenes with water
+    void let_in(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
+
+    /// Moves the obstacles to where they are after the step. Collective.
+    void move_obstacles(const double time_step);
+
+    /// Whether obstacles may move in water, so that cut_cells have to follow them.
+    bool wet_ground_moves() const
+    {
+      return wet_ground && wet_ground->moves();
+    }
+
+    /// Adds the speeds of the obstacles at a time, s.
+    void include_obstacles(Speeds &speeds, const double time) const;
+
+    /// Adds the speeds of what enters.
+    void include_inflows(Speeds &speeds) const;
+
+    /// A line for the log about each inflow.
+    std::vector<std::string> texts_of_inflows() const;
+
+    /// Fits what depends on the mesh and its partition to them. Collective.
+    void reinit();
+
+    /// The blocks in which this rank's points are, and those they come through in the next `time`, s, at their
+    /// velocity.
+    Blocks blocks_of_points(const double time) const;
+
+    /// The scheme that moves the points of this scene, to which it refers: chosen here and nowhere else.
+    std::unique_ptr<Scheme<dim>> make_scheme(dealii::TimerOutput &timer);
+
+    /// The speeds of the points of all ranks, before the first step. Collective.
+    Speeds speeds() const;
+
+    /// Throws EntryError, with the entry, if the viscosity is too large to compute with, or if the run would take more
+    /// steps than any run can: the time would not move.
+    /// @param stable_step s, at these `speeds` of all ranks
+    void require_steps(const double stable_step, const Speeds &speeds) const;
+
+    /// Soil and water do not move in this region of a gate until it is opened. Collective.
+    void close_gate(const std::string &region);
+    void open_gate();
+
+    /// Stops all points: no velocity, no affine field of velocity.
+    void stop();
+
+    /// From here on, displacements count.
+    void mark_start();
+
+    /// What the run calls a point where it tells its speed.
+    std::string name_of_a_point() const
+    {
+      return water.empty() ? "point" : "soil or water point";
+    }
+
+    const MemoryEstimate expected_memory;
+    BackgroundGrid<dim> grid;
+    BoundaryConditions<dim> walls;
+    std::unique_ptr<WaterBoundaryConditions<dim>> water_walls; ///< null in a dry scene
+    Constraints<dim> constraints;
+    std::unique_ptr<Constraints<dim>> walls_alone; ///< without rigid bodies, for what slides on them; null without it
+    BodyForces<dim> forcing;
+    std::list<SoilBody<dim>> bodies;
+    std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
+    std::list<SurfaceLoad<dim>> loads;
+    std::list<Obstacle<dim>> obstacles;
+    std::list<Inflow<dim>> inflows;
+    std::optional<Raster> bed_friction;         ///< coefficients of friction; nothing if they are the same everywhere
+    std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
+    std::unique_ptr<DiscreteLevelSet<dim>> bed; ///< the same as the mesh sees it
+    std::unique_ptr<LevelSet<dim>> union_level_set; ///< bed and obstacles as one; null without water or obstacles
+    std::unique_ptr<LevelSet<dim>> joined_at_rest;  ///< those at rest; null if there is no more than the bed
+    std::unique_ptr<DiscreteLevelSet<dim>> joined_samples; ///< the same as the mesh sees it
+    std::unique_ptr<RigidBoundary<dim>> wet_ground;        ///< what water meets; null if there is nothing
+    std::unique_ptr<CutCells<dim>> cut_cells; ///< what ground leaves of the cells; null without water or ground
+
+  private:
+    /// Walls do not act where obstacles that move cover them.
+    void uncover_walls();
+
+    void make_bodies();
+    void join_ground();
+
+    /// Holds the nodes of rigid bodies, for soil that sticks to them. Collective.
+    void hold_rigid_nodes();
+
+    /// What the groups of bodies that stick to each other meet.
+    std::vector<GroupSurroundings<dim>> surroundings_of_groups();
+
+    /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
+    std::pair<unsigned int, unsigned int> points_per_cell() const;
+    void fill_with_points();
+    void set_velocity_gradients();
+    void set_touching_distances();
+
+    /// Of one point of a body.
+    /// @param surfaces as rigid_surfaces()
+    /// @param cell active cell index
+    /// @param place in the cell, from 0 to 1 along each axis
+    void set_touching_distances(const SoilBody<dim> &body,
+                                const std::vector<RigidSurface<dim>> &surfaces,
+                                const unsigned int cell,
+                                const dealii::Point<dim> &place,
+                                double *properties) const;
+
+    /// Tells the nodes which inflow moves them. Until the next step begins they are at rest.
+    void hold_at_inflows();
+
+    /// A point that enters.
+    struct Entrant
+    {
+      double volume;               ///< of the layer about it, m^3 (2D: per m)
+      dealii::Point<dim> location; ///< m
+      unsigned int cell;           ///< active cell index
+      dealii::Point<dim> place;    ///< in the cell, from 0 to 1 along each axis
+    };
+
+    /// Puts in a layer of an inflow; returns how many points of this rank that are. `back` layers have entered after
+    /// it.
+    /// @param mass_slot of the points
+    /// @param fill writes the properties of an Entrant, which are 0 before
+    template <typename Fill>
+    unsigned int add_layer(const Inflow<dim> &inflow,
+                           const unsigned int back,
+                           PointSet<dim> &points,
+                           const unsigned int mass_slot,
+                           const Fill &fill,
+                           RunTotals<dim> &totals) const;
+    unsigned int add_soil(const Inflow<dim> &inflow, const unsigned int back, RunTotals<dim> &totals);
+    unsigned int add_water(const Inflow<dim> &inflow,
+                           const unsigned int back,
+                           const PressureOfCell<dim> &pressure,
+                           RunTotals<dim> &totals);
+
+    /// Writes the properties of a point of soil that enters.
+    void fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const;
+
+    /// The same of water.
+    /// @param pressure at the corners of its cell, Pa
+    void fill_entrant(const Entrant &entrant,
+                      const WaterPhase<dim> &phase,
+                      const std::array<double, (1 << dim)> &pressure,
+                      std::vector<double> &properties) const;
+    void require_points_outside_obstacles() const;
+
+    /// The bed and the obstacles: what points in contact have slots for, in this order.
+    std::vector<RigidSurface<dim>> rigid_surfaces() const;
+    void set_initial_state();
+    void require_viscosity(const double stable_step) const;
+
+    /// Whether points of rigid bodies act on the nodes of this rank's cells; empty without such bodies. Collective.
+    std::vector<char> rigid_nodes() const;
+
+    const Parameters &parameters;
+    const ContactGroups groups;
+    const MPI_Comm communicator;
+  };
+} // namespace scree
+
+#endif

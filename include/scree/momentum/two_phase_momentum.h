@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_momentum_two_phase_momentum_h
+#define scree_momentum_two_phase_momentum_h
+
+#include <scree/boundary/body_forces.h>
+#include <scree/pressure/pore_pressure.h>
+#include <scree/momentum/wall_friction.h>
+#include <scree/boundary/wall_gaps.h>
+
+namespace scree
+{
+  /// Soil and water at the nodes, tied by drag and stopped by walls: the predictor and the corrector of a fractional
+  /// step.
+  template <int dim>
+  class TwoPhaseMomentum
+  {
+  public:
+    TwoPhaseMomentum(const BackgroundGrid<dim> &grid,
+                     const Constraints<dim> &constraints,
+                     const WallGaps<dim> &wall_gaps,
+                     const BodyForces<dim> &forcing,
+                     const double water_density,
+                     const Splitting splitting);
+
+    /// Fits what lives on the nodes to the grid's current partition. Collective.
+    void reinit();
+
+    /// A v* = m v + dt f, where A holds masses and drag, and f the force of the old pressure. `nodes` hold the sums of
+    /// all ranks before, and velocities and their change afterwards, without ghosts; the pores then hold drag times
+    /// step, and the fraction of grains.
+    void predict(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
+
+    /// v = v* - dt A^-1 G dp with the change of `pressure`. `nodes` hold velocities afterwards, without ghosts.
+    /// Collective.
+    void correct(const MixtureNodes<dim> &nodes,
+                 const Mixture<dim> &mixture,
+                 const PorePressure<dim> &pressure,
+                 const double time_step,
+                 Budget<dim> &balance);
+
+    /// Soil and water at an owned node, after predict().
+    DragBlock<dim> drag_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
+
+    /// Gives an owned node further impulses, N s, after predict(): drag and walls see them, too.
+    void push(const MixtureNodes<dim> &nodes,
+              const unsigned int node,
+              const SoilAndWater<dim> &impulses,
+              Budget<dim> &balance) const;
+
+    /// Changes the velocities of an owned node, m/s, after predict(). A phase without mass follows the other.
+    static void add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change);
+
+  private:
+    /// Of what holds soil and water at the node, m/s.
+    SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;
+
+    /// Any mass for rigid soil, so that it takes part in drag: as it is held, the mass does not matter.
+    void assign_rigid_mass(const MixtureNodes<dim> &nodes, const unsigned int node) const;
+
+    /// Turns the sums at a node's pores into drag times step and the fraction of grains.
+    void
+    compute_porosity_and_drag(const MixtureNodes<dim> &nodes, const unsigned int node, const double time_step) const;
+
+    /// Momentum, forces and accelerations over the step, N s.
+    SoilAndWater<dim> impulses_at(const MixtureNodes<dim> &nodes,
+                                  const unsigned int node,
+                                  const double time_step,
+                                  Budget<dim> &balance) const;
+
+    /// Adds what the walls of a node give to the balance.
+    void count_walls(const unsigned int node, const SoilAndWater<dim> &impulses, Budget<dim> &balance) const;
+
+    /// Velocities from impulses; finds the contacts with walls and adds their friction to the impulses. The drag at the
+    /// node's pores becomes that of the flow.
+    SoilAndWater<dim> stop_at_walls(const MixtureNodes<dim> &nodes,
+                                    const unsigned int node,
+                                    SoilAndWater<dim> &impulses,
+                                    const SoilAndWater<dim> &before,
+                                    Budget<dim> &balance);
+
+    /// What walls give in the corrector: their reactions to `impulses`, and what friction on sliding soil changes by,
+    /// which is added to `change`.
+    void correct_at_walls(const unsigned int node,
+                          const DragBlock<dim> &pair,
+                          const SoilAndWater<dim> &impulses,
+                          const SoilAndWater<dim> &before,
+                          const dealii::Tensor<1, dim> &soil_predicted,
+                          SoilAndWater<dim> &change,
+                          Budget<dim> &balance) const;
+
+    /// Forces of the change of the pressure on soil and water, times the step.
+    void sum_pressure_impulses(const Mixture<dim> &mixture, const PorePressure<dim> &pressure, const double time_step);
+
+    const Constraints<dim> &constraints;
+    const WallGaps<dim> &wall_gaps;
+    const BodyForces<dim> &forcing;
+    const BackgroundGrid<dim> &grid;
+    const double water_density;
+    const Splitting splitting;
+    WallFriction<dim> friction;
+    NodeValues<dim, 2 * dim> pressure_impulses; // of the change of pressure on soil and water, N s
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_particles_cell_points_h
+#define scree_particles_cell_points_h
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/point.h>
+
+#include <cstddef>
+#include <type_traits>
+
+namespace scree
+{
+  /// How many points before their turn kernels ask the memory for records, which lie in no order there.
+  constexpr unsigned int points_ahead = 12;
+
+  /// The points of one cell: which slots of the rank's records they fill.
+  ///
+  /// @tparam Number double, or const double for points that must not change
+  template <int dim, typename Number = double>
+  struct CellPoints
+  {
+    using Location = std::conditional_t<std::is_const_v<Number>, const dealii::Point<dim>, dealii::Point<dim>>;
+
+    unsigned int cell; ///< active cell index
+    unsigned int n_points;
+    const unsigned int *slots; ///< of the points; those of the cells that follow in cells() lie behind them
+    unsigned int stride;       ///< doubles from one slot's properties to the next one's
+    Number *properties;        ///< of slot 0
+    Location *locations;       ///< of slot 0, m
+    const dealii::Point<dim> *reference_locations; ///< of slot 0
+
+    /// Properties of the cell's point `p`.
+    Number *properties_of(const unsigned int p) const
+    {
+      return properties + std::size_t(slots[p]) * stride;
+    }
+
+    /// Where the cell's point `p` is, m.
+    Location &location_of(const unsigned int p) const
+    {
+      return locations[slots[p]];
+    }
+
+    /// Its place in the cell, from 0 to 1 along each axis.
+    const dealii::Point<dim> &reference_location_of(const unsigned int p) const
+    {
+      return reference_locations[slots[p]];
+    }
+
+    /// Asks the memory for the properties and the place of the point that comes `points_ahead` after point `p`, here or
+    /// in the cells that follow.
+    void prefetch_after(const unsigned int p) const
+    {
+      constexpr unsigned int cache_line = 64 / sizeof(double);
+      const Number *record              = properties_of(p + points_ahead);
+      for (unsigned int first = 0; first < stride; first += cache_line)
+        __builtin_prefetch(record + first);
+      __builtin_prefetch(&reference_location_of(p + points_ahead));
+    }
+  };
+
+  /// The points of one cell of a set that must not change.
+  template <int dim>
+  using ConstCellPoints = CellPoints<dim, const double>;
+
+  /// One point of a set, as for_each_point() shows it.
+  template <int dim, typename Number>
+  struct PointView
+  {
+    unsigned int cell; ///< active cell index
+    Number *properties;
+    typename CellPoints<dim, Number>::Location &location; ///< m
+    const dealii::Point<dim> &reference_location;
+  };
+
+
+  /// Calls `act(point)` with a PointView of each of a cell's points. Inlined by force: out of line, a kernel's sums
+  /// would go through memory (a sixth more time from points to nodes).
+  template <int dim, typename Number, typename Act>
+  DEAL_II_ALWAYS_INLINE inline void for_each_point(const CellPoints<dim, Number> &cell, const Act &act)
+  {
+    for (unsigned int p = 0; p < cell.n_points; ++p)
+      act(PointView<dim, Number>{
+          cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) });
+  }
+
+
+  /// The same for kernels that need most of a record, for all of a set's cells in turn.
+  template <int dim, typename Number, typename Act>
+  DEAL_II_ALWAYS_INLINE inline void for_each_record(const CellPoints<dim, Number> &cell, const Act &act)
+  {
+    for (unsigned int p = 0; p < cell.n_points; ++p)
+      {
+        cell.prefetch_after(p);
+        act(PointView<dim, Number>{
+            cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) });
+      }
+  }
+} // namespace scree
+
+#endif

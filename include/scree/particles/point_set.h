@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_particles_point_set_h
+#define scree_particles_point_set_h
+
+#include <scree/particles/cell_costs.h>
+#include <scree/particles/cell_table.h>
+#include <scree/particles/cell_use.h>
+#include <scree/particles/point_exchange.h>
+#include <scree/particles/point_lists.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/particles/particle_handler.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace scree
+{
+  /// A point that lay outside the mesh when the set was sorted.
+  template <int dim>
+  struct LostPoint
+  {
+    dealii::Point<dim> location; ///< m
+    std::vector<double> properties;
+  };
+
+  /// What it takes to bring all points into the cells and to the ranks that they lie in now; the ranks do what the
+  /// largest of their answers says.
+  enum class Disorder
+  {
+    none,            ///< nothing
+    beside_a_border, ///< a point lies in a cell of a neighbouring rank
+    far              ///< a point lies outside the mesh or beyond its neighbours, or records lie too far apart in memory
+  };
+
+  /// A set of material points on a distributed mesh: a ParticleHandler, seen cell by cell.
+  ///
+  /// Points that change cells keep their record's slot: the handler only lists it in another cell, or passes it on to
+  /// the neighbouring rank. So a step costs nothing for empty cells and little for points that stay. Now and then
+  /// deal.II's own sort brings the records of a cell together in memory again; when it does changes no result.
+  template <int dim>
+  class PointSet
+  {
+  public:
+    /// The part of a rank's points that may change cells before records are sorted in memory again.
+    static constexpr double most_moved = 0.5;
+
+    PointSet(const dealii::Triangulation<dim> &triangulation,
+             const dealii::Mapping<dim> &mapping,
+             const unsigned int n_properties);
+    ~PointSet();
+
+    /// Hands every point to the cell and rank it lies in, and brings the records of a cell together in memory:
+    /// deal.II's sort, for any state of the handler. Collective. Points outside the mesh leave the set and are appended
+    /// to lost().
+    void sort();
+
+    /// The same after cells() moved, at the cost of the points that leave their cells. Collective.
+    void hand_over();
+
+    /// The first half of hand_over(), of this rank alone: sets the points' places in their cells, and takes those out
+    /// that left for another rank. What is left to do is for the other half, with the largest answer of all ranks.
+    Disorder update_places();
+
+    /// The other half. Collective.
+    void hand_over(const Disorder disorder);
+
+    /// Puts a point into a cell of this rank; it is among cells() after finish_adding().
+    /// @param properties as many as stride()
+    void add(const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
+             const dealii::Point<dim> &location,
+             const dealii::types::particle_index id,
+             const std::vector<double> &properties);
+    void finish_adding();
+
+    /// Takes all points off the mesh, before its cells are refined or coarsened.
+    void lift();
+
+    /// Puts them back on the mesh, which has cells as large as before or smaller where they were, on the same ranks.
+    /// Collective.
+    void put_down();
+
+    /// Whether one of this rank's points has got into a cell that is no CellUse::inner one, in the step before or since
+    /// it was put there.
+    bool is_at_edge() const
+    {
+      return at_edge;
+    }
+
+    /// Whether all cells() are inner ones, as a step needs it.
+    bool is_in_inner_cells() const;
+
+    /// This rank's cells that hold points, in an order that depends on the cells' places only. Valid until the points
+    /// move on.
+    const std::vector<CellPoints<dim>> &cells()
+    {
+      return lists.cells();
+    }
+    const std::vector<ConstCellPoints<dim>> &cells() const
+    {
+      return lists.cells();
+    }
+
+    /// The lasting numbers of the points of cells()[cell], in their order: unique in the set over all ranks; a point
+    /// keeps its own from cell to cell, rank to rank and through checkpoints.
+    std::vector<dealii::types::particle_index> ids(const unsigned int cell) const;
+
+    /// The lasting number of the point that is added next, the same on all ranks.
+    dealii::types::particle_index next_id = 0;
+
+    /// Number of this rank's points.
+    unsigned int n_points() const
+    {
+      return lists.n_points();
+    }
+
+    /// This rank's points that left the mesh since the list was last cleared.
+    std::vector<LostPoint<dim>> &lost()
+    {
+      return lost_points;
+    }
+
+    /// What the points cost in the passes that move them, cell by cell.
+    CellCosts &costs()
+    {
+      return cell_costs;
+    }
+    const CellCosts &costs() const
+    {
+      return cell_costs;
+    }
+
+    /// Doubles from one point's properties to the next one's.
+    unsigned int stride() const
+    {
+      return n_properties;
+    }
+
+    dealii::Particles::ParticleHandler<dim> &handler()
+    {
+      return particle_handler;
+    }
+    const dealii::Particles::ParticleHandler<dim> &handler() const
+    {
+      return particle_handler;
+    }
+
+  private:
+    using CellIterator = typename CellTable<dim>::Iterator;
+    using Record       = PointRecord<dim>;
+
+    /// A point that is no longer in its cell.
+    struct Leaver
+    {
+      unsigned int from;  // number in the list of filled cells
+      unsigned int point; // number in the cell
+      unsigned int to;    // number in the table
+    };
+
+    /// What points carry from mesh to mesh.
+    struct Lifted;
+
+    /// Sets the places of the points that are still in their cells, and lists the others in `leavers`. Returns whether
+    /// the cells of all were found.
+    bool set_places();
+
+    /// Takes a point out of the handler's and the own lists.
+    void take_out(const Leaver &leaver, Record &record);
+
+    /// Puts it into the cell with this number in the table, or among the emigrants.
+    void hand_on(const unsigned int to, Record &record);
+
+    /// Gives the handler a point of the cell with this number in the table; returns its slot.
+    unsigned int insert_into(const unsigned int number,
+                             const dealii::Point<dim> &location,
+                             const dealii::types::particle_index id,
+                             const dealii::ArrayView<const double> &properties);
+
+    /// The same with a point that becomes an entrant.
+    void insert(const unsigned int number, const Record &record);
+
+    /// Takes out the points in cells beyond the walls.
+    void lose_points_outside();
+
+    /// Makes cells() anew, as the handler has them.
+    void list_all_cells();
+
+    const dealii::Triangulation<dim> &mesh;
+    const unsigned int n_properties;
+    dealii::Particles::ParticleHandler<dim> particle_handler;
+    CellTable<dim> table;
+    PointLists<dim> lists;
+    boost::signals2::scoped_connection refinement_signal, repartition_signal;
+
+    std::vector<Leaver> leavers;
+    std::vector<Record> carried; // the leavers, between two cells
+    PointExchange<dim> emigrants;
+    std::size_t n_moved = 0; // points that changed cells since the last sort()
+    std::vector<LostPoint<dim>> lost_points;
+    std::unique_ptr<Lifted> lifted;
+    bool at_edge = false;
+    CellCosts cell_costs;
+  };
+
+
+  /// Calls `act(point)` with a PointView of each of this rank's points, cell by cell.
+  template <int dim, typename Act>
+  void for_each_point(PointSet<dim> &points, const Act &act)
+  {
+    for (const auto &cell : points.cells())
+      for_each_point(cell, act);
+  }
+
+
+  /// The same for points that must not change.
+  template <int dim, typename Act>
+  void for_each_point(const PointSet<dim> &points, const Act &act)
+  {
+    for (const auto &cell : points.cells())
+      for_each_point(cell, act);
+  }
+} // namespace scree
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_postprocess_run_checks_h
+#define scree_postprocess_run_checks_h
+
+#include <scree/mesh/discrete_level_set.h>
+#include <scree/io/run_folder.h>
+#include <scree/bodies/soil_body.h>
+#include <scree/bodies/water_phase.h>
+
+#include <array>
+#include <list>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// What a run watches itself for.
+  enum class Check : unsigned int
+  {
+    speed,     ///< fastest point over the 99.9 % quantile of the speeds
+    depth,     ///< of a point below the bed, over the cell size
+    shrinkage, ///< V_0/V of soil
+    pressure,  ///< p' over rho g H of the soil, with H from the lowest to the highest point of it
+    lost       ///< points of soil that left the box
+  };
+
+  /// Looks at the points now and then for what a sound run does not do, and logs where and when it first did.
+  template <int dim>
+  class RunChecks
+  {
+  public:
+    /// All are kept by reference.
+    /// @param bed null: none
+    RunChecks(const BackgroundGrid<dim> &grid,
+              const dealii::Tensor<1, dim> &gravity,
+              const DiscreteLevelSet<dim> *bed,
+              RunFolder &folder);
+
+    /// Looks at the points if the last look is some steps old, or at the end. Collective.
+    /// @param n_lost points of soil that this rank has lost so far
+    void look(const std::list<SoilBody<dim>> &bodies,
+              const std::list<WaterPhase<dim>> &water,
+              const double n_lost,
+              const double time,
+              const unsigned long long step,
+              const bool is_end);
+
+    /// Logs the worst that was seen.
+    void summarise() const;
+
+  private:
+    static constexpr unsigned int n_checks = 5;
+
+    /// The point that is worst in a check.
+    struct Suspect
+    {
+      double value = 0.; ///< see Check
+      double found = 0.; ///< of the point: speed, m/s, depth, m, V/V_0, p', Pa, or the number of those lost
+      std::string point; ///< body, number and place, in words
+      double time = 0.;  ///< s
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &value &found &point &time;
+      }
+    };
+    using Suspects = std::array<Suspect, n_checks>;
+
+    /// Looks at the points of a set: calls `look(point, name)`, where name() tells which one it is.
+    template <class Look>
+    static void for_each_named(const std::string &set, const PointSet<dim> &points, const Look &look);
+
+    /// Takes a point of this rank if it is worse than those before.
+    template <class Name>
+    void suspect(const Check check, const double value, const double found, const Name &name);
+
+    void look_at_soil(const std::list<SoilBody<dim>> &bodies);
+    void look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
+
+    /// What a thousandth of these speeds of all ranks exceeds, m/s, to .03 % of the largest. Collective.
+    double quantile(const std::vector<double> &speeds, const double largest) const;
+
+    /// Takes the worst of all ranks and logs what is wrong for the first time. Collective.
+    void agree(const double time);
+
+    static bool is_wrong(const Check check, const double value);
+    static std::string text(const Check check, const Suspect &suspect);
+
+    const BackgroundGrid<dim> &grid;
+    const dealii::Tensor<1, dim> gravity;
+    const DiscreteLevelSet<dim> *bed;
+    RunFolder &folder;
+    Suspects now, worst;
+    std::array<bool, n_checks> is_told{};
+    unsigned long long last_step = 0;
+    bool has_looked              = false;
+  };
+} // namespace scree
+
+#endif

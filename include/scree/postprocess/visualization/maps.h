@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_postprocess_visualization_maps_h
+#define scree_postprocess_visualization_maps_h
+
+#include <scree/mesh/background_grid.h>
+#include <scree/io/output_parameters.h>
+#include <scree/io/run_folder.h>
+#include <scree/bodies/soil_body.h>
+
+#include <array>
+#include <list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+  /// Where a map has the case's coordinates.
+  struct MapFrame
+  {
+    dealii::Point<2> origin; ///< m; in 2D nothing reads it
+    std::string system;      ///< of coordinates, as a .prj file tells it; empty: none is known
+  };
+
+  /// Maps of the soil that can move, on the columns of the mesh's fine cells along the last axis: ESRI ASCII grids in
+  /// the folder `maps` of a run, in 2D one table along x. All ranks hold all columns. Does nothing unless the case asks
+  /// for maps.
+  template <int dim>
+  class Maps
+  {
+  public:
+    Maps(const MapParameters &parameters,
+         const MapFrame &frame,
+         const BackgroundGrid<dim> &grid,
+         const RunFolder &folder);
+
+    /// Takes the state at `time`, s, into the maps. Collective.
+    void sample(const std::list<SoilBody<dim>> &bodies, const double time);
+
+    /// Writes all maps as of the last sample, and the thickness (in 2D the table) also under a name with its `time`, s.
+    void write(const double time) const;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &thickness &first_thickness &mass &largest_thickness &largest_speed &largest_pressure &arrival_time;
+      archive &first_at_rest &scour_depth;
+    }
+
+  private:
+    using Map = std::vector<double>; // by column, along x first
+
+    /// A map in space.
+    void write_map(const std::string &name, const Map &map) const;
+
+    /// All maps in the plane: a row a column of cells, with the x of its middle.
+    void write_table(const std::string &name, const std::vector<std::pair<std::string, const Map *>> &maps) const;
+
+    /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
+    /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
+    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> columns_around(const dealii::Point<dim> &x) const;
+
+    const MapParameters parameters;
+    const MapFrame frame;
+    const BackgroundGrid<dim> &grid;
+    const RunFolder &folder;
+    std::array<std::size_t, dim> n; // cells along each axis
+    Map thickness, first_thickness; // m, now and in the first sample
+    Map mass;                       // over area, now, kg/m^2
+    Map largest_thickness;          // m
+    Map largest_speed;              // of a column's momentum over its mass, m/s
+    Map largest_pressure;           // momentum flux over thickness: bulk density times square of that speed, Pa
+    Map arrival_time;               // s; negative: not yet
+    // With the points' starts only: volume of what has not left its start, by the column of the start, m^3 (2D: m^2),
+    // and thickness of what has left it, m.
+    Map first_at_rest, scour_depth;
+  };
+} // namespace scree
+
+#endif

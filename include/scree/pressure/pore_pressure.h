@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_pressure_pore_pressure_h
+#define scree_pressure_pore_pressure_h
+
+#include <scree/pressure/free_surface.h>
+#include <scree/pressure/divergence.h>
+#include <scree/pressure/pressure_memory.h>
+#include <scree/pressure/pressure_solver.h>
+#include <scree/step/budget.h>
+#include <scree/step/timer_section.h>
+
+namespace scree
+{
+  /// The pore pressure p at the corners of the cells: where the water ends, p at the start of a step, and the system
+  /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (Kularathna et al. 2021; Yuan et al. 2023), with the drag in
+  /// L.
+  template <int dim>
+  class PorePressure
+  {
+  public:
+    using AtCorners = std::array<double, (1 << dim)>;
+
+    /// @param gravity m/s^2
+    /// @param cut_cells what rigid ground leaves of the cells; null: all
+    PorePressure(const BackgroundGrid<dim> &grid,
+                 const WaterBoundaryConditions<dim> &walls,
+                 const PressureParameters &parameters,
+                 const WaterParameters &water,
+                 const dealii::Tensor<1, dim> &gravity,
+                 const CutCells<dim> *cut_cells,
+                 dealii::TimerOutput &timer);
+
+    /// Fits the corners to the grid's current partition. Collective.
+    void reinit();
+
+    /// Fits it to ground that has moved, on the mesh as it was. Collective.
+    void follow_ground()
+    {
+      surface.follow_ground();
+    }
+
+    /// Finds the water's surface and the pressure at the start of a step. Collective.
+    void locate(const Mixture<dim> &mixture);
+
+    /// Solves for the change of the pressure over a step from the predicted velocities, whose ghosts hold values.
+    /// Collective.
+    /// @param mixture gets the drag of the predicted flow and the mobilities of its cells
+    /// @param shear_modulus of the soil, Pa: scales the pressure projection
+    void solve(Mixture<dim> &mixture,
+               const NodalField<dim> &soil,
+               const NodalField<dim> &water,
+               const PoreField<dim> &pores,
+               const double time_step,
+               const double shear_modulus,
+               Budget<dim> &balance);
+
+    /// Adds the change to the pressure, which is that of the end of the step from here on. Collective.
+    /// @param soil velocity and its change over the step, as `water`, at nodes whose ghosts hold values
+    void accept_change(const Mixture<dim> &mixture,
+                       const NodalField<dim> &soil,
+                       const NodalField<dim> &water,
+                       const PoreField<dim> &pores);
+
+    /// See MixtureDivergence.
+    void find_volume_factors(Mixture<dim> &mixture,
+                             const NodalField<dim> &soil,
+                             const NodalField<dim> &water,
+                             const PoreField<dim> &pores,
+                             const double time_step)
+    {
+      gaps.find(mixture);
+      divergence.find_volume_factors(mixture, soil, water, pores, gaps, time_step);
+    }
+
+    /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
+    /// @param potential what it holds is the first guess; its ghosts hold values afterwards
+    void solve_potential(const Mixture<dim> &mixture,
+                         const CornerVector &source,
+                         CornerVector &potential,
+                         Budget<dim> &balance);
+
+    /// Whether the next step forgets anything of the pressure.
+    bool fades() const
+    {
+      return memory.is_on();
+    }
+
+    /// Pressure at the corners of a cell with points, Pa, in deal.II's order; its change; what the next step forgets of
+    /// it, 0 to 1; any other vector.
+    AtCorners pressure_of(const unsigned int cell) const
+    {
+      return at_corners(pressure, cell);
+    }
+    AtCorners change_of(const unsigned int cell) const
+    {
+      return at_corners(change, cell);
+    }
+    AtCorners forgotten_of(const unsigned int cell) const
+    {
+      return memory.forgotten_at(corners_of(cell));
+    }
+    AtCorners at_corners(const CornerVector &values, const unsigned int cell) const;
+
+    const FreeSurfaceLocator<dim> &free_surface() const
+    {
+      return surface;
+    }
+
+    /// The corners of a cell of this rank, in deal.II's order.
+    const unsigned int *corners_of(const unsigned int cell) const
+    {
+      return corners.nodes(cell);
+    }
+
+    /// Makes room for a number a corner.
+    void reinit(CornerVector &vector) const
+    {
+      vector.reinit(corners.partitioner());
+    }
+
+  private:
+    static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
+    void reinit_vectors();
+
+    /// Pressures that outlast a change of the mesh, by the curve numbers of the corners' places; those of all ranks.
+    /// Empty unless the pressure lives on the grid. Collective.
+    std::map<std::uint64_t, double> grid_pressure() const;
+
+    /// Of a corner's place on the curve.
+    std::uint64_t number_of(const unsigned int corner) const;
+
+    void compute_pressure_coefficients(Mixture<dim> &mixture,
+                                       const NodalField<dim> &soil,
+                                       const NodalField<dim> &water,
+                                       const double time_step) const;
+    void assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus);
+
+    /// Adds a solve to the counts of the run.
+    void count(const SolveReport &report, Budget<dim> &balance) const;
+
+    const BackgroundGrid<dim> &grid;
+    const Splitting splitting;
+    const PreviousPressure previous_pressure;
+    const double relative_tolerance, projection, bulk_modulus, cavitation_pressure;
+    dealii::TimerOutput &timer;
+
+    NodeNumbering<dim> corners;
+    FreeSurfaceLocator<dim> surface;
+    SoilGaps<dim> gaps;
+    MixtureDivergence<dim> divergence;
+    PressureSolver<dim> solver;
+    PressureMemory<dim> memory;
+    CornerVector pressure, kept_pressure, change, source;
+
+    bool has_grid_pressure = false; // of the last step, in the current partition
+  };
+} // namespace scree
+
+#endif

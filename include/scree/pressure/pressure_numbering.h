@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_pressure_pressure_numbering_h
+#define scree_pressure_pressure_numbering_h
+
+#include <scree/pressure/free_surface.h>
+
+#include <memory>
+#include <vector>
+
+namespace scree
+{
+  /// Numbers of the corners at which the pressure may be unknown: those of the wet cells and of the cells next to them,
+  /// so that one numbering serves many steps.
+  template <int dim>
+  class PressureNumbering
+  {
+  public:
+    PressureNumbering(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &corners);
+
+    /// Forgets what belongs to another partition of the mesh.
+    void reinit();
+
+    /// Hands out new numbers if a wet cell has a corner without one. Collective.
+    /// @return whether it did
+    bool update(const Mixture<dim> &mixture);
+
+    /// Of the numbers: the owned ones first.
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner() const
+    {
+      return numbers_of_ranks;
+    }
+
+    /// The local number of a corner of a wet cell.
+    unsigned int number(const unsigned int corner) const
+    {
+      return number_of_corner[corner];
+    }
+
+    unsigned int corner(const unsigned int number) const
+    {
+      return corner_of_number[number];
+    }
+
+    /// How many numbers this rank knows, ghosts included.
+    unsigned int n_local() const
+    {
+      return corner_of_number.size();
+    }
+
+  private:
+    static constexpr unsigned int n_corners = 1 << dim;
+
+    /// Whether all corners of wet cells of all ranks have numbers. Collective.
+    bool numbers_serve(const Mixture<dim> &mixture) const;
+
+    /// Marks the corners of wet cells and of those around them, `margin` cells deep, on owned corners and ghosts;
+    /// returns this rank's cells whose corners are marked. Collective.
+    std::vector<unsigned int> mark_corners(const Mixture<dim> &mixture, CornerVector &marks) const;
+
+    /// Turns the marks of owned corners into global numbers, -1 elsewhere; returns the range of this rank. Collective.
+    dealii::IndexSet number_marked(CornerVector &marks) const;
+
+    const BackgroundGrid<dim> &grid;
+    const NodeNumbering<dim> &corners;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> numbers_of_ranks;
+    std::vector<unsigned int> number_of_corner, corner_of_number; // local indices; owned numbers first
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_pressure_pressure_operator_h
+#define scree_pressure_pressure_operator_h
+
+#include <scree/pressure/pressure_numbering.h>
+
+#include <functional>
+#include <vector>
+
+namespace scree
+{
+  /// The matrix L of the pressure's system, applied cell by cell and never stored.
+  ///
+  /// L = dt sum kappa K with the Laplacian K of one cell and the mobility kappa of the mixture's cells; corners beside
+  /// the surface enter through the unknown ones. Vectors are by local number of a PressureNumbering.
+  template <int dim>
+  class PressureOperator
+  {
+  public:
+    static constexpr unsigned int n_corners = 1 << dim;
+    using CellMatrix                        = std::array<std::array<double, n_corners>, n_corners>;
+
+    struct Cell
+    {
+      std::array<unsigned int, n_corners> numbers;
+      double mobility;   ///< dt kappa h^(dim-2), m^3/(Pa s)
+      double projection; ///< m^3/(Pa s)
+    };
+
+    PressureOperator(const BackgroundGrid<dim> &grid,
+                     const NodeNumbering<dim> &corners,
+                     const PressureNumbering<dim> &numbering);
+
+    /// Fits the vectors to new numbers.
+    void reinit();
+
+    /// Sets the matrix, as PressureSolver::assemble(). Collective.
+    void assemble(const Mixture<dim> &mixture,
+                  const FreeSurfaceLocator<dim> &surface,
+                  const double time_step,
+                  const std::function<double(unsigned int corner)> &storage,
+                  const double projection);
+
+    /// Sets `target` to L `source` at the owned numbers. Collective.
+    void vmult(CornerVector &target, const CornerVector &source) const;
+
+    /// Takes the owned numbers that are held out of the unknown ones, like those of a drained wall. Collective.
+    void hold(const std::vector<char> &is_held);
+
+    /// Makes unknown again what hold() took out.
+    void release();
+
+    bool is_unknown(const unsigned int number) const
+    {
+      return unknown[number];
+    }
+
+    unsigned int n_owned() const
+    {
+      return diagonal.size();
+    }
+
+    /// The diagonal of L at an owned unknown number, m^3/(Pa s).
+    double diagonal_of(const unsigned int number) const
+    {
+      return whole_diagonal.local_element(number);
+    }
+
+    /// What surface corners and storage add to it.
+    double added_to_diagonal(const unsigned int number) const
+    {
+      return diagonal[number];
+    }
+
+    const std::vector<Cell> &cells() const
+    {
+      return wet_cells;
+    }
+
+    /// What a cell adds to L, by its corners.
+    CellMatrix matrix(const Cell &cell) const
+    {
+      CellMatrix own;
+      for (unsigned int v = 0; v < n_corners; ++v)
+        for (unsigned int w = 0; w < n_corners; ++w)
+          own[v][w] = cell.mobility * laplacian[v][w] + cell.projection * fluctuation[v][w];
+      return own;
+    }
+
+    const PressureNumbering<dim> &numbers() const
+    {
+      return numbering;
+    }
+
+    MPI_Comm communicator() const
+    {
+      return grid.triangulation().get_communicator();
+    }
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    const NodeNumbering<dim> &corners;
+    const PressureNumbering<dim> &numbering;
+    CellMatrix laplacian, fluctuation; // of the unit cell
+
+    std::vector<Cell> wet_cells;
+    std::vector<char> unknown, all_unknown; // by number; the second: before hold()
+    std::vector<double> diagonal;           // what surface corners and storage add, by owned number
+    CornerVector beside_surface;            // what the surface corners do
+    CornerVector whole_diagonal;            // of the owned unknown numbers, m^3/(Pa s)
+  };
+} // namespace scree
+
+#endif

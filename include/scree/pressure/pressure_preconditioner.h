@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_pressure_pressure_preconditioner_h
+#define scree_pressure_pressure_preconditioner_h
+
+#include <scree/pressure/pressure_operator.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// Preconditioner of the corners that were unknown when it was made: algebraic multigrid, or of small systems on few
+  /// ranks a direct solver of each rank's block.
+  template <int dim>
+  class PressurePreconditioner
+  {
+  public:
+    /// Stores the matrix and factorises it. Collective.
+    explicit PressurePreconditioner(const PressureOperator<dim> &system);
+
+    /// Sets `preconditioned` to what the preconditioner makes of `remainder`: corners that have become unknown since it
+    /// was made get that over their own diagonal, the others that are not unknown 0. Collective.
+    void vmult(CornerVector &preconditioned, const CornerVector &remainder);
+
+  private:
+    void choose();
+    void make_multigrid(const unsigned int most_on_coarsest);
+
+    const PressureOperator<dim> &system;
+    dealii::TrilinosWrappers::SparseMatrix matrix; // The others refer to it.
+    dealii::TrilinosWrappers::PreconditionAMG multigrid;
+    dealii::TrilinosWrappers::PreconditionBlockwiseDirect blocks;
+    dealii::TrilinosWrappers::PreconditionBase *chosen = nullptr; // null: there was no unknown
+
+    std::vector<unsigned int> unknowns; // owned numbers of the rows
+    CornerVector source, result;        // by row
+  };
+} // namespace scree
+
+#endif

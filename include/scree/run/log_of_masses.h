@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_run_log_of_masses_h
+#define scree_run_log_of_masses_h
+
+#include <scree/io/run_folder.h>
+#include <scree/model/scene.h>
+
+namespace scree
+{
+  /// Logs of each body that moves its volume, mass, density and stress before the first step, and of the water its
+  /// mass. Collective.
+  template <int dim>
+  void
+  log_released(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator);
+
+  /// Logs volume and mass of what is in the box, of what left it through open walls and of what came in. Volumes of
+  /// soil are those at its density before the first step, so that they add up. Collective.
+  /// @param totals of this rank
+  template <int dim>
+  void
+  log_balance(const Scene<dim> &scene, const RunTotals<dim> &totals, RunFolder &folder, const MPI_Comm communicator);
+} // namespace scree
+
+#endif

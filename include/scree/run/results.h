@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_run_results_h
+#define scree_run_results_h
+
+#include <scree/postprocess/visualization/graphics.h>
+#include <scree/postprocess/visualization/maps.h>
+#include <scree/postprocess/output_times.h>
+#include <scree/postprocess/probes.h>
+#include <scree/io/row_file.h>
+#include <scree/postprocess/run_checks.h>
+#include <scree/postprocess/statistics.h>
+#include <scree/model/scene.h>
+#include <scree/schemes/scheme.h>
+
+namespace scree
+{
+  /// What a run has come to, beside its points.
+  template <int dim>
+  struct RunState
+  {
+    const RunTotals<dim> &totals;    ///< of this rank
+    const UpdateReport &last_update; ///< of this rank
+    double time;                     ///< s
+    unsigned long long step;
+    double time_step; ///< the last one, s
+  };
+
+  /// What is written of a run to be looked at: statistics, probes, maps and pictures.
+  template <int dim>
+  class Results
+  {
+  public:
+    /// All are kept by reference.
+    Results(const Parameters &parameters, const Scene<dim> &scene, Scheme<dim> &scheme, RunFolder &folder);
+
+    /// Writes what is due. Collective.
+    void report(const RunState<dim> &state, const OutputTimes &output_times);
+
+    /// Output of the state as it is. Collective.
+    void write_row(const RunState<dim> &state);
+    void write_picture(const RunState<dim> &state);
+
+    /// Brings all rows to the disk, before a checkpoint counts on them.
+    void sync();
+
+    /// After a checkpoint has been read: drops from lists and rows what was written after it.
+    void cut();
+
+    /// At the end of a run: tells where the results are, and writes rows that the disk did not take. Throws FileError
+    /// if it still refuses them.
+    void complete();
+
+    /// Steps of the run at the last row.
+    unsigned long long step_of_last_row() const
+    {
+      return statistics.step_of_last_row();
+    }
+
+    template <class Archive>
+    void serialize(Archive &archive)
+    {
+      archive &statistics &graphics &rows &probes &maps;
+    }
+
+  private:
+    ProbedState<dim> probed_state(const RunState<dim> &state, const WaterView<dim> *view) const;
+
+    const Parameters &parameters;
+    const Scene<dim> &scene;
+    Scheme<dim> &scheme;
+    RunFolder &folder;
+    Graphics<dim> graphics;
+    Statistics<dim> statistics;
+    RowFile rows; // of the statistics
+    Probes<dim> probes;
+    Maps<dim> maps;
+    RunChecks<dim> checks;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_run_simulation_h
+#define scree_run_simulation_h
+
+#include <scree/run/mesh_adaptation.h>
+#include <scree/postprocess/output_times.h>
+#include <scree/io/progress.h>
+#include <scree/particles/partition.h>
+#include <scree/run/results.h>
+#include <scree/model/scene.h>
+#include <scree/step/timer_section.h>
+#include <scree/run/step_control.h>
+
+#include <limits>
+
+namespace scree
+{
+  /// How a run begins.
+  enum class Start
+  {
+    fresh,
+    resume ///< from the newest checkpoint in the run folder
+  };
+
+  /// How a run ends.
+  enum class End
+  {
+    complete, ///< at its end time
+    stopped   ///< before, as it was asked to
+  };
+
+  /// A run: a scene, the scheme that moves it, and what is written of it. Owns everything, and nobody knows it.
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /// Throws InputError or dealii exceptions if the parameters do not make a run.
+    Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator);
+
+    /// From the start to the end time, with all output; or to a request to stop (StopRequests), with a checkpoint
+    /// unless the soil was still settling.
+    End run();
+
+    /// Moves all by `time_step` s.
+    void advance(const double time_step);
+
+    /// Largest step, s, of the points as they are.
+    double stable_step() const
+    {
+      return control.stable_step();
+    }
+
+    /// One step of the run, of `largest_step` s and to the time `due`, s, at most.
+    /// @return its length, s
+    double step(const double largest_step, const double due);
+
+    /// Output of the state as it is. Collective.
+    void write_row()
+    {
+      results.write_row(state());
+    }
+    void write_picture()
+    {
+      results.write_picture(state());
+    }
+
+    const std::list<SoilBody<dim>> &bodies() const
+    {
+      return scene.bodies;
+    }
+    const std::list<WaterPhase<dim>> &water_phases() const
+    {
+      return scene.water;
+    }
+    const BackgroundGrid<dim> &background_grid() const
+    {
+      return scene.grid;
+    }
+
+    /// What limits the next step: of the points as they are, and of obstacles.
+    Speeds limiting_speeds() const
+    {
+      return control.limiting_speeds();
+    }
+
+    /// Wall time of the parts of the steps so far.
+    const dealii::TimerOutput &times_of_parts() const
+    {
+      return timer;
+    }
+    double time() const
+    {
+      return clock.time();
+    }
+    double end_time() const
+    {
+      return parameters.end_time;
+    }
+    bool is_at_end() const
+    {
+      return output_times.is_end(clock.time());
+    }
+
+    /// All sets of points, in a fixed order.
+    std::vector<PointSet<dim> *> point_sets()
+    {
+      return scheme->point_sets();
+    }
+
+  private:
+    void initialise();
+    void resume();
+    void settle();
+
+    /// Fits scene and scheme to a new partition of the mesh.
+    void reinit();
+
+    /// Repartitions the mesh, if that is due and worthwhile.
+    void repartition();
+
+    /// Moves on what the scene moves by itself, and puts in what enters.
+    void end_step(const double time_step);
+
+    /// Waits for the slowest rank.
+    void wait();
+
+    /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
+    void place_points(const double time_step, const Speeds &of_rank);
+
+    void report();
+    RunState<dim> state() const
+    {
+      return { totals, last_update, clock.time(), clock.step(), last_time_step };
+    }
+    void write_checkpoint();
+
+    /// Writes what --resume and the eye need of a run that ends before its time.
+    void write_last();
+
+    /// What is told when a run ends.
+    void summarise(Progress &progress, const double point_updates_before);
+
+    template <class Archive>
+    void serialize_state(Archive &archive);
+
+    Parameters &parameters;
+    const Start start;
+    const MPI_Comm communicator;
+    RunFolder folder;
+    StopRequests stop;
+    dealii::TimerOutput timer;
+    Scene<dim> scene;
+    std::unique_ptr<Scheme<dim>> scheme;
+    Partition<dim> partition;
+    MeshAdaptation<dim> adaptation;
+
+    TimeStepper clock;
+    StepControl<dim> control;
+    OutputTimes output_times;
+    Results<dim> results;
+
+    RunTotals<dim> totals;
+    double point_updates = 0;                  // points times steps, of this rank
+    UpdateReport last_update;                  // of this rank
+    double last_time_step                 = 0; // s
+    unsigned long long step_of_checkpoint = std::numeric_limits<unsigned long long>::max(); // the newest, of this run
+    bool is_released                      = true; // or was stopped while it settled
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_run_step_control_h
+#define scree_run_step_control_h
+
+#include <scree/io/stop_requests.h>
+#include <scree/model/scene.h>
+#include <scree/schemes/time_step.h>
+
+#include <deal.II/base/timer.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// What the ranks agree on between two steps: the speeds that limit the next one, and whether to stop. Watches that
+  /// the motion stays stable.
+  template <int dim>
+  class StepControl
+  {
+  public:
+    /// All are kept by reference.
+    StepControl(const Scene<dim> &scene,
+                const TimeStepper &clock,
+                StopRequests &stop,
+                dealii::TimerOutput &timer,
+                const MPI_Comm communicator);
+
+    /// Takes the speeds of the points as they are. Collective.
+    void measure_speeds();
+
+    /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Also agrees on
+    /// whether to stop. Collective.
+    void agree_on(std::vector<double> &largest);
+
+    /// Of the points of all ranks.
+    const Speeds &speeds_of_points() const
+    {
+      return speeds;
+    }
+
+    /// What limits the next step: of the points as they are, and of obstacles.
+    Speeds limiting_speeds() const;
+
+    /// Largest step, s, of the points as they are.
+    double stable_step() const;
+
+    /// What makes it that large.
+    StepLimit limit() const;
+
+    /// See TimeStepper::part_left().
+    double part_left() const;
+
+    /// Of all ranks.
+    StopReason stop_reason() const
+    {
+      return reason;
+    }
+
+    /// Throw if the motion is unstable.
+    void require_stable_step(const double largest_step, const double first_step) const;
+    void require_stable_speed(const double time_step) const;
+
+    template <class Archive>
+    void serialize(Archive &archive)
+    {
+      archive &speeds.wave &speeds.points;
+    }
+
+  private:
+    const Scene<dim> &scene;
+    const TimeStepper &clock;
+    StopRequests &stop;
+    dealii::TimerOutput &timer;
+    const MPI_Comm communicator;
+    Speeds speeds;                        // of all ranks
+    StopReason reason = StopReason::none; // of all ranks
+  };
+} // namespace scree
+
+#endif

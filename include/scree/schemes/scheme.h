@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_schemes_scheme_h
+#define scree_schemes_scheme_h
+
+#include <scree/mesh/nodal_field.h>
+#include <scree/step/step_report.h>
+#include <scree/transfer/water_view.h>
+
+#include <memory>
+#include <vector>
+
+namespace scree
+{
+  /// What a step is. to_grid(), solve() and to_points() are called in this order; then the points are sorted.
+  template <int dim>
+  class Scheme
+  {
+  public:
+    virtual ~Scheme() = default;
+
+    /// Fits all that lives on the nodes to the grid's current partition. Collective.
+    virtual void reinit() = 0;
+
+    /// Fits it to ground that has moved, on the mesh as it was. Collective.
+    virtual void follow_ground()
+    {
+    }
+
+    /// Empties the nodes but for what the points carry and pictures show before the first step. Collective.
+    virtual void read_points() = 0;
+
+    /// Sums over the points of this rank what the step that begins at `time`, s, needs.
+    virtual void to_grid(const double time) = 0;
+
+    /// Velocity of the nodes at the end of a step of `time_step` s. Collective.
+    virtual void solve(const double time_step, StepReport<dim> &report) = 0;
+
+    /// Carries what the nodes have found to the points and moves them; they are not sorted yet. Collective.
+    virtual void to_points(const double time_step, StepReport<dim> &report) = 0;
+
+    /// All sets of points, in a fixed order.
+    virtual std::vector<PointSet<dim> *> point_sets() = 0;
+
+    /// The soil at the nodes, solved. Collective.
+    virtual const NodalField<dim> &soil_field() = 0;
+
+    /// What pictures show of the water; null in a dry scene.
+    virtual std::unique_ptr<WaterView<dim>> water_view() const = 0;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_seeding_seeding_h
+#define scree_seeding_seeding_h
+
+#include <scree/geometry/level_set.h>
+#include <scree/geometry/source_map.h>
+#include <scree/input/input_error.h>
+#include <scree/bodies/soil_body.h>
+#include <scree/particles/region.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// Where a body is and how densely it is filled with points.
+  struct SeedingParameters
+  {
+    std::string region = "0";
+    SourceMapParameters source;           ///< maps that bound the region, too
+    std::shared_ptr<const SourceMap> map; ///< of them, once they are read; null without
+    unsigned int points_per_cell = 4;     ///< along each axis
+    double jitter                = 0;     ///< over the points' spacing
+    double grain_density         = 2500;  ///< kg/m^3
+    double initial_porosity      = -1;    ///< below 0: as the law says
+    std::string initial_velocity = "";    ///< m/s, one expression an axis; empty: at rest
+    bool is_fed                  = false; ///< whether an inflow brings points, so that there may be none at the start
+
+    /// Declares the entries in the body's subsection.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError if an expression does not read; `body` is the name of the subsection.
+    void check(const std::string &body, const unsigned int dim) const;
+
+    /// The expression of the region; true everywhere if maps alone tell where the body is.
+    std::string expression() const;
+
+    /// Entry and value of what tells where the body is, for messages.
+    std::pair<std::string, std::string> place() const;
+  };
+
+  /// Where a body of soil is at the start, and what water finds there.
+  struct SoilRegion
+  {
+    std::string name;                               ///< of the body
+    std::string region;                             ///< expression
+    double porosity;                                ///< volume of pores over total volume
+    double bulk_density;                            ///< dry, kg/m^3
+    std::shared_ptr<const SourceMap> map = nullptr; ///< that bounds it, too; null without
+
+    template <int dim>
+    Region<dim> places() const
+    {
+      return Region<dim>(entry_name(name, "Region"), region, map);
+    }
+
+    /// Entry and value, for messages.
+    std::pair<std::string, std::string> entry() const
+    {
+      return map ? map->entry : std::make_pair(std::string("Region"), region);
+    }
+  };
+
+  /// Throws EntryError, with a place, if two bodies claim the same one; looks at 2 places an axis for each of
+  /// `points_per_cell`. Collective.
+  template <int dim>
+  void require_apart(const std::vector<SoilRegion> &soil,
+                     const unsigned int points_per_cell,
+                     const dealii::Triangulation<dim> &triangulation,
+                     const double cell_size);
+
+  /// Fills the body's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point
+  /// stands at the centroid of the part of its cube that is inside and has its volume, and slivers join their
+  /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
+  /// holds no volume, or an expression is no number at one of the places.
+  /// @param ground only what is in its open is filled; null: all
+  /// @param in_water slivers beside the ground stay, see keep_slivers_at()
+  template <int dim>
+  void seed(SoilBody<dim> &body,
+            const SeedingParameters &parameters,
+            const dealii::Triangulation<dim> &triangulation,
+            const double cell_size,
+            const LevelSet<dim> *ground = nullptr,
+            const bool in_water         = false);
+
+  /// Sets the gradient of an initial velocity at the points, 1/s, by differences over a cell: what the nodes see of it.
+  ///
+  /// @param expressions of the velocity, m/s, one an axis
+  /// @param slot of the points' properties, the first of dim x dim: row c is grad v_c
+  /// @param width of a cell, m
+  template <int dim>
+  void set_velocity_gradient(PointSet<dim> &points,
+                             const std::string &expressions,
+                             const unsigned int slot,
+                             const double width);
+} // namespace scree
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_step_budget_h
+#define scree_step_budget_h
+
+#include <scree/boundary/wall_impulses.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <boost/serialization/vector.hpp>
+
+#include <vector>
+
+namespace scree
+{
+  /// What an obstacle gave to soil and water and took from them (2D: per m).
+  template <int dim>
+  struct ObstacleBalance
+  {
+    /// Components of a moment: about z in 2D.
+    static constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
+
+    dealii::Tensor<1, dim> impulse;                ///< on soil and water but for the next, N s
+    dealii::Tensor<1, dim> pressure_impulse;       ///< against the water's pressure, N s; Budget has it in its own
+    dealii::Tensor<1, n_rotations> moment_impulse; ///< of both about the obstacle's pivot, N m s
+    double work        = 0;                        ///< of both at the obstacle's velocity, on soil and water, J
+    double dissipation = 0;                        ///< energy that is lost in contact, J
+
+    ObstacleBalance &operator+=(const ObstacleBalance &other);
+
+    /// Adds the moment of an impulse, N s, on an arm from the pivot, m.
+    void add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse);
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &impulse &pressure_impulse &moment_impulse &work &dissipation;
+    }
+  };
+
+  /// What a step gave to and took from soil and water at the nodes of this rank (2D: per m), and what its pressure
+  /// solve took. Steps add up.
+  template <int dim>
+  struct Budget
+  {
+    dealii::Tensor<1, dim> wall_impulse;       ///< N s
+    WallImpulses<dim> soil_walls, water_walls; ///< the same of each face of the box, without what settling damps
+    dealii::Tensor<1, dim> body_impulse;       ///< gravity and body force, N s
+    dealii::Tensor<1, dim>
+        pressure_impulse;                ///< sum over soil and water of -V grad p: walls and surfaces push back, N s
+    dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
+    dealii::Tensor<1, dim> bed_impulse;  ///< of the bed, N s
+    std::vector<ObstacleBalance<dim>> obstacles; ///< of each; empty until the first step
+    double wall_dissipation    = 0;              ///< energy that walls took, J
+    double bed_dissipation     = 0;              ///< energy that the bed took, J
+    double contact_dissipation = 0;              ///< energy lost where bodies meet, J
+    double drag_dissipation    = 0;              ///< between soil and water, J
+    double viscous_dissipation = 0;              ///< of water and suspended soil, J
+    double load_work           = 0;              ///< of the surface load, J
+    double correction_work     = 0;              ///< of the volume correction against gravity, J
+
+    // Counts; doubles hold them exactly and travel like the rest.
+    double n_iterations = 0, n_preconditioners = 0; // on the writing rank only
+    double n_viscous_iterations = 0;                // on the writing rank only
+    double n_cavitating         = 0;                // corners of this rank held at the cavitation pressure
+
+    Budget &operator+=(const Budget &other);
+
+    /// Impulse of all obstacles without that against the water's pressure, N s.
+    dealii::Tensor<1, dim> obstacle_impulse() const;
+
+    /// Work less dissipation of all obstacles, J.
+    double obstacle_energy() const;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &wall_impulse &body_impulse &pressure_impulse &load_impulse &bed_impulse;
+      archive &soil_walls &water_walls &obstacles;
+      archive &wall_dissipation &bed_dissipation &contact_dissipation;
+      archive &drag_dissipation &viscous_dissipation &load_work &correction_work;
+      archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
+    }
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/bodies/seepage_parameters.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void SeepageParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Hydraulic conductivity",
+                      conductivity,
+                      "Darcy's conductivity of this body at its initial porosity, m/s; 0: as subsection Water says.",
+                      Patterns::Double(0));
+    prm.add_parameter("Grain diameter",
+                      grain_diameter,
+                      "Diameter of this body's grains, m, for the drag of Ergun 1952; 0: as subsection Water says.",
+                      Patterns::Double(0));
+  }
+
+
+  void SeepageParameters::check(const std::string &body, const WaterParameters *water) const
+  {
+    const std::string dry = "nothing reads it, as the file has no subsection Water. Add one, or remove the entry.";
+    require_entry(water != nullptr || conductivity == 0, body, "Hydraulic conductivity", conductivity, dry);
+    require_entry(water != nullptr || grain_diameter == 0, body, "Grain diameter", grain_diameter, dry);
+    if (grain_diameter > 0)
+      water->check_grain_diameter(body, grain_diameter, conductivity > 0 ? number_text(conductivity) : "");
+  }
+
+
+  WaterParameters SeepageParameters::in_place_of(const WaterParameters &water) const
+  {
+    WaterParameters result = water;
+    if (conductivity > 0)
+      {
+        result.conductivity   = conductivity;
+        result.grain_diameter = 0;
+      }
+    if (grain_diameter > 0)
+      result.grain_diameter = grain_diameter;
+    return result;
+  }
+} // namespace scree

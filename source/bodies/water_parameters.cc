@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/expression.h>
+#include <scree/input/input_error.h>
+#include <scree/particles/region.h>
+#include <scree/bodies/water_parameters.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void WaterParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Region",
+                      region,
+                      "Where the water is, in the soil's pores and outside: \"same\" (wherever soil is), or an "
+                      "expression of x, y (and z), in m. Without a subsection Water the scene is dry.",
+                      Patterns::Anything());
+    prm.add_parameter("Point sets",
+                      point_sets,
+                      "double: water has points of its own, which move with it; single: it rides on the soil's points.",
+                      Patterns::Selection("double|single"));
+    prm.add_parameter("Points per cell",
+                      points_per_cell,
+                      "Points of water along each axis of a cell; double-point only.",
+                      Patterns::Integer(1, 32));
+    prm.add_parameter(
+        "Jitter",
+        jitter,
+        "Largest random move of a point of water from its place on the lattice, along each axis and over the "
+        "lattice's spacing; 0: a regular lattice. For verification and stability maps. Double-point only.",
+        Patterns::Double(0, 0.49));
+    prm.add_parameter("Density", density, "Density of the water, kg/m^3.", Patterns::Double(1e-12));
+    add_drag_parameters(prm);
+    prm.add_parameter("Viscosity", viscosity, "Dynamic viscosity of the water, Pa s; 0: none.", Patterns::Double(0));
+    prm.add_parameter(
+        "Bulk modulus", bulk_modulus, "Bulk modulus of the water, Pa; 0: incompressible.", Patterns::Double(0));
+    prm.add_parameter("Fluidisation porosity",
+                      fluidisation_porosity,
+                      "Soil looser than this bears no effective stress; 1: never.",
+                      Patterns::Double(1e-12, 1));
+    prm.add_parameter("Volume correction rate",
+                      volume_correction_rate,
+                      "Rate at which a surplus of free water in crowded cells is moved away, 1/s; 0: never, 1/2 "
+                      "sqrt(g/h) with cells of size h is usual. Double-point only.",
+                      Patterns::Double(0));
+    prm.add_parameter(
+        "Initial pressure",
+        initial_pressure,
+        "hydrostatic: the weight of the water above a point, and the soil's K0 stress is buoyant; none: 0.",
+        Patterns::Selection("hydrostatic|none"));
+    prm.add_parameter(
+        "Initial velocity",
+        initial_velocity,
+        "Velocity of the water at the start, m/s: an expression an axis, separated by semicolons; empty: at "
+        "rest. Double-point only.",
+        Patterns::Anything());
+    suspension.add_parameters(prm);
+  }
+
+
+  void WaterParameters::add_drag_parameters(ParameterHandler &prm)
+  {
+    prm.declare_entry("Hydraulic conductivity",
+                      conductivity_text,
+                      Patterns::Anything(),
+                      "Darcy's conductivity of the soil at its initial porosity, m/s. auto: 1e-3, unless \"Grain "
+                      "diameter\" tells the drag.");
+    prm.add_action("Hydraulic conductivity", [this](const std::string &text) {
+      conductivity_text = text;
+      conductivity      = text == "auto" ? WaterParameters().conductivity : number_of(text);
+    });
+    prm.add_parameter("Conductivity law",
+                      conductivity_law,
+                      "constant; Kozeny-Carman: in proportion to n^3/(1-n)^2 of the porosity n.",
+                      Patterns::Selection("constant|Kozeny-Carman"));
+    prm.add_parameter(
+        "Grain diameter",
+        grain_diameter,
+        "Diameter of the grains, m: the drag is that of Ergun 1952, which follows from diameter, porosity, "
+        "\"Density\" and \"Viscosity\", also where the flow is not slow; 0: \"Hydraulic conductivity\" "
+        "tells the drag.",
+        Patterns::Double(0));
+  }
+
+
+  void WaterParameters::check(const std::vector<double> &gravity, const unsigned int n_bodies) const
+  {
+    const std::size_t dim = gravity.size();
+    require_entry(
+        !is_where_soil_is() || n_bodies > 0,
+        "Water",
+        "Region",
+        region,
+        "there is no soil, as entry \"Bodies\" is none. Write where the water is, for instance x < 1 && y < 1");
+    const std::string where_region = entry_name("Water", "Region");
+    const std::string where_speed  = entry_name("Water", "Initial velocity");
+    if (!is_where_soil_is() && dim == 2)
+      Region<2>(where_region, region);
+    if (!is_where_soil_is() && dim == 3)
+      Region<3>(where_region, region);
+    if (!initial_velocity.empty() && dim == 2)
+      parse_expression<2>(where_speed, initial_velocity, 2);
+    if (!initial_velocity.empty() && dim == 3)
+      parse_expression<3>(where_speed, initial_velocity, 3);
+
+    if (point_sets_kind() == PointSets::single_point)
+      check_single_point();
+    if (n_bodies == 0)
+      check_without_soil();
+    require_entry(conductivity >= 1e-20 && std::isfinite(conductivity),
+                  "Water",
+                  "Hydraulic conductivity",
+                  conductivity_text,
+                  "write auto, or a number from 1e-20 on, in m/s.");
+    if (grain_diameter > 0)
+      {
+        check_grain_diameter("Water", grain_diameter, conductivity_text == "auto" ? "" : conductivity_text);
+        require_entry(conductivity_law == WaterParameters().conductivity_law,
+                      "Water",
+                      "Conductivity law",
+                      conductivity_law,
+                      "the drag follows from \"Grain diameter\" = " + number_text(grain_diameter) +
+                          ". Remove one of the two.");
+      }
+    suspension.check(viscosity, n_bodies);
+    // Gravity 0 is no fault: the pressure starts at 0.
+    require_entry(initial_pressure_kind() == InitialPressure::none ||
+                      std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
+                  "Water",
+                  "Initial pressure",
+                  initial_pressure,
+                  "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
+                      number_text(gravity) + ". Change it, or write \"Initial pressure = none\".");
+  }
+
+
+  void WaterParameters::check_without_soil() const
+  {
+    const WaterParameters defaults;
+    const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
+    require_entry(conductivity_text == "auto", "Water", "Hydraulic conductivity", conductivity_text, remedy);
+    require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
+    require_entry(grain_diameter == defaults.grain_diameter, "Water", "Grain diameter", grain_diameter, remedy);
+    require_entry(fluidisation_porosity == defaults.fluidisation_porosity,
+                  "Water",
+                  "Fluidisation porosity",
+                  fluidisation_porosity,
+                  remedy);
+  }
+
+
+  void WaterParameters::check_grain_diameter(const std::string &subsection,
+                                             const double diameter,
+                                             const std::string &conductivity) const
+  {
+    const std::string grains = "\"Grain diameter\" = " + number_text(diameter);
+    require_entry(conductivity.empty(),
+                  subsection,
+                  "Hydraulic conductivity",
+                  conductivity,
+                  "the drag follows from " + grains + ". Remove one of the two.");
+    require_entry(viscosity > 0,
+                  "Water",
+                  "Viscosity",
+                  viscosity,
+                  "the drag of grains of " + grains + (subsection == "Water" ? "" : " in subsection " + subsection) +
+                      " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
+  }
+
+
+  void WaterParameters::check_single_point() const
+  {
+    const WaterParameters defaults;
+    require_entry(is_where_soil_is(),
+                  "Water",
+                  "Region",
+                  region,
+                  "single-point water rides on the soil's points and is where they are. Write \"Region = same\", or "
+                  "\"Point sets = double\".");
+    const std::string remedy =
+        "nothing reads it, as single-point water rides on the soil's points. Remove it, or write "
+        "\"Point sets = double\".";
+    require_entry(points_per_cell == defaults.points_per_cell, "Water", "Points per cell", points_per_cell, remedy);
+    require_entry(jitter == defaults.jitter, "Water", "Jitter", jitter, remedy);
+    require_entry(volume_correction_rate == defaults.volume_correction_rate,
+                  "Water",
+                  "Volume correction rate",
+                  volume_correction_rate,
+                  remedy);
+    require_entry(initial_velocity == defaults.initial_velocity, "Water", "Initial velocity", initial_velocity, remedy);
+  }
+
+
+  PointSets WaterParameters::point_sets_kind() const
+  {
+    return point_sets == "single" ? PointSets::single_point : PointSets::double_point;
+  }
+
+
+  InitialPressure WaterParameters::initial_pressure_kind() const
+  {
+    return initial_pressure == "none" ? InitialPressure::none : InitialPressure::hydrostatic;
+  }
+
+
+  ConductivityLaw WaterParameters::conductivity_law_kind() const
+  {
+    return conductivity_law == "constant" ? ConductivityLaw::constant : ConductivityLaw::kozeny_carman;
+  }
+
+
+  bool WaterParameters::is_where_soil_is() const
+  {
+    return region == "same";
+  }
+} // namespace scree

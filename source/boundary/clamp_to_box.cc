@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/boundary/clamp_to_box.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// How far a point may be outside, cells.
+    constexpr double farthest = 0.1;
+
+    /// Where it is put, cells.
+    constexpr double inside = 1e-6;
+  } // namespace
+
+
+  template <int dim>
+  void clamp_to_box(const BackgroundGrid<dim> &grid, const std::uint8_t closed_faces, PointSet<dim> &points)
+  {
+    const double width = grid.cell_size();
+    for (const auto &cell : points.cells())
+      {
+        const unsigned int faces = grid.open_knots(cell.cell) & closed_faces;
+        if (faces == 0)
+          continue;
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              double &x          = cell.location_of(p)[a];
+              const double lower = grid.lower_corner()[a], upper = grid.upper_corner()[a];
+              if (faces >> 2 * a & 1 && x < lower && x > lower - farthest * width)
+                x = lower + inside * width;
+              if (faces >> (2 * a + 1) & 1 && x > upper && x < upper + farthest * width)
+                x = upper - inside * width;
+            }
+      }
+  }
+
+
+  template <int dim>
+  void move_out_of_ground(const BackgroundGrid<dim> &grid,
+                          const std::uint8_t closed_faces,
+                          const Tensor<1, dim> &normal,
+                          double depth,
+                          Point<dim> &place)
+  {
+    constexpr double parallel = 0.01; // square of the sine of the angle between ground and faces: no room
+    Tensor<1, dim> along      = normal;
+    for (unsigned int n_faces = 0; n_faces <= dim && along.norm_square() > parallel; ++n_faces)
+      {
+        const Point<dim> start    = place;
+        const double rise_a_metre = along.norm_square();
+        bool is_inside            = true;
+        place += depth / rise_a_metre * along;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const double lower = grid.lower_corner()[a], upper = grid.upper_corner()[a];
+            const bool is_below = closed_faces >> 2 * a & 1 && place[a] < lower;
+            if (!is_below && !(closed_faces >> (2 * a + 1) & 1 && place[a] > upper))
+              continue;
+            is_inside = false;
+            place[a]  = is_below ? lower + inside * grid.cell_size() : upper - inside * grid.cell_size();
+            along[a]  = 0.;
+          }
+        if (is_inside)
+          return;
+        depth -= normal * (place - start);
+      }
+  }
+
+  template void clamp_to_box(const BackgroundGrid<2> &, const std::uint8_t, PointSet<2> &);
+  template void clamp_to_box(const BackgroundGrid<3> &, const std::uint8_t, PointSet<3> &);
+  template void
+  move_out_of_ground(const BackgroundGrid<2> &, const std::uint8_t, const Tensor<1, 2> &, double, Point<2> &);
+  template void
+  move_out_of_ground(const BackgroundGrid<3> &, const std::uint8_t, const Tensor<1, 3> &, double, Point<3> &);
+} // namespace scree

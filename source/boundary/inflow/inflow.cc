@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/particles/lattice.h>
+#include <scree/particles/region.h>
+#include <scree/boundary/inflow/inflow.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    Tensor<1, dim> vector_from(const std::vector<double> &components)
+    {
+      return Tensor<1, dim>(make_array_view(components.begin(), components.end()));
+    }
+  } // namespace
+
+
+  template <int dim>
+  Inflow<dim>::Inflow(const InflowParameters &parameters,
+                      const BackgroundGrid<dim> &grid,
+                      const double spacing,
+                      const double porosity,
+                      const LevelSet<dim> *ground)
+      : name(parameters.name())
+      , body(parameters.body)
+      , region(parameters.region)
+      , brings_soil(!parameters.is_water())
+      , water_share(!brings_soil              ? 1.
+                    : parameters.is_saturated ? porosity
+                                              : 0.)
+      , grid(grid)
+      , hydrograph(parameters)
+      , spacing(spacing)
+      , end_time(parameters.end_time < 0. ? std::numeric_limits<double>::infinity() : parameters.end_time)
+      , is_at_wall(parameters.is_at_wall())
+      , tells_discharge(parameters.tells_discharge())
+      , face(parameters.face_number(dim))
+      , section(is_at_wall ? (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[face / 2]
+                           : number_of(parameters.section))
+      , direction(vector_from<dim>(parameters.unit_direction(dim)))
+  {
+    normal[face / 2] = face % 2 == 0 ? 1. : -1.;
+    find_places(parameters, ground);
+    reinit();
+    on_all_ranks(grid.triangulation().get_communicator(), [&] { mean_velocity = velocity_of(hydrograph.value(0.)); });
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> Inflow<dim>::velocity_of(const double value) const
+  {
+    return value / (tells_discharge ? open_area * (direction * normal) : 1.) * direction;
+  }
+
+
+  template <int dim>
+  void Inflow<dim>::find_places(const InflowParameters &parameters, const LevelSet<dim> *ground)
+  {
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const Region<dim> region(entry_name(parameters.subsection, "Region"), parameters.region);
+    const double lower = face % 2 == 0 ? section : section - spacing; // of the layer behind the section
+    std::vector<std::pair<std::array<double, dim>, double>> own;
+    on_all_ranks(communicator, [&] {
+      const auto seeds = lattice_seeds<dim>(grid.triangulation(),
+                                            grid.cell_size(),
+                                            { static_cast<unsigned int>(std::lround(grid.cell_size() / spacing)) },
+                                            [&](const Point<dim> &corner, const double width) -> CubePart<dim> {
+                                              if (std::abs(corner[face / 2] - lower) > 0.5 * spacing)
+                                                return { 0., 0., corner };
+                                              const auto [volume, centroid] =
+                                                  region.part_of_cube(corner, width, ground);
+                                              return { volume, volume, centroid };
+                                            });
+      for (const Seed<dim> &seed : seeds)
+        {
+          own.emplace_back(std::array<double, dim>(), seed.volume);
+          std::copy_n(seed.location.begin_raw(), dim, own.back().first.begin());
+        }
+    });
+    std::vector<std::pair<std::array<double, dim>, double>> all;
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, own))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::sort(all.begin(), all.end());
+    for (const auto &[location, volume] : all)
+      {
+        Place place{ Point<dim>(), volume };
+        std::copy(location.begin(), location.end(), place.location.begin_raw());
+        layer.push_back(place);
+        open_area += volume / spacing;
+        cells_of_layer.push_back(grid.fine_cells().box().place_near(place.location));
+      }
+    require_entry(!layer.empty(),
+                  parameters.subsection,
+                  "Region",
+                  parameters.region,
+                  std::string("it is nowhere true behind the section, at ") + "xyz"[face / 2] + " = " +
+                      number_text(section) + " m" + (ground ? " and above the ground of subsection Bed" : "") +
+                      ". Move the region or the section.");
+    std::sort(cells_of_layer.begin(), cells_of_layer.end());
+    cells_of_layer.erase(std::unique(cells_of_layer.begin(), cells_of_layer.end()), cells_of_layer.end());
+    for (CellPlace<dim> cell : cells_of_layer)
+      {
+        for (int &along : cell)
+          along /= 2;
+        section_blocks.push_back(curve_number<dim>(cell));
+      }
+    make_unique(section_blocks);
+  }
+
+
+  template <int dim>
+  void Inflow<dim>::reinit()
+  {
+    own_cells.clear();
+    const CellsOfBox<dim> &box = grid.fine_cells().box();
+    CellPlace<dim> lower = cells_of_layer.front(), upper = lower;
+    for (const CellPlace<dim> &cell : cells_of_layer)
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          lower[a] = std::min(lower[a], cell[a]);
+          upper[a] = std::max(upper[a], cell[a]);
+        }
+    for (const auto &cell : grid.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && holds_nodes(cell))
+        {
+          const CellPlace<dim> place = box.place_of_corner(cell->vertex(0));
+          bool is_near               = true;
+          for (unsigned int a = 0; a < dim; ++a)
+            is_near = is_near && place[a] >= lower[a] - 1 && place[a] <= upper[a] + 1;
+          if (is_near)
+            own_cells.emplace(place, cell);
+        }
+  }
+
+
+  template <int dim>
+  void Inflow<dim>::begin_step(const double time, const double time_step)
+  {
+    const double end = std::min(time + time_step, end_time);
+    const double sum = end > time ? hydrograph.integral(time, end) : 0.;
+    is_open          = lasts(time);
+    mean_velocity    = velocity_of(sum / time_step);
+    step_advance     = time_step * (mean_velocity * normal);
+  }
+
+
+  template <int dim>
+  unsigned int Inflow<dim>::end_step()
+  {
+    front += step_advance;
+    const unsigned long long before = n_layers;
+    // Rounding of the front must not choose the step.
+    n_layers = static_cast<unsigned long long>(std::max(std::floor(front / spacing + 1e-9), double(n_layers)));
+    AssertThrow(step_advance < grid.cell_size(),
+                ExcMessage("Inflow " + name + " enters at " + number_text(mean_velocity.norm()) +
+                           " m/s, by more than a cell in a step. Remedies: a smaller 'Maximum time step' in subsection "
+                           "Time step, a lower speed."));
+    return n_layers - before;
+  }
+
+
+  template <int dim>
+  const typename Inflow<dim>::CellIterator *Inflow<dim>::cell_at(const Point<dim> &x) const
+  {
+    const auto entry = own_cells.find(grid.fine_cells().box().place_near(x));
+    return entry == own_cells.end() ? nullptr : &entry->second;
+  }
+
+
+  template <int dim>
+  bool Inflow<dim>::moves(const unsigned int node) const
+  {
+    if (!is_at_wall || !((grid.node_faces(node) >> face) & 1))
+      return false;
+    // Functions of the nodes reach a cell and a half to each side.
+    const CellsOfBox<dim> &box = grid.fine_cells().box();
+    const Point<dim> &x        = grid.node_position(node);
+    const CellPlace<dim> at    = box.place_near(x);
+    for (unsigned int i = 0; i < Utilities::fixed_power<dim>(3u); ++i)
+      {
+        CellPlace<dim> cell = at;
+        for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
+          cell[a] += static_cast<int>(rest % 3) - 1;
+        bool reaches = cell[face / 2] == at[face / 2];
+        for (unsigned int a = 0; a < dim; ++a)
+          reaches = reaches &&
+                    (a == face / 2 || std::abs(box.corner(cell)[a] + 0.5 * box.width - x[a]) < (1. + 1e-6) * box.width);
+        if (reaches && std::binary_search(cells_of_layer.begin(), cells_of_layer.end(), cell))
+          return true;
+      }
+    return false;
+  }
+
+
+  template <int dim>
+  double Inflow<dim>::power_of_pressure(const PressureOfCell<dim> &pressure) const
+  {
+    double force = 0;
+    for (const Place &place : layer)
+      {
+        Point<dim> x = place.location;
+        x[face / 2]  = section;
+        if (const CellIterator *cell = cell_at(x))
+          {
+            const auto at_corners = pressure((*cell)->active_cell_index());
+            const Point<dim> in_cell((x - (*cell)->vertex(0)) / grid.cell_size());
+            for (unsigned int v = 0; v < at_corners.size(); ++v)
+              force += place.volume / spacing * at_corners[v] * GeometryInfo<dim>::d_linear_shape_function(in_cell, v);
+          }
+      }
+    return force * (mean_velocity * normal);
+  }
+
+
+  template <int dim>
+  void Inflow<dim>::add_to(Mixture<dim> &mixture) const
+  {
+    const double entered = front - n_layers * spacing;
+    if (!is_open || !(entered > 0.))
+      return;
+    const double width = grid.cell_size();
+    for (const Place &place : layer)
+      {
+        Point<dim> middle = place.location;
+        middle[face / 2]  = section + 0.5 * entered * normal[face / 2];
+        if (const CellIterator *cell = cell_at(middle))
+          mixture.add_entering((*cell)->active_cell_index(),
+                               Point<dim>((middle - (*cell)->vertex(0)) / width),
+                               place.volume * entered / spacing);
+      }
+  }
+
+  template class Inflow<2>;
+  template class Inflow<3>;
+} // namespace scree

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/boundary/obstacle.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The entry's place, or the middle of the box's floor.
+    template <int dim>
+    Point<dim> pivot_of(const ObstacleParameters &parameters, const BackgroundGrid<dim> &grid)
+    {
+      Point<dim> pivot = grid.lower_corner();
+      if (parameters.pivot.empty())
+        for (unsigned int a = 0; a + 1 < dim; ++a)
+          pivot[a] += 0.5 * (grid.upper_corner()[a] - grid.lower_corner()[a]);
+      else
+        for (unsigned int a = 0; a < dim; ++a)
+          pivot[a] = number_of(Utilities::split_string_list(parameters.pivot)[a]);
+      return pivot;
+    }
+  } // namespace
+
+
+  template <int dim>
+  Obstacle<dim>::Obstacle(const ObstacleParameters &parameters,
+                          const GridParameters &box,
+                          const BackgroundGrid<dim> &grid)
+      : name(parameters.name())
+      , friction_coefficient(parameters.surface.friction_coefficient())
+      , no_slip(parameters.surface.no_slip())
+      , is_moving(parameters.is_moving())
+      , pivot(pivot_of<dim>(parameters, grid))
+      , grid(grid)
+      , level_set(make_bed<dim>(parameters.surface, box.lower_corner, box.upper_corner, box.cell_size))
+      , motion(
+            is_moving
+                ? parse_expression<1>(entry_name(parameters.surface.subsection, "Velocity"), parameters.velocity, dim)
+                : nullptr)
+      , surface(grid, *level_set, is_moving ? SurfaceMotion::rigid : SurfaceMotion::none)
+  {
+    if (!is_moving) // What moves may come in later.
+      require_in_box(parameters);
+  }
+
+
+  template <int dim>
+  void Obstacle<dim>::require_in_box(const ObstacleParameters &parameters) const
+  {
+    const MPI_Comm communicator   = grid.triangulation().get_communicator();
+    const Tensor<1, dim> diagonal = grid.upper_corner() - grid.lower_corner();
+    constexpr double most_places  = 1e5;
+    const unsigned int n_ranks    = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank       = Utilities::MPI::this_mpi_process(communicator);
+    std::array<unsigned int, dim> n{};
+    double spacing = grid.cell_size(), n_places = 0;
+    for (;; spacing *= 2.)
+      {
+        n_places = 1;
+        for (unsigned int a = 0; a < dim; ++a)
+          n_places *= n[a] = 1 + static_cast<unsigned int>(std::ceil(diagonal[a] / spacing - 1e-6));
+        if (n_places <= most_places)
+          break;
+      }
+    bool is_inside = false;
+    on_all_ranks(communicator, [&] {
+      for (unsigned int i = rank; i < n_places && !is_inside; i += n_ranks)
+        {
+          Point<dim> x = grid.lower_corner();
+          for (unsigned int a = 0, rest = i; a < dim; rest /= n[a], ++a)
+            x[a] += std::min(rest % n[a] * spacing, diagonal[a]);
+          // Between the places, half a diagonal away from one at most, the obstacle may be thin.
+          const double half_diagonal = 0.5 * std::sqrt(dim) * spacing;
+          is_inside                  = level_set->view(x, 2. * half_diagonal).distance <= half_diagonal;
+        }
+    });
+    const auto [entry, value] = parameters.surface.geometry();
+    require_entry(Utilities::MPI::max(int(is_inside), communicator) == 1,
+                  parameters.surface.subsection,
+                  entry,
+                  value,
+                  "the obstacle is nowhere in the box of subsection Mesh. Move it (it is where the expression is "
+                  "negative), or make the box larger.");
+  }
+
+
+  template <int dim>
+  bool Obstacle<dim>::covers(const unsigned int face, const Point<dim> &node) const
+  {
+    constexpr double reach = 1.5; // of a node's shape function, cells
+    for (unsigned int corner = 0; corner < 1u << dim; ++corner)
+      {
+        Point<dim> x = node;
+        for (unsigned int a = 0; a < dim; ++a)
+          if (a != face / 2)
+            x[a] = std::clamp(node[a] + (corner >> a & 1 ? reach : -reach) * grid.cell_size(),
+                              grid.lower_corner()[a],
+                              grid.upper_corner()[a]);
+        if (!contains(Point<dim>(x - moved)))
+          return false;
+      }
+    return contains(Point<dim>(node - moved));
+  }
+
+
+  template <int dim>
+  void Obstacle<dim>::add_covered_nodes(std::vector<std::pair<unsigned int, std::uint8_t>> &nodes) const
+  {
+    std::vector<unsigned int> on_walls;
+    for (const auto &cell : grid.fine_cells().cells())
+      if (surface.least_distance(cell.index) < 0. && grid.open_knots(cell.index) != 0)
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          if (const unsigned int node = grid.nodes(cell.index)[i]; grid.node_faces(node) != 0)
+            on_walls.push_back(node);
+    std::sort(on_walls.begin(), on_walls.end());
+    on_walls.erase(std::unique(on_walls.begin(), on_walls.end()), on_walls.end());
+    for (const unsigned int node : on_walls)
+      {
+        std::uint8_t covered = 0;
+        for (unsigned int f = 0; f < 2 * dim; ++f)
+          if (grid.node_faces(node) >> f & 1 && covers(f, grid.node_position(node)))
+            covered |= 1u << f;
+        if (covered != 0)
+          nodes.emplace_back(node, covered);
+      }
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> Obstacle<dim>::velocity_at(const double time) const
+  {
+    Tensor<1, dim> velocity;
+    for (unsigned int a = 0; motion && a < dim; ++a)
+      velocity[a] = motion->value(Point<1>(time), a);
+    return velocity;
+  }
+
+
+  template <int dim>
+  void Obstacle<dim>::begin_step(const double time, const double time_step)
+  {
+    if (!is_moving)
+      return;
+    // Gauss' rule of two places.
+    const double middle = time + 0.5 * time_step, away = 0.5 * time_step / std::sqrt(3.);
+    mean_velocity = 0.5 * (velocity_at(middle - away) + velocity_at(middle + away));
+  }
+
+
+  template <int dim>
+  void Obstacle<dim>::end_step(const double time_step)
+  {
+    if (!is_moving)
+      return;
+    AssertThrow(
+        mean_velocity.norm() * time_step < surface.reach() / 3.,
+        ExcMessage("Obstacle " + name + " crosses more than a cell in a step, at " + number_text(mean_velocity.norm()) +
+                   " m/s. Remedies: a smaller 'Maximum time step' in subsection Time step, a lower 'Velocity'."));
+    moved += time_step * mean_velocity;
+    surface.move_to(moved);
+  }
+
+  template class Obstacle<2>;
+  template class Obstacle<3>;
+} // namespace scree

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/case/case_checks.h>
+#include <scree/seeding/water_seeding.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    void check_type_for_water(const Parameters &parameters, const BedParameters &surface)
+    {
+      const auto require = [&](const bool possible, const std::string &remedy) {
+        require_entry(possible || !surface.no_slip(), surface.subsection, "Type for water", surface.for_water, remedy);
+      };
+      require(parameters.has_water, "nothing reads it, as there is no subsection Water. Remove it.");
+      require(
+          parameters.water.viscosity > 0.,
+          "water without viscosity slips along anything. Write a \"Viscosity\" in subsection Water, or impermeable.");
+    }
+
+
+    void check_inflow(const Parameters &parameters, const InflowParameters &inflow)
+    {
+      const BodyParameters *body = parameters.find_body(inflow.body);
+      std::string names;
+      for (const BodyParameters &one : parameters.bodies)
+        names += (names.empty() ? "" : ", ") + one.name;
+      if (parameters.has_water)
+        names += (names.empty() ? "" : ", ") + std::string("Water");
+      require_entry(body != nullptr || (inflow.is_water() && parameters.has_water),
+                    inflow.subsection,
+                    "Body",
+                    inflow.body,
+                    inflow.is_water() ? "there is no subsection Water. Add one, or write the name of a body."
+                                      : "write what enters: " + names + ".");
+      require_entry(body == nullptr || !body->is_rigid(),
+                    inflow.subsection,
+                    "Body",
+                    inflow.body,
+                    "a body of \"Material = rigid\" does not move. Write another one.");
+      require_entry(!parameters.has_water || parameters.water.point_sets_kind() == PointSets::double_point,
+                    "Water",
+                    "Point sets",
+                    parameters.water.point_sets,
+                    "with subsection " + inflow.subsection +
+                        " water needs points of its own. Write double, or remove the inflow.");
+      if (inflow.is_saturated)
+        {
+          const auto require = [&](const bool possible, const std::string &remedy) {
+            require_entry(possible, inflow.subsection, "Saturated", "true", remedy);
+          };
+          require(parameters.has_water && body != nullptr,
+                  "it is said of soil in a scene with water. Remove the entry, or add subsection Water.");
+          require(body->initial_porosity() > 0,
+                  "the body has no pores. Write an \"Initial porosity\" above 0 in subsection " + body->name + '.');
+          require(
+              parameters.water.points_per_cell == body->seeding.points_per_cell,
+              "water enters on a point for each one of the soil. Write the same \"Points per cell\" in subsections " +
+                  body->name + " and Water.");
+        }
+      inflow.check(parameters.grid, parameters.dimension, parameters.points_per_cell(inflow));
+    }
+
+
+    void check_contacts(const Parameters &parameters)
+    {
+      parameters.contact_groups();
+      for (const ContactParameters &contact : parameters.contacts)
+        {
+          const auto require = [&contact](const bool possible, const std::string &what) {
+            require_entry(possible || !contact.is_set(),
+                          contact.subsection,
+                          "Bodies",
+                          contact.bodies,
+                          "bodies that slide are not possible with " + what +
+                              " yet. Remove one of the two subsections.");
+          };
+          require(!parameters.has_water, "subsection Water");
+          require(!parameters.surface_load.is_set(), "subsection Surface load");
+          require(parameters.inflows.empty(), "subsection Inflow");
+        }
+    }
+
+
+    void check_water(const Parameters &parameters)
+    {
+      parameters.water.check(parameters.gravity, parameters.bodies.size());
+      parameters.pressure.check(parameters.bodies.size(), parameters.water.bulk_modulus);
+      parameters.water_boundaries.check(parameters.dimension);
+      require_entry(
+          parameters.bed.friction_angles.empty(),
+          "Bed",
+          "Friction angles",
+          parameters.bed.friction_angles,
+          "with water the bed has one angle of friction yet. Write a \"Friction angle\", or remove subsection "
+          "Water.");
+      for (const WaterWall &wall : parameters.water_boundaries.walls(parameters.dimension))
+        require_entry(wall.type != WaterWallType::drained || wall.pressure >= parameters.pressure.cavitation_pressure,
+                      "Water/Pressure",
+                      "Cavitation pressure",
+                      parameters.pressure.cavitation_pressure,
+                      "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
+                          " Pa. Water tears there. Write a lower number, or a higher pressure at the wall.");
+      for (const SoilRegion &body : parameters.soil_regions())
+        {
+          if (parameters.water.is_where_soil_is())
+            require_pores(body);
+          require_entry(body.porosity < parameters.water.fluidisation_porosity,
+                        "Water",
+                        "Fluidisation porosity",
+                        parameters.water.fluidisation_porosity,
+                        quoted(body.name) + " has a porosity of " + number_text(body.porosity) +
+                            " at the start and would never bear a stress. Write a larger number.");
+        }
+    }
+
+
+    void check_without_soil(const Parameters &parameters)
+    {
+      const std::string no_soil = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it";
+      const auto walls = parameters.boundaries.texts(3), defaults = BoundaryParameters().texts(3);
+      for (unsigned int f = 0; f < walls.size(); ++f)
+        require_entry(walls[f] == defaults[f],
+                      "Boundaries",
+                      FaceEntries::names(3)[f],
+                      walls[f],
+                      no_soil + ", or move it to subsection Water of subsection Boundaries.");
+      require_entry(!parameters.surface_load.is_set(),
+                    "Surface load",
+                    "Traction",
+                    parameters.surface_load.traction,
+                    no_soil + '.');
+      require_entry(parameters.settling.maximum_time == 0,
+                    "Settling",
+                    "Maximum time",
+                    parameters.settling.maximum_time,
+                    no_soil + '.');
+    }
+  } // namespace
+
+
+  void check_case(const Parameters &parameters)
+  {
+    require_entry(parameters.gravity.size() == parameters.dimension,
+                  "",
+                  "Gravity",
+                  number_text(parameters.gravity),
+                  "entry \"Dimension\" is " + std::to_string(parameters.dimension) + ". Write " +
+                      std::to_string(parameters.dimension) + " components in m/s^2, separated by commas.");
+    require_entry(parameters.dimension == 3 || (parameters.local_origin[0] == 0. && parameters.local_origin[1] == 0.),
+                  "",
+                  "Local origin",
+                  number_text(parameters.local_origin),
+                  "a scene in the plane has no map. Remove it.");
+    require_entry(
+        !parameters.output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
+    parameters.grid.check(parameters.dimension);
+    parameters.time_step.check();
+    parameters.transfer.check();
+    parameters.output.check(parameters.end_time);
+    parameters.output.maps.check(!parameters.bodies.empty());
+    parameters.boundaries.check(parameters.dimension);
+    parameters.bed.check(parameters.dimension);
+    check_type_for_water(parameters, parameters.bed);
+    for (const ObstacleParameters &obstacle : parameters.obstacles)
+      {
+        obstacle.check(parameters.dimension);
+        check_type_for_water(parameters, obstacle.surface);
+      }
+    for (const InflowParameters &inflow : parameters.inflows)
+      check_inflow(parameters, inflow);
+    parameters.surface_load.check(parameters.grid, parameters.dimension);
+    parameters.body_force.check(parameters.dimension);
+    parameters.base_motion.check(parameters.dimension);
+    parameters.settling.check(parameters.gravity);
+    parameters.probes.check(parameters.grid, parameters.dimension, !parameters.bodies.empty());
+    require_entry(parameters.transfer.transfer_method() != TransferMethod::apic ||
+                      parameters.grid.basis_kind() == Basis::spline,
+                  "Transfer",
+                  "Method",
+                  parameters.transfer.method,
+                  "with \"Basis = " + parameters.grid.basis +
+                      "\" its affine field grows without bound, as the inertia of the nodes around a point vanishes at "
+                      "cell faces. Write \"Basis = spline\", or another method.");
+    for (const auto &body : parameters.bodies)
+      body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);
+    check_contacts(parameters);
+    if (parameters.has_water)
+      check_water(parameters);
+    if (parameters.bodies.empty())
+      check_without_soil(parameters);
+  }
+} // namespace scree

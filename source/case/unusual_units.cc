@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/case/unusual_units.h>
+
+#include <cmath>
+
+namespace scree
+{
+  namespace
+  {
+    class Questions
+    {
+    public:
+      /// Asks about a value that is neither 0 nor from `low` to `high`.
+      void ask(const std::string &subsection,
+               const std::string &entry,
+               const double value,
+               const double low,
+               const double high,
+               const std::string &unit)
+      {
+        if (value != 0 && !(value >= low && value <= high))
+          list.push_back("Is this meant? " + entry_message(subsection,
+                                                           entry,
+                                                           number_text(value),
+                                                           "the unit is " + unit + ", and usual values lie between " +
+                                                               number_text(low) + " and " + number_text(high) + '.'));
+      }
+
+      std::vector<std::string> list;
+    };
+
+
+    constexpr char degrees[]           = "degrees (1 rad = 57.3 degrees)";
+    constexpr char pascal[]            = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)";
+    constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
+    constexpr char diameter_unit[]     = "m (1 mm = 1e-3 m)";
+
+
+    void ask_of_law(const MaterialParameters &material, const std::string &body, Questions &questions)
+    {
+      const LawKind law = material.law_kind();
+      if (law == LawKind::linear_elastic)
+        questions.ask(
+            body + "/Linear elastic", "Young's modulus", material.linear_elastic.young_modulus, 1e4, 1e12, pascal);
+      if (law == LawKind::mohr_coulomb)
+        {
+          const std::string subsection     = body + "/Mohr-Coulomb";
+          const MohrCoulombParameters &law = material.mohr_coulomb;
+          questions.ask(subsection, "Young's modulus", law.young_modulus, 1e4, 1e12, pascal);
+          questions.ask(subsection, "Friction angle", law.friction_angle, 5, 60, degrees);
+          questions.ask(subsection, "Dilation angle", law.dilation_angle, 0.8, 40, degrees);
+          questions.ask(subsection, "Cohesion", law.cohesion, 50, 1e8, pascal);
+        }
+      if (law == LawKind::nor_sand)
+        {
+          const std::string subsection = body + "/Nor-Sand";
+          const NorSandParameters &law = material.nor_sand;
+          questions.ask(subsection, "Shear modulus", law.shear_modulus, 1e4, 1e10, pascal);
+          questions.ask(subsection,
+                        "Critical stress ratio M",
+                        law.critical_stress_ratio,
+                        0.4,
+                        2,
+                        "none: q/p' at critical state, 6 sin(phi)/(3 - sin(phi)) of a friction angle phi");
+        }
+    }
+  } // namespace
+
+
+  std::vector<std::string> unusual_units(const Parameters &parameters)
+  {
+    Questions questions;
+    for (const BodyParameters &body : parameters.bodies)
+      {
+        questions.ask(
+            body.name, "Grain density", body.seeding.grain_density, 500, 2e4, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
+        questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, pascal);
+        ask_of_law(body.material, body.name, questions);
+        questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
+        questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
+      }
+    const auto walls = parameters.boundaries.walls(3);
+    for (unsigned int face = 0; face < walls.size(); ++face)
+      questions.ask("Boundaries",
+                    FaceEntries::names(3)[face],
+                    std::atan(walls[face].friction_coefficient) * 180 / dealii::numbers::PI,
+                    2,
+                    60,
+                    degrees);
+    if (parameters.has_water)
+      {
+        const WaterParameters &water = parameters.water;
+        questions.ask("Water", "Density", water.density, 500, 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
+        questions.ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1, conductivity_unit);
+        questions.ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3, diameter_unit);
+        questions.ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
+        questions.ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, pascal);
+      }
+    return questions.list;
+  }
+} // namespace scree

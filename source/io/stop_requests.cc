@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/io/stop_requests.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+namespace scree
+{
+  namespace
+  {
+    volatile std::sig_atomic_t received = 0; // the last signal
+
+    extern "C" void remember(const int signal)
+    {
+      received = signal;
+    }
+
+    StopReason reason_of(const int signal)
+    {
+      switch (signal)
+        {
+        case SIGUSR1:
+          return StopReason::signal_user;
+        case SIGINT:
+          return StopReason::signal_interrupt;
+        case SIGTERM:
+          return StopReason::signal_terminate;
+        default:
+          return StopReason::none;
+        }
+    }
+
+    double seconds(const std::chrono::steady_clock::duration time)
+    {
+      return std::chrono::duration<double>(time).count();
+    }
+  } // namespace
+
+
+  std::string text_of(const StopReason reason)
+  {
+    switch (reason)
+      {
+      case StopReason::terminate_file:
+        return "the file terminate";
+      case StopReason::wall_time_limit:
+        return "the entry \"Wall time limit\"";
+      case StopReason::signal_user:
+        return "SIGUSR1";
+      case StopReason::signal_interrupt:
+        return "SIGINT";
+      case StopReason::signal_terminate:
+        return "SIGTERM";
+      default:
+        return "nobody";
+      }
+  }
+
+
+  StopRequests::StopRequests(const std::string &terminate_file, const double wall_time_limit)
+      : terminate_file(terminate_file)
+      , wall_time_limit(wall_time_limit)
+      , start(std::chrono::steady_clock::now())
+  {
+  }
+
+
+  void StopRequests::listen()
+  {
+    struct sigaction action = {};
+    action.sa_handler       = remember;
+    action.sa_flags         = SA_RESTART;
+    sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGUSR1, &action, nullptr);
+    action.sa_flags |= SA_RESETHAND;
+    sigaction(SIGINT, &action, nullptr);
+    is_listening = true;
+    last_call    = std::chrono::steady_clock::now();
+  }
+
+
+  StopReason StopRequests::reason()
+  {
+    if (!is_listening || found != StopReason::none)
+      return found;
+    found = reason_of(received);
+    if (found == StopReason::none && !terminate_file.empty())
+      {
+        const Time now = std::chrono::steady_clock::now();
+        if (time_is_over(now))
+          found = StopReason::wall_time_limit;
+        else if (file_is_there(now))
+          found = StopReason::terminate_file;
+      }
+    return found;
+  }
+
+
+  bool StopRequests::time_is_over(const Time now)
+  {
+    if (wall_time_limit == 0)
+      return false;
+    longest_step = std::max(longest_step, seconds(now - last_call));
+    last_call    = now;
+    // The longest step had the dearest output so far. Room for this step, the checkpoint after it, and twice as slow a
+    // disk.
+    const double left = std::max(0.01 * wall_time_limit, 3 * longest_step);
+    return seconds(now - start) + left >= wall_time_limit;
+  }
+
+
+  bool StopRequests::file_is_there(const Time now)
+  {
+    constexpr double seconds_between_looks = 1.;
+    if (seconds(now - last_look) < seconds_between_looks)
+      return false;
+    last_look = now;
+    std::error_code nobody_minds;
+    return std::filesystem::remove(terminate_file, nobody_minds);
+  }
+} // namespace scree

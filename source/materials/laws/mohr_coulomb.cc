@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <scree/input/input_error.h>
+#include <scree/materials/laws/mohr_coulomb_return.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <numeric>
+
+using namespace dealii;
+
+namespace scree
+{
+  namespace
+  {
+    double radians(const double degrees)
+    {
+      return degrees * numbers::PI / 180;
+    }
+
+
+    /// Isotropic tension that friction and cohesion allow, c cot(phi), Pa.
+    double apex(const MohrCoulombParameters &parameters)
+    {
+      if (parameters.cohesion == 0)
+        return 0;
+      return parameters.friction_angle > 0 ? parameters.cohesion / std::tan(radians(parameters.friction_angle))
+                                           : std::numeric_limits<double>::infinity();
+    }
+
+
+    double product(const PrincipalValues &a, const PrincipalValues &b)
+    {
+      return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+    }
+  } // namespace
+
+
+  void MohrCoulombParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Young's modulus", young_modulus, "Young's modulus, Pa.", Patterns::Double(0));
+    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio, -.", Patterns::Double(-1, 0.5));
+    prm.add_parameter("Friction angle", friction_angle, "Friction angle phi, degrees.", Patterns::Double(0, 89));
+    prm.add_parameter("Dilation angle", dilation_angle, "Dilation angle psi, degrees.", Patterns::Double(0, 89));
+    prm.add_parameter("Cohesion", cohesion, "Cohesion c, Pa.", Patterns::Double(0));
+    prm.add_parameter(
+        "Tension cut-off", tension_cut_off, "Largest principal stress, Pa; at most c cot(phi).", Patterns::Double(0));
+  }
+
+
+  void MohrCoulombParameters::check(const std::string &subsection) const
+  {
+    LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
+    require_entry(dilation_angle <= friction_angle,
+                  subsection,
+                  "Dilation angle",
+                  dilation_angle,
+                  "beyond the friction angle, here " + number_text(friction_angle) +
+                      ", plastic flow would create energy; lower it.");
+    require_entry(friction_angle > 0 || cohesion > 0,
+                  subsection,
+                  "Cohesion",
+                  cohesion,
+                  "without friction the soil needs some cohesion to have any strength.");
+    require_entry(tension_cut_off <= apex(*this),
+                  subsection,
+                  "Tension cut-off",
+                  tension_cut_off,
+                  "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex(*this)) + " Pa; lower it.");
+  }
+
+
+  MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters)
+      : elastic(LinearElasticParameters{ parameters.young_modulus, parameters.poisson_ratio })
+      , shear(elastic.shear_modulus())
+      , bulk(elastic.bulk_modulus(0))
+      , vertex(std::min(parameters.tension_cut_off, apex(parameters)))
+      , cohesionless(apex(parameters) == 0)
+      , largest_principal_stress(parameters.tension_cut_off)
+  {
+    const double sine     = std::sin(radians(parameters.friction_angle));
+    const double dilation = std::sin(radians(parameters.dilation_angle));
+    const double limit    = 2 * parameters.cohesion * std::cos(radians(parameters.friction_angle));
+
+    constexpr unsigned int largest[3]  = { 0, 0, 1 };
+    constexpr unsigned int smallest[3] = { 2, 1, 2 };
+    for (unsigned int s = 0; s < 3; ++s)
+      {
+        PrincipalValues normal{}, flow{};
+        normal[largest[s]]  = 1 + sine;
+        normal[smallest[s]] = -(1 - sine);
+        flow[largest[s]]    = 1 + dilation;
+        flow[smallest[s]]   = -(1 - dilation);
+        add_surface(normal, flow, limit);
+      }
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        PrincipalValues axis{};
+        axis[i] = 1;
+        add_surface(axis, axis, largest_principal_stress);
+      }
+
+    const unsigned int f13 = 0, f12 = 1, f23 = 2, cut_1 = 3, cut_2 = 4;
+    add_active_set({ f13 });
+    add_active_set({ f13, f12 });
+    add_active_set({ f13, f23 });
+    if (largest_principal_stress < apex(parameters)) // else the cut-off only touches the apex
+      {
+        add_active_set({ cut_1 });
+        add_active_set({ cut_1, cut_2 });
+        add_active_set({ f13, cut_1 });
+        add_active_set({ f13, f12, cut_1 });
+        // The edge where four surfaces meet, as two cones.
+        add_active_set({ f13, cut_1, cut_2 });
+        add_active_set({ f13, f23, cut_1 });
+      }
+    // The three cut-offs meet at the vertex, which needs no system.
+  }
+
+
+  void MohrCoulomb::add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit)
+  {
+    Surface surface{ normal, flow, {}, limit };
+    const double volume_part = (bulk - 2. / 3. * shear) * (flow[0] + flow[1] + flow[2]);
+    for (unsigned int i = 0; i < 3; ++i)
+      surface.relaxation[i] = volume_part + 2 * shear * flow[i];
+    surfaces.push_back(surface);
+  }
+
+
+  void MohrCoulomb::add_active_set(const std::vector<unsigned int> &members)
+  {
+    Tensor<2, 3> matrix;
+    for (unsigned int a = members.size(); a < 3; ++a)
+      matrix[a][a] = 1;
+    for (unsigned int a = 0; a < members.size(); ++a)
+      for (unsigned int b = 0; b < members.size(); ++b)
+        matrix[a][b] = product(surfaces[members[a]].normal, surfaces[members[b]].relaxation);
+    active_sets.push_back({ members, invert(matrix) });
+  }
+
+
+  double MohrCoulomb::shear_modulus() const
+  {
+    return shear;
+  }
+
+
+  double MohrCoulomb::bulk_modulus(const double) const
+  {
+    return bulk;
+  }
+
+
+  double MohrCoulomb::energy(const PrincipalValues &strain) const
+  {
+    const double gap = strain[0] + strain[1] + strain[2] - vertex / bulk;
+    if (gap <= 0)
+      return elastic.energy(strain);
+    return elastic.energy({ { strain[0] - gap / 3, strain[1] - gap / 3, strain[2] - gap / 3 } });
+  }
+
+
+  double MohrCoulomb::initial_porosity() const
+  {
+    return 0;
+  }
+
+
+  Response MohrCoulomb::return_map(PrincipalValues &strain,
+                                   double *internal_variables,
+                                   const double,
+                                   PrincipalValues &stress,
+                                   UpdateReport &report) const
+  {
+    const PrincipalResponse<double> response = respond<double>(strain, internal_variables, stress);
+    report.largest_bulk_modulus              = bulk;
+    report.n_vertices += response.is_vertex;
+    report.n_separated += response.is_separated;
+    report.n_unresolved += response.is_unresolved;
+    return response.is_plastic ? Response::plastic : Response::elastic;
+  }
+
+
+  void MohrCoulomb::initialise(const PrincipalValues &wanted_stress,
+                               PrincipalValues &strain,
+                               PrincipalValues &stress,
+                               double *internal_variables) const
+  {
+    double scale = surfaces[0].limit;
+    for (const double value : wanted_stress)
+      scale = std::max(scale, std::abs(value));
+    AssertThrow(yield(wanted_stress) <= 1e-9 * scale,
+                ExcMessage("Mohr-Coulomb cannot bear the initial stress, which is outside the yield surface by " +
+                           std::to_string(yield(wanted_stress)) +
+                           " Pa. Remedy: a K0 of at least (1 - sin phi)/(1 + sin phi), or cohesion."));
+    elastic.initialise(wanted_stress, strain, stress, nullptr);
+    internal_variables[0] = 0;
+  }
+
+
+  std::vector<Quantity> MohrCoulomb::internal_quantities()
+  {
+    return { { "plastic_shear_strain", "-" } };
+  }
+
+
+  std::vector<Quantity> MohrCoulomb::output_quantities()
+  {
+    return {};
+  }
+
+
+  void MohrCoulomb::output(const PrincipalValues &, const double *, const double, double *) const
+  {
+  }
+} // namespace scree

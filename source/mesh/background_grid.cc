@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/mesh/background_grid.h>
+#include <scree/input/input_error.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    Point<dim> point_from_list(const std::vector<double> &list)
+    {
+      Point<dim> point;
+      std::copy_n(list.begin(), dim, point.begin_raw());
+      return point;
+    }
+
+
+    template <int dim>
+    CellsOfBox<dim> cells_of_box(const GridParameters &parameters)
+    {
+      CellsOfBox<dim> box{ point_from_list<dim>(parameters.lower_corner), parameters.cell_size, {} };
+      for (unsigned int a = 0; a < dim; ++a)
+        box.n[a] = static_cast<int>(parameters.n_cells_along(a));
+      return box;
+    }
+
+
+    /// Coarse cells along each axis of the box, each halved `n_levels` times.
+    template <int dim>
+    std::vector<unsigned int> coarse_cells(const CellsOfBox<dim> &box, const unsigned int n_levels)
+    {
+      std::vector<unsigned int> n;
+      for (const int along : box.n)
+        n.push_back((along + (1 << n_levels) - 1) >> n_levels);
+      return n;
+    }
+
+
+    /// As many levels as every axis allows: p4est copies the coarse cells to all ranks.
+    template <int dim>
+    unsigned int levels_that_divide(const CellsOfBox<dim> &box)
+    {
+      unsigned int n_levels = 0;
+      while (std::all_of(box.n.begin(), box.n.end(), [&](const int n) { return n % (2 << n_levels) == 0; }))
+        ++n_levels;
+      return n_levels;
+    }
+
+
+    /// So many that the coarse cells are few.
+    template <int dim>
+    unsigned int levels_of_box(const CellsOfBox<dim> &box)
+    {
+      constexpr double few  = 1000;
+      unsigned int n_levels = 0;
+      const auto n_coarse   = [&] {
+        double product = 1;
+        for (const unsigned int n : coarse_cells(box, n_levels))
+          product *= n;
+        return product;
+      };
+      while (n_coarse() > few)
+        ++n_levels;
+      return n_levels;
+    }
+
+
+    template <int dim>
+    unsigned int levels(const GridParameters &parameters)
+    {
+      const CellsOfBox<dim> box = cells_of_box<dim>(parameters);
+      return parameters.is_adaptive() ? levels_of_box(box) : levels_that_divide(box);
+    }
+
+
+    GridParameters everywhere(GridParameters parameters)
+    {
+      parameters.fine = "everywhere";
+      return parameters;
+    }
+
+  } // namespace
+
+
+  void GridParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Mesh");
+    prm.add_parameter("Lower corner",
+                      lower_corner,
+                      "Lower corner of the box, m, one number an axis. With a \"Raster\" of subsection Bed and without "
+                      "both corners the box is that of the raster.",
+                      Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter("Upper corner",
+                      upper_corner,
+                      "Upper corner of the box, m, one number an axis.",
+                      Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter(
+        "Box",
+        box,
+        "Where corners that are not set come from: corners (their defaults; in scenes with a raster and "
+        "neither of the two, the raster) or from raster: the part of it that whole cells cover, and along z "
+        "from two cells below its lowest height to above the soil.",
+        Patterns::Selection("corners|from raster"));
+    prm.add_parameter(
+        "Cell size", cell_size, "Width of the cubic cells, m; must divide the box.", Patterns::Double(1e-12));
+    prm.add_parameter("Basis",
+                      basis,
+                      "Shape functions: spline (C1 quadratic B-splines), quadratic (C0) or linear.",
+                      Patterns::Selection("spline|quadratic|linear"));
+    prm.add_parameter("Fine cells",
+                      fine,
+                      "Where cells have that width: around points (with a margin that moves with them; larger cells, "
+                      "which take no memory worth mentioning, elsewhere), or everywhere.",
+                      Patterns::Selection("around points|everywhere"));
+    prm.leave_subsection();
+  }
+
+
+  void GridParameters::check(const unsigned int dim) const
+  {
+    for (const auto &[name, corner] :
+         { std::make_pair("Lower corner", lower_corner), { "Upper corner", upper_corner } })
+      require_entry(corner.size() == dim,
+                    "Mesh",
+                    name,
+                    number_text(corner),
+                    "entry \"Dimension\" is " + std::to_string(dim) + ". Write " + std::to_string(dim) +
+                        " coordinates in m, separated by commas.");
+    double n_cells = 1;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        const std::string axis = std::string(1, "xyz"[a]);
+        const double length    = upper_corner[a] - lower_corner[a];
+        require_entry(length > 0,
+                      "Mesh",
+                      "Upper corner",
+                      number_text(upper_corner),
+                      "the box has no width along " + axis + ", since \"Lower corner\" = " + number_text(lower_corner) +
+                          ". Write a larger coordinate.");
+        const double cells = length / cell_size;
+        require_entry(std::abs(cells - std::round(cells)) < 1e-6 && std::round(cells) >= 1,
+                      "Mesh",
+                      "Cell size",
+                      cell_size,
+                      "it does not divide the box: " + number_text(length) + " m along " + axis + " are " +
+                          number_text(cells) + " cells. Try " + number_text(length / std::max(1., std::round(cells))) +
+                          ", or move a corner.");
+        n_cells *= cells;
+      }
+    constexpr double most_cells = 1e9; // beyond the memory of any machine this runs on
+    require_entry(n_cells <= most_cells,
+                  "Mesh",
+                  "Cell size",
+                  cell_size,
+                  "the box would have " + number_text(n_cells) +
+                      " cells, and at most 1e9 are allowed. Write a larger size.");
+  }
+
+
+  Basis GridParameters::basis_kind() const
+  {
+    static const std::map<std::string, Basis> table{ { "spline", Basis::spline },
+                                                     { "quadratic", Basis::quadratic },
+                                                     { "linear", Basis::linear } };
+    return table.at(basis);
+  }
+
+
+  long GridParameters::n_cells_along(const unsigned int axis) const
+  {
+    return std::lround((upper_corner[axis] - lower_corner[axis]) / cell_size);
+  }
+
+
+  double GridParameters::n_cells() const
+  {
+    double n = 1;
+    for (unsigned int a = 0; a < upper_corner.size(); ++a)
+      n *= n_cells_along(a);
+    return n;
+  }
+
+
+  bool GridParameters::is_adaptive() const
+  {
+    constexpr double few = 2e4;
+    return fine == "around points" && n_cells() > few;
+  }
+
+
+  template <int dim>
+  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
+                                      const unsigned int n_levels,
+                                      const MPI_Comm communicator)
+      : width(parameters.cell_size)
+      , lower(point_from_list<dim>(parameters.lower_corner))
+      , upper(point_from_list<dim>(parameters.upper_corner))
+      , box(cells_of_box<dim>(parameters))
+      , n_levels(n_levels)
+      , follows(parameters.is_adaptive())
+      , mesh(communicator,
+             Triangulation<dim>::none,
+             parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
+      , cells(mesh, box)
+      , nodes_of_mesh(parameters.basis_kind())
+      , after_repartition(mesh.signals.post_distributed_repartition.connect([this] { cells.reinit(); }))
+  {
+    const std::vector<unsigned int> n = coarse_cells(box, n_levels);
+    Point<dim> end                    = upper;
+    for (unsigned int a = 0; a < dim; ++a)
+      if (const int along = n[a] << n_levels; along != box.n[a])
+        end[a] = lower[a] + along * width;
+    GridGenerator::subdivided_hyper_rectangle(mesh, n, lower, end);
+  }
+
+
+  template <int dim>
+  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator)
+      : BackgroundGrid(everywhere(parameters), levels_that_divide(cells_of_box<dim>(parameters)), communicator)
+  {
+    mesh.refine_global(n_levels);
+    cells.reinit();
+    distribute_nodes();
+  }
+
+
+  template <int dim>
+  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
+                                      const PlacesOfPoints<dim> &places,
+                                      const MPI_Comm communicator)
+      : BackgroundGrid(parameters, levels<dim>(parameters), communicator)
+  {
+    if (follows)
+      refine(with_surroundings(occupied_blocks(box, places, communicator)), Shares::even);
+    else
+      {
+        mesh.refine_global(n_levels);
+        cells.reinit();
+      }
+    distribute_nodes();
+  }
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::distribute_nodes()
+  {
+    nodes_of_mesh.distribute(cells);
+  }
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::append_blocks(const Point<dim> &x, const Tensor<1, dim> &path, Blocks &blocks) const
+  {
+    const auto block_at = [&](const Point<dim> &y) {
+      CellPlace<dim> place = box.place_near(y);
+      for (int &along : place)
+        along /= 2;
+      return curve_number<dim>(place);
+    };
+    const std::uint64_t first = block_at(x);
+    if (!blocks.empty() && blocks.back() == first)
+      return;
+    // A way that is no number, or as long as the box, has no end.
+    double length = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      length = std::max(length, std::min(std::abs(path[a]), upper[a] - lower[a]));
+    const unsigned int n = std::isfinite(path.norm()) ? static_cast<unsigned int>(length / (2. * width)) : 0;
+    for (unsigned int i = n; i > 0; --i)
+      blocks.push_back(block_at(x + double(i) / n * path));
+    blocks.push_back(first);
+  }
+
+
+  template <int dim>
+  Blocks BackgroundGrid<dim>::fine_blocks() const
+  {
+    Blocks blocks;
+    for (const auto &cell : cells.cells())
+      if (cells.is_owned(cell))
+        blocks.push_back(cell.number >> dim);
+    make_unique(blocks);
+    return blocks;
+  }
+
+
+  template <int dim>
+  Blocks BackgroundGrid<dim>::with_surroundings(const Blocks &blocks) const
+  {
+    const CellPlace<dim> n = box.n_blocks();
+    double n_all           = 1;
+    for (const int along : n)
+      n_all *= along;
+    const Blocks around = with_margin<dim>(all_blocks(blocks, mesh.get_communicator()), GridParameters::margin / 2, n);
+    if (around.size() <= GridParameters::most_of_box * n_all)
+      return around;
+    return with_margin<dim>({ 0 }, *std::max_element(n.begin(), n.end()), n);
+  }
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::refine(const Blocks &blocks, const Shares shares)
+  {
+    for (bool is_first = true; set_flags(blocks) || is_first; is_first = false)
+      {
+        mesh.execute_coarsening_and_refinement();
+        if (shares == Shares::even)
+          mesh.repartition();
+      }
+    for (const auto &cell : mesh.active_cell_iterators())
+      cell->clear_coarsen_flag();
+    cells.reinit();
+  }
+
+
+  template <int dim>
+  bool BackgroundGrid<dim>::set_flags(const Blocks &blocks)
+  {
+    bool refines = false;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          // A cell of this level is 2^s cells wide, hence an aligned cube of 2^(dim (s - 1)) blocks.
+          const unsigned int s     = n_levels - cell->level();
+          const CellPlace<dim> own = box.place_of_corner(cell->vertex(0));
+          const auto is_wanted     = [&](const unsigned int s) {
+            const std::uint64_t number = curve_number<dim>(own) >> (dim * s) << (dim * (s - 1));
+            return has_any(blocks, number, std::uint64_t(1) << (dim * (s - 1)));
+          };
+          if (s > 0 && is_wanted(s))
+            {
+              cell->set_refine_flag();
+              refines = true;
+            }
+          else if (cell->level() > 0 && !is_wanted(s + 1))
+            cell->set_coarsen_flag();
+        }
+    return Utilities::MPI::max(int(refines), mesh.get_communicator()) == 1;
+  }
+
+  template class BackgroundGrid<2>;
+  template class BackgroundGrid<3>;
+} // namespace scree

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/open_part.h>
+#include <scree/mesh/cut_cells.h>
+#include <scree/mesh/shape_functions.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_gauss = CutCell<2>::n_gauss;
+
+    /// Calls `visit(place, part)` for the points of a rule on a simplex with `corners`; parts add up to 1.
+    template <int dim, int dim_of_simplex, typename Visit>
+    void visit_rule(const Quadrature<dim_of_simplex> &rule,
+                    const std::array<Point<dim>, dim_of_simplex + 1> &corners,
+                    const Visit &visit)
+    {
+      const double whole = std::accumulate(rule.get_weights().begin(), rule.get_weights().end(), 0.);
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          Point<dim> place = corners[0];
+          for (unsigned int a = 0; a < dim_of_simplex; ++a)
+            place += rule.point(q)[a] * (corners[a + 1] - corners[0]);
+          visit(place, rule.weight(q) / whole);
+        }
+    }
+
+    /// Normal of a line, as long as it, and of a triangle, as long as its area.
+    Tensor<1, 2> area_vector(const std::array<Point<2>, 2> &line)
+    {
+      return cross_product_2d(line[1] - line[0]);
+    }
+    Tensor<1, 3> area_vector(const std::array<Point<3>, 3> &triangle)
+    {
+      return 0.5 * cross_product_3d(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    }
+
+    using AtGaussPoints = std::array<double, n_gauss>; // along an axis
+
+    /// Products of the cubics' factors without x: 1 at their own Gauss point.
+    AtGaussPoints cubic_scales(const AtGaussPoints &points)
+    {
+      AtGaussPoints scales;
+      for (unsigned int i = 0; i < n_gauss; ++i)
+        {
+          scales[i] = 1.;
+          for (unsigned int j = 0; j < n_gauss; ++j)
+            if (j != i)
+              scales[i] /= points[i] - points[j];
+        }
+      return scales;
+    }
+
+    /// Lagrange's cubics through the Gauss points at `x`, from 0 to 1.
+    AtGaussPoints cubics(const AtGaussPoints &points, const AtGaussPoints &scales, const double x)
+    {
+      AtGaussPoints values = scales;
+      for (unsigned int i = 0; i < n_gauss; ++i)
+        for (unsigned int j = 0; j < n_gauss; ++j)
+          if (j != i)
+            values[i] *= x - points[j];
+      return values;
+    }
+  } // namespace
+
+
+  template <int dim>
+  CutCells<dim>::CutCells(const BackgroundGrid<dim> &grid, const RigidBoundary<dim> &ground, const double thinnest)
+      : grid(grid)
+      , ground(ground)
+      , thinnest(thinnest)
+      , unit_cube(simplices_of_cube(Point<dim>(), 1.))
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  std::array<double, CutCell<dim>::n_gauss> CutCells<dim>::gauss_points()
+  {
+    const QGauss<1> rule(n_gauss);
+    std::array<double, n_gauss> points;
+    for (unsigned int q = 0; q < n_gauss; ++q)
+      points[q] = rule.point(q)[0];
+    return points;
+  }
+
+
+  template <int dim>
+  void CutCells<dim>::integrate_open_part(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut) const
+  {
+    static const QWitherdenVincentSimplex<dim> rule(dim == 2 ? 4 : 5); // cubics along all axes: degree 6, 9
+    constexpr unsigned int n_rows = CutCell<dim>::n_points / n_gauss;
+    const AtGaussPoints points = gauss_points(), scales = cubic_scales(points);
+    for (const Simplex<dim> &simplex : open)
+      {
+        std::array<Point<dim>, dim + 1> corners;
+        for (unsigned int i = 0; i <= dim; ++i)
+          corners[i] = simplex[i].place;
+        const double volume = volume_of(simplex);
+        cut.open_fraction += volume;
+        visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
+          std::array<AtGaussPoints, dim> along;
+          for (unsigned int a = 0; a < dim; ++a)
+            along[a] = cubics(points, scales, x[a]);
+          for (unsigned int r = 0; r < n_rows; ++r)
+            {
+              double of_row = part * volume * along[1][r % n_gauss];
+              if constexpr (dim == 3)
+                of_row *= along[2][r / n_gauss];
+              for (unsigned int i = 0; i < n_gauss; ++i)
+                cut.weights[r * n_gauss + i] += of_row * along[0][i];
+            }
+          for (unsigned int v = 0; v < cut.n_corners; ++v)
+            {
+              double hat = part * volume;
+              for (unsigned int a = 0; a < dim; ++a)
+                hat *= v >> a & 1 ? x[a] : 1. - x[a];
+              cut.open_hats[v] += hat;
+            }
+        });
+      }
+  }
+
+
+  template <int dim>
+  void CutCells<dim>::integrate_ground(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut)
+  {
+    static const QWitherdenVincentSimplex<dim - 1> rule(dim == 2 ? 3 : 4); // quadratics along all axes
+    cut.first_segment      = all_segments.size();
+    const bool is_one_part = ground.n_near(cut.cell) == 1;
+    const auto segment_at  = [&](const std::array<Point<dim>, dim> &face) -> CutFacet<dim>  &{
+      Point<dim> middle;
+      for (const Point<dim> &corner : face)
+        middle += 1. / dim * corner;
+      const unsigned int part =
+          is_one_part && cut.n_segments == 1 ? all_segments.back().part : ground.nearest_part(cut.cell, middle);
+      for (unsigned int s = cut.first_segment; s < all_segments.size(); ++s)
+        if (all_segments[s].part == part)
+          return all_segments[s];
+      ++cut.n_segments;
+      CutFacet<dim> segment;
+      segment.cell = cut.cell;
+      segment.part = part;
+      segment.shapes.resize(grid.n_nodes_per_cell());
+      all_segments.push_back(std::move(segment));
+      return all_segments.back();
+    };
+    for (const Simplex<dim> &simplex : open)
+      {
+        // A simplex with a face on the ground has one corner in the open.
+        std::array<Point<dim>, dim> face;
+        unsigned int n_on_ground = 0;
+        Point<dim> inside;
+        for (const SimplexCorner<dim> &corner : simplex)
+          if (corner.side > 0.)
+            inside = corner.place;
+          else if (n_on_ground++ < dim)
+            face[n_on_ground - 1] = corner.place;
+        if (n_on_ground != dim)
+          continue;
+        Tensor<1, dim> area = area_vector(face);
+        if (area * (inside - face[0]) > 0.)
+          area *= -1.;
+        const double size      = area.norm();
+        CutFacet<dim> &segment = segment_at(face);
+        segment.area += size;
+        segment.normal += area;
+        visit_rule<dim>(rule, face, [&](const Point<dim> &x, const double part) {
+          for (unsigned int v = 0; v < cut.n_corners; ++v)
+            segment.vertex_weights[v] += part * size * GeometryInfo<dim>::d_linear_shape_function(x, v);
+          unsigned int i = 0;
+          visit_nodes(grid, cut.cell, x, [&](const unsigned int, const double shape) {
+            segment.shapes[i++] += part * size * shape;
+          });
+        });
+      }
+    constexpr double smallest_area = 1e-9; // what is less is a corner that touches the ground
+    const auto is_small            = [](const CutFacet<dim> &segment) { return segment.normal.norm() < smallest_area; };
+    all_segments.erase(std::remove_if(all_segments.begin() + cut.first_segment, all_segments.end(), is_small),
+                       all_segments.end());
+    cut.n_segments = all_segments.size() - cut.first_segment;
+    for (unsigned int s = cut.first_segment; s < all_segments.size(); ++s)
+      {
+        CutFacet<dim> &segment = all_segments[s];
+        for (double &hat : segment.vertex_weights)
+          hat /= segment.area;
+        for (double &shape : segment.shapes)
+          shape /= segment.area;
+        const double size = segment.normal.norm();
+        segment.area      = size * Utilities::fixed_power<dim - 1>(grid.cell_size());
+        segment.normal /= size;
+      }
+  }
+
+
+  template <int dim>
+  void CutCells<dim>::look_at(const unsigned int cell)
+  {
+    constexpr double on_ground = 1e-9; // cells: what is nearer lies on the ground
+    constexpr double nothing   = 1e-12;
+    const bool may_change      = ground.moves_near(cell);
+    const double margin        = std::max(thinnest, on_ground);
+    if (!(ground.least_distance(cell) < (may_change ? margin : on_ground) * grid.cell_size()))
+      return;
+    // Ground that moves comes through all places. An open part that is too thin for points would hide it from the
+    // water, for no cell without points takes part: the ground is then on the face behind.
+    const auto margin_at = [&](const Point<dim> &place) {
+      return may_change && ground.parts()[ground.nearest_part(cell, place)].velocity ? margin : on_ground;
+    };
+    auto simplices = unit_cube;
+    for (Simplex<dim> &simplex : simplices)
+      for (SimplexCorner<dim> &corner : simplex)
+        {
+          const double distance = ground.view(cell, corner.place).distance / grid.cell_size();
+          corner.side           = distance > -on_ground && distance < margin_at(corner.place) ? 0. : distance;
+        }
+    CutCell<dim> cut;
+    cut.cell        = cell;
+    cut.may_change  = may_change;
+    const auto open = open_part(std::move(simplices), linear_crossing<dim>);
+    integrate_open_part(open, cut);
+    integrate_ground(open, cut);
+    if (cut.open_fraction > 1. - nothing && cut.n_segments == 0)
+      return;
+    entry_of_cell[cell] = cut_cells.size();
+    cut_cells.push_back(std::move(cut));
+  }
+
+
+  template <int dim>
+  void CutCells<dim>::reinit()
+  {
+    entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
+    cut_cells.clear();
+    all_segments.clear();
+    for (const auto &cell : grid.fine_cells().cells())
+      if (grid.fine_cells().is_owned(cell))
+        look_at(cell.index);
+  }
+
+
+  template <int dim>
+  void CutCells<dim>::follow()
+  {
+    std::vector<CutCell<dim>> old_cells;
+    std::vector<CutFacet<dim>> old_segments;
+    old_cells.swap(cut_cells);
+    old_segments.swap(all_segments);
+    before.clear();
+    for (const auto &cell : grid.fine_cells().cells())
+      {
+        if (!grid.fine_cells().is_owned(cell))
+          continue;
+        const unsigned int entry = std::exchange(entry_of_cell[cell.index], none);
+        const CutCell<dim> *old  = entry == none ? nullptr : &old_cells[entry];
+        const bool may_change    = ground.moves_near(cell.index);
+        const unsigned int first = all_segments.size();
+        if (may_change || (old && old->may_change))
+          look_at(cell.index);
+        else if (old)
+          {
+            entry_of_cell[cell.index] = cut_cells.size();
+            cut_cells.push_back(*old);
+            cut_cells.back().first_segment = first;
+            for (unsigned int s = old->first_segment; s < old->first_segment + old->n_segments; ++s)
+              all_segments.push_back(std::move(old_segments[s]));
+          }
+        for (unsigned int s = first; s < all_segments.size(); ++s)
+          {
+            before.push_back(none);
+            for (unsigned int o = 0; old && o < old->n_segments; ++o)
+              if (old_segments[old->first_segment + o].part == all_segments[s].part)
+                before.back() = old->first_segment + o;
+          }
+      }
+  }
+
+  template struct CutCell<2>;
+  template struct CutCell<3>;
+  template struct CutFacet<2>;
+  template struct CutFacet<3>;
+  template class CutCells<2>;
+  template class CutCells<3>;
+} // namespace scree

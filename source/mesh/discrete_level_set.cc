@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/mesh/discrete_level_set.h>
+#include <scree/input/input_error.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  DiscreteLevelSet<dim>::DiscreteLevelSet(const BackgroundGrid<dim> &grid,
+                                          const LevelSet<dim> &surface,
+                                          const SurfaceMotion motion)
+      : grid(grid)
+      , surface(surface)
+      , motion(motion)
+      , n_1d(is_moving() ? 3 : 2)
+      , n_of_cell(Utilities::fixed_power<dim>(n_1d))
+  {
+    for (unsigned int a = 0; a < dim; ++a)
+      strides[a] = a == 0 ? 1 : n_1d * strides[a - 1];
+    for (unsigned int v = 0; v < n_corners; ++v)
+      {
+        corner_offset[v] = 0;
+        for (unsigned int a = 0; a < dim; ++a)
+          corner_offset[v] += (v >> a & 1) * strides[a];
+      }
+    reinit();
+  }
+
+
+  template <int dim>
+  bool DiscreteLevelSet<dim>::place(const Tensor<1, dim> &displacement)
+  {
+    const CellPlace<dim> before = whole_cells;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        const double cells = displacement[a] / grid.cell_size();
+        whole_cells[a]     = static_cast<int>(std::floor(cells));
+        part_of_cell[a]    = cells - whole_cells[a];
+      }
+    return whole_cells != before;
+  }
+
+
+  template <int dim>
+  void DiscreteLevelSet<dim>::reinit(const Tensor<1, dim> &displacement)
+  {
+    place(displacement);
+    look();
+  }
+
+
+  template <int dim>
+  void DiscreteLevelSet<dim>::move_to(const Tensor<1, dim> &displacement)
+  {
+    if (place(displacement))
+      look();
+  }
+
+
+  template <int dim>
+  void DiscreteLevelSet<dim>::look()
+  {
+    entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
+    corners.clear();
+    least.clear();
+    on_all_ranks(grid.triangulation().get_communicator(), [&] { sample(); });
+    if (!is_moving())
+      seen.clear();
+  }
+
+
+  template <int dim>
+  const SurfaceView<dim> &DiscreteLevelSet<dim>::at_corner(const CellPlace<dim> &corner)
+  {
+    // Corners of a surface that moves may lie outside the box.
+    constexpr unsigned int n_bits = 64 / dim;
+    std::uint64_t key             = 0;
+    for (const int number : corner)
+      key = key << n_bits | (static_cast<std::uint64_t>(number) & ((std::uint64_t(1) << n_bits) - 1));
+    const auto [entry, is_new] = seen.emplace(key, SurfaceView<dim>());
+    if (is_new)
+      entry->second = surface.view(grid.fine_cells().box().corner(corner), reach() + std::sqrt(dim) * grid.cell_size());
+    return entry->second;
+  }
+
+
+  template <int dim>
+  void DiscreteLevelSet<dim>::sample()
+  {
+    const double width = grid.cell_size(), near = reach(), far = near + std::sqrt(dim) * width;
+    for (const auto &cell : grid.fine_cells().cells())
+      {
+        if (!grid.fine_cells().is_owned(cell))
+          continue;
+        CellPlace<dim> first = cell.place, inner;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            first[a] -= whole_cells[a] + (is_moving() ? 1 : 0);
+            inner[a] = first[a] + 1;
+          }
+        // The middle of the corners: with three along an axis that is a corner itself.
+        Point<dim> middle = grid.fine_cells().box().corner(first);
+        for (unsigned int a = 0; a < dim; ++a)
+          middle[a] += 0.5 * width;
+        const double of_middle = is_moving() ? at_corner(inner).distance : surface.view(middle, far).distance;
+        if (std::abs(of_middle) >= far)
+          continue;
+        const std::size_t begin = corners.size();
+        double smallest = far, largest = -far;
+        for (unsigned int v = 0; v < n_of_cell; ++v)
+          {
+            CellPlace<dim> place = first;
+            for (unsigned int a = 0; a < dim; ++a)
+              place[a] += v / strides[a] % n_1d;
+            corners.push_back(at_corner(place));
+            smallest = std::min(smallest, corners.back().distance);
+            largest  = std::max(largest, corners.back().distance);
+          }
+        if (smallest > near || largest < -near)
+          {
+            corners.resize(begin);
+            continue;
+          }
+        entry_of_cell[cell.index] = least.size();
+        least.push_back(smallest);
+      }
+  }
+
+
+  template <int dim>
+  SurfaceView<dim> DiscreteLevelSet<dim>::view(const unsigned int cell, const Point<dim> &place) const
+  {
+    const SurfaceView<dim> *of_cell = &corners[std::size_t(entry_of_cell[cell]) * n_of_cell];
+    Point<dim> local                = place;
+    if (is_moving())
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          const bool is_upper = place[a] >= part_of_cell[a];
+          of_cell += is_upper ? strides[a] : 0;
+          local[a] += (is_upper ? 0. : 1.) - part_of_cell[a];
+        }
+    SurfaceView<dim> result{};
+    for (unsigned int v = 0; v < n_corners; ++v)
+      {
+        double weight = 1.;
+        for (unsigned int a = 0; a < dim; ++a)
+          weight *= v >> a & 1 ? local[a] : 1. - local[a];
+        const SurfaceView<dim> &corner = of_cell[corner_offset[v]];
+        result.distance += weight * corner.distance;
+        result.normal += weight * corner.normal;
+      }
+    const double size = result.normal.norm();
+    if (size > 0.)
+      result.normal /= size;
+    return result;
+  }
+
+
+  template <int dim>
+  double DiscreteLevelSet<dim>::distance_of(const unsigned int cell, const Point<dim> &place, const Point<dim> &x) const
+  {
+    if (!is_near(cell))
+      return reach();
+    const double seen = view(cell, place).distance;
+    return seen >= 0. || is_moving() ? seen : std::max(seen, surface.view(x, grid.cell_size()).distance);
+  }
+
+
+  template <int dim>
+  std::optional<Point<dim>> DiscreteLevelSet<dim>::thin_place() const
+  {
+    const double width = grid.cell_size();
+    for (const auto &cell : grid.fine_cells().cells())
+      {
+        if (is_moving() || !grid.fine_cells().is_owned(cell) || !is_near(cell.index))
+          continue;
+        const SurfaceView<dim> *of_cell = &corners[std::size_t(entry_of_cell[cell.index]) * n_of_cell];
+        for (unsigned int v = 0; v < n_corners; ++v)
+          if (const double distance = of_cell[v].distance; distance < 0. && -distance < width)
+            {
+              CellPlace<dim> place = cell.place;
+              for (unsigned int a = 0; a < dim; ++a)
+                place[a] += v >> a & 1;
+              const Point<dim> x = grid.fine_cells().box().corner(place);
+              if (surface.is_open(x - width * of_cell[v].normal))
+                return x;
+            }
+        Point<dim> middle = grid.fine_cells().box().corner(cell.place);
+        for (unsigned int a = 0; a < dim; ++a)
+          middle[a] += 0.5 * width;
+        if (least_distance(cell.index) > 0. && !surface.is_open(middle))
+          return middle;
+      }
+    return {};
+  }
+
+
+  template <int dim>
+  Batch DiscreteLevelSet<dim>::distances(const unsigned int cell, const std::array<Batch, dim> &places) const
+  {
+    // Hat functions along the axes at the lattice's corners; beyond it those of its outer cells go on.
+    std::array<std::array<Batch, 3>, dim> hats;
+    for (unsigned int a = 0; a < dim; ++a)
+      if (is_moving())
+        {
+          const Batch from_middle = places[a] - part_of_cell[a], none{};
+          hats[a][0]              = simd::max<Batch>(-from_middle, none);
+          hats[a][1]              = 1. - simd::abs<Batch>(from_middle);
+          hats[a][2]              = simd::max<Batch>(from_middle, none);
+        }
+      else
+        {
+          hats[a][0] = 1. - places[a];
+          hats[a][1] = places[a];
+        }
+    const SurfaceView<dim> *corner = &corners[std::size_t(entry_of_cell[cell]) * n_of_cell];
+    Batch sum{};
+    for (unsigned int k = 0; k < (dim == 3 ? n_1d : 1); ++k)
+      for (unsigned int j = 0; j < n_1d; ++j)
+        {
+          Batch line{};
+          for (unsigned int i = 0; i < n_1d; ++i, ++corner)
+            line += hats[0][i] * corner->distance;
+          if constexpr (dim == 3)
+            line *= hats[2][k];
+          sum += hats[1][j] * line;
+        }
+    return sum;
+  }
+
+  template class DiscreteLevelSet<2>;
+  template class DiscreteLevelSet<3>;
+} // namespace scree

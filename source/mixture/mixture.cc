@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/mixture/mixture.h>
+
+#include <deal.II/base/geometry_info.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  Mixture<dim>::Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points, const CutCells<dim> *cut_cells)
+      : grid(grid)
+      , soil_points(soil_points)
+      , moments_per_cell(Utilities::pow(grid.n_nodes_1d(), dim - 1) * n_moments)
+      , cell_volume(Utilities::fixed_power<dim>(grid.cell_size()))
+      , cut_cells(cut_cells)
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::reinit()
+  {
+    records.clear();
+    record_of_cell.assign(grid.triangulation().n_active_cells(), numbers::invalid_unsigned_int);
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::clear()
+  {
+    for (const MixtureCell<dim> &cell : records)
+      record_of_cell[cell.cell] = numbers::invalid_unsigned_int;
+    records.clear();
+    grains.clear();
+    water.clear();
+    porosities.clear();
+    entering_water.clear();
+  }
+
+
+  template <int dim>
+  unsigned int Mixture<dim>::record(const unsigned int cell)
+  {
+    unsigned int &record = record_of_cell[cell];
+    if (record == numbers::invalid_unsigned_int)
+      {
+        record = records.size();
+        records.emplace_back(cell, cell_volume * (cut_cells ? cut_cells->open_fraction(cell) : 1.));
+        grains.resize(grains.size() + moments_per_cell, NodeRow{});
+        water.resize(water.size() + moments_per_cell, NodeRow{});
+      }
+    return record;
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::find_porosities(const unsigned int record)
+  {
+    MixtureCell<dim> &cell = records[record];
+    cell.find_fill();
+    porosities[record].find(std::min(cell.fill, 1.) * cell.volume);
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::add_entering(const unsigned int cell, const Point<dim> &place, const double volume)
+  {
+    const unsigned int record = record_of_cell[cell];
+    if (record == numbers::invalid_unsigned_int || records[record].water_volume <= 0)
+      return;
+    EnteringWater<dim> entering{ cell, {} };
+    for (unsigned int v = 0; v < entering.at_corner.size(); ++v)
+      entering.at_corner[v] = volume * GeometryInfo<dim>::d_linear_shape_function(place, v);
+    entering_water.push_back(entering);
+  }
+
+
+  template <int dim>
+  void Mixture<dim>::finish()
+  {
+    for (MixtureCell<dim> &cell : records)
+      cell.find_fill();
+  }
+
+  template class Mixture<2>;
+  template class Mixture<3>;
+} // namespace scree

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/momentum/particle_shifting.h>
+#include <scree/mixture/closures.h>
+#include <scree/mesh/node_rows.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  ParticleShifting<dim>::ParticleShifting(const BackgroundGrid<dim> &grid,
+                                          const Constraints<dim> &constraints,
+                                          PorePressure<dim> &pressure,
+                                          const Tensor<1, dim> &gravity,
+                                          const double rate)
+      : grid(grid)
+      , constraints(constraints)
+      , pressure(pressure)
+      , gravity(gravity)
+      , rate(rate)
+      , shifts(grid.numbering())
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void ParticleShifting<dim>::reinit()
+  {
+    pressure.reinit(volume_inside);
+    pressure.reinit(source);
+    pressure.reinit(potential);
+    shifts.reinit();
+  }
+
+
+  template <int dim>
+  void ParticleShifting<dim>::find_inside(const Mixture<dim> &mixture)
+  {
+    const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
+    volume_inside.zero_out_ghost_values();
+    volume_inside = 0.;
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      {
+        const unsigned int *corners = pressure.corners_of(cell.cell);
+        if (std::all_of(corners, corners + cell.n_corners, [&](const unsigned int corner) {
+              return surface.kind(corner) == PressureDofType::unknown;
+            }))
+          for (unsigned int v = 0; v < cell.n_corners; ++v)
+            volume_inside.local_element(corners[v]) += surface.volume_in_cell(cell.cell, v);
+      }
+    volume_inside.compress(VectorOperation::add);
+  }
+
+
+  template <int dim>
+  bool ParticleShifting<dim>::find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance)
+  {
+    const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
+    const double part                      = -std::expm1(-rate * time_step);
+    find_inside(mixture);
+    source = 0.;
+    for (const unsigned int corner : surface.wet_corners())
+      if (surface.kind(corner) == PressureDofType::unknown && surface.is_free_water(corner))
+        {
+          const double surplus = surface.fill(corner) - 1., volume = surface.volume_under(corner);
+          const bool inside = volume_inside.local_element(corner) > (1. - 1e-9) * volume;
+          // A lack beside the surface is the surface.
+          if (surplus > closures::least_surplus || (inside && surplus < -closures::least_surplus))
+            source.local_element(corner) = part * surplus * volume / time_step;
+        }
+    if (source.linfty_norm() == 0.)
+      return false;
+    pressure.solve_potential(mixture, source, potential, balance);
+    return true;
+  }
+
+
+  template <int dim>
+  void ParticleShifting<dim>::find_shifts(const Mixture<dim> &mixture,
+                                          const NodalField<dim> &water_field,
+                                          const PoreField<dim> &pores,
+                                          const double time_step)
+  {
+    shifts.clear();
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      if (const MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
+        {
+          shifts.activate_cell(cell.cell);
+          mixture.add_pressure_gradient(record,
+                                        multilinear_of<dim>(pressure.at_corners(potential, cell.cell)),
+                                        -time_step * time_step,
+                                        shifts,
+                                        0,
+                                        shifts,
+                                        dim);
+        }
+    shifts.add_contributions();
+    const double most = 0.1 * grid.cell_size();
+    for (const unsigned int node : shifts.active_nodes())
+      {
+        const double mass = water_field[node][NodalField<dim>::mass];
+        const bool moves  = mass > 0. && !(pores[node][PoreField<dim>::grain_fraction] > 0.);
+        double *values    = shifts[node] + dim;
+        Tensor<1, dim> shift;
+        for (unsigned int c = 0; c < dim && moves; ++c)
+          shift[c] = std::clamp(values[c] / mass, -most, most);
+        if (const NodeConstraints<dim> *walls = constraints.at(node))
+          shift = walls->water_constraint.free_part(shift);
+        for (unsigned int c = 0; c < dim; ++c)
+          values[c] = shift[c];
+      }
+    shifts.update_ghosts();
+  }
+
+
+  template <int dim>
+  void ParticleShifting<dim>::apply(WaterPhase<dim> &water,
+                                    const Mixture<dim> &mixture,
+                                    const NodalField<dim> &water_field,
+                                    const PoreField<dim> &pores,
+                                    const double time_step,
+                                    Budget<dim> &balance)
+  {
+    if (water.own_points() == nullptr)
+      return; // Water that rides on the soil's points moves with them.
+    if (!find_potential(mixture, time_step, balance))
+      return;
+    find_shifts(mixture, water_field, pores, time_step);
+    if (grid.n_nodes_1d() == 2)
+      move<2>(water, balance);
+    else
+      move<3>(water, balance);
+  }
+
+
+  template <int dim>
+  template <int n>
+  void ParticleShifting<dim>::move(WaterPhase<dim> &water, Budget<dim> &balance) const
+  {
+    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    const auto &layout            = water.layout;
+    for (const auto &cell : water.points().cells())
+      {
+        NodeRow of_nodes[dim][n_rows]{};
+        for (unsigned int r = 0; r < n_rows; ++r)
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              of_nodes[c][r][i] = shifts[grid.nodes(cell.cell)[r * n + i]][dim + c];
+        for_each_record(cell, [&](const auto &point) {
+          const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
+          Tensor<1, dim> shift;
+          for (unsigned int c = 0; c < dim; ++c)
+            shift[c] = sum(contract(shape.rows.value, of_nodes[c]) * shape.value_x);
+          point.location += shift;
+          balance.correction_work -= point.properties[layout.mass] * (gravity * shift);
+          // The pressure stays where it is; the point reads it at its new place.
+          for (unsigned int c = 0; c < dim; ++c)
+            point.properties[layout.pressure] += point.properties[layout.pressure_gradient + c] * shift[c];
+        });
+      }
+  }
+
+  template class ParticleShifting<2>;
+  template class ParticleShifting<3>;
+} // namespace scree

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/momentum/solid_phase.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  SolidPhase<dim>::SolidPhase(const BackgroundGrid<dim> &grid,
+                              const TransferParameters &transfer,
+                              const StabilisationParameters &stabilisation,
+                              std::list<SoilBody<dim>> &bodies,
+                              std::list<SurfaceLoad<dim>> &loads,
+                              const unsigned int group)
+      : field(grid)
+      , transfer(grid, transfer, stabilisation)
+      , bodies(bodies)
+      , group(group)
+  {
+    for (auto &load : loads)
+      this->loads.emplace_back(grid, load);
+  }
+
+
+  template <int dim>
+  void SolidPhase<dim>::reinit()
+  {
+    field.reinit();
+    for (auto &one : loads)
+      one.reinit();
+  }
+
+
+  template <int dim>
+  void SolidPhase<dim>::to_grid(const double time)
+  {
+    load_time = time;
+    field.clear();
+    for (const auto &body : bodies)
+      if (moves(body))
+        transfer.to_grid(body, field);
+    for (auto &one : loads)
+      one.find_areas(bodies);
+  }
+
+
+  template <int dim>
+  void SolidPhase<dim>::add_loads(const double delay)
+  {
+    load_time += delay;
+    load = 0.;
+    for (const auto &one : loads)
+      load += one.add_to(field, load_time);
+  }
+
+
+  template <int dim>
+  void SolidPhase<dim>::to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture)
+  {
+    for (auto &body : bodies)
+      if (moves(body))
+        {
+          const MotionReport motion = transfer.to_points(body, field, time_step, mixture);
+          report.speeds.include_wave(
+              body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
+          report.speeds.include_point(motion.largest_speed);
+          report.material.add(motion.material);
+          report.n_updates += motion.material.n_updates;
+        }
+    for (auto &one : loads)
+      report.balance.load_work += one.move(field, load_time, time_step);
+  }
+
+
+  template <int dim>
+  void SolidPhase<dim>::append_point_sets(std::vector<PointSet<dim> *> &sets)
+  {
+    for (auto &body : bodies)
+      sets.push_back(&body.points);
+    for (auto &one : loads)
+      sets.push_back(&one.surface_load().points());
+  }
+
+  template class SolidPhase<2>;
+  template class SolidPhase<3>;
+} // namespace scree

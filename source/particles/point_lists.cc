@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/particles/point_lists.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  PointLists<dim>::PointLists(Particles::ParticleHandler<dim> &handler, CellTable<dim> &table)
+      : handler(handler)
+      , table(table)
+  {
+  }
+
+
+  template <int dim>
+  void PointLists<dim>::list_all()
+  {
+    filled.clear();
+    slots.clear();
+    entrants.clear();
+    for (auto point = handler.begin(); point != handler.end();)
+      {
+        const CellIterator cell     = point->get_surrounding_cell();
+        const unsigned int in_table = table.number_of(cell);
+        filled.push_back({ table[in_table].number, in_table, handler.n_particles_in_cell(cell) });
+        point = handler.particles_in_cell(cell).end();
+      }
+    std::sort(
+        filled.begin(), filled.end(), [](const FilledCell &a, const FilledCell &b) { return a.number < b.number; });
+    for (const FilledCell &cell : filled)
+      for (const auto &point : handler.particles_in_cell(table[cell.in_table].iterator))
+        slots.push_back(point.get_local_index());
+    point_to_records();
+  }
+
+
+  template <int dim>
+  void PointLists<dim>::update()
+  {
+    std::sort(entrants.begin(), entrants.end());
+    new_filled.clear();
+    new_slots.clear();
+    const Entrant *entrant = entrants.data(), *end = entrant + entrants.size();
+    for (unsigned int c = 0; c < filled.size(); ++c)
+      {
+        while (entrant != end && entrant->number < filled[c].number)
+          entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
+        entrant = append_cell(filled[c], cell_list[c].slots, entrant, end);
+      }
+    while (entrant != end)
+      entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
+    filled.swap(new_filled);
+    slots.swap(new_slots);
+    entrants.clear();
+    point_to_records();
+  }
+
+
+  template <int dim>
+  const typename PointLists<dim>::Entrant *PointLists<dim>::append_cell(const FilledCell &cell,
+                                                                        const unsigned int *first_slot,
+                                                                        const Entrant *entrant,
+                                                                        const Entrant *end)
+  {
+    new_slots.insert(new_slots.end(), first_slot, first_slot + cell.n_points);
+    unsigned int n_points = cell.n_points;
+    for (; entrant != end && entrant->number == cell.number; ++entrant, ++n_points)
+      new_slots.push_back(entrant->slot);
+    if (n_points > 0)
+      new_filled.push_back({ cell.number, cell.in_table, n_points });
+    return entrant;
+  }
+
+
+  template <int dim>
+  void PointLists<dim>::point_to_records()
+  {
+    cell_list.clear();
+    const_cell_list.clear();
+    slots.insert(slots.end(), points_ahead, 0);
+    if (filled.empty())
+      return;
+
+    // The pool stores records slot by slot and hands out references to them: writing through them saves a call per
+    // point.
+    auto &pool = handler.get_property_pool();
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+    Point<dim> *locations = &pool.get_location(0);
+#else
+    // Before 9.6 only constant ones.
+    Point<dim> *locations = const_cast<Point<dim> *>(&pool.get_location(0));
+#endif
+    const Point<dim> *places    = &pool.get_reference_location(0);
+    double *properties          = pool.get_properties(0).data();
+    const unsigned int stride   = pool.n_properties_per_slot();
+    const unsigned int *of_cell = slots.data();
+    for (const FilledCell &cell : filled)
+      {
+        const unsigned int index = table[cell.in_table].index;
+        cell_list.push_back({ index, cell.n_points, of_cell, stride, properties, locations, places });
+        const_cell_list.push_back({ index, cell.n_points, of_cell, stride, properties, locations, places });
+        of_cell += cell.n_points;
+      }
+  }
+
+  template class PointLists<2>;
+  template class PointLists<3>;
+} // namespace scree

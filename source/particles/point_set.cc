@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/particles/point_set.h>
+#include <scree/simd/records.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/cell_id.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  /// Cell by cell.
+  template <int dim>
+  struct PointSet<dim>::Lifted
+  {
+    std::vector<std::pair<CellId::binary_type, unsigned int>> cells; // and how many points they hold
+    std::vector<Point<dim>> locations;
+    std::vector<types::particle_index> ids;
+    std::vector<double> properties;
+  };
+
+
+  template <int dim>
+  PointSet<dim>::PointSet(const Triangulation<dim> &triangulation,
+                          const Mapping<dim> &mapping,
+                          const unsigned int n_properties)
+      : mesh(triangulation)
+      , n_properties(n_properties)
+      , particle_handler(triangulation, mapping, n_properties)
+      , lists(particle_handler, table)
+      , refinement_signal(triangulation.signals.any_change.connect([this] { table.clear(); }))
+      , repartition_signal(triangulation.signals.post_distributed_repartition.connect([this] { table.clear(); }))
+      , emigrants(triangulation)
+  {
+    particle_handler.signals.particle_lost.connect([this](const auto &point, const auto &) {
+      const auto properties = point->get_properties();
+      lost_points.push_back({ point->get_location(), { properties.begin(), properties.end() } });
+    });
+  }
+
+
+  template <int dim>
+  PointSet<dim>::~PointSet() = default;
+
+
+  template <int dim>
+  void PointSet<dim>::sort()
+  {
+    particle_handler.sort_particles_into_subdomains_and_cells();
+    n_moved = 0;
+    list_all_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::hand_over()
+  {
+    const int disorder = static_cast<int>(update_places());
+    hand_over(static_cast<Disorder>(Utilities::MPI::max(disorder, mesh.get_communicator())));
+  }
+
+
+  template <int dim>
+  Disorder PointSet<dim>::update_places()
+  {
+    const bool found_all = set_places();
+    at_edge              = std::any_of(leavers.begin(), leavers.end(), [this](const Leaver &leaver) {
+      return use_of(table[leaver.to].iterator) != CellUse::inner;
+    });
+    carried.resize(std::max(carried.size(), leavers.size())); // Its memory is kept.
+    // From the last one on: where a point is taken out, the last one of its cell takes its number.
+    for (std::size_t l = leavers.size(); l > 0; --l)
+      take_out(leavers[l - 1], carried[l - 1]);
+    for (std::size_t l = 0; l < leavers.size(); ++l)
+      hand_on(leavers[l].to, carried[l]);
+    n_moved += leavers.size();
+    if (!found_all || n_moved > most_moved * n_points())
+      return Disorder::far;
+    return emigrants.is_empty() ? Disorder::none : Disorder::beside_a_border;
+  }
+
+
+  template <int dim>
+  bool PointSet<dim>::set_places()
+  {
+    const auto &cell_list = lists.cells();
+    const auto &filled    = lists.filled_cells();
+    leavers.clear();
+    if (cell_list.empty())
+      return true;
+    bool found_all = true;
+    // Writing through the pool saves a call per point.
+    auto *places = const_cast<Point<dim> *>(cell_list.front().reference_locations);
+    for (unsigned int c = 0; c < cell_list.size(); ++c)
+      {
+        const CellPoints<dim> &points = cell_list[c];
+        const auto cell               = table[filled[c].in_table]; // a copy: the table may grow
+        for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+          RecordPointers<const double> from;
+          RecordPointers<double> to;
+          for (unsigned int l = 0; l < batch_size; ++l)
+            {
+              from[l] = apart(&points.location_of(indices[l])[0]);
+              to[l]   = apart(&places[points.slots[indices[l]]][0]);
+            }
+          Batch x[dim];
+          simd::load_records<dim>(from, x);
+          const auto place = cell.template place_of<Batch>(x);
+          simd::store_records<dim>(place.data(), to);
+          auto inside = simd::first_lanes(batch_size);
+          for (const Batch &along : place)
+            inside = inside & (along >= 0.) & (along <= 1.);
+          unsigned int left = ~simd::bits_of(inside) & ((1u << n) - 1);
+          for (unsigned int l = 0; left != 0; ++l, left >>= 1)
+            if (left & 1)
+              {
+                const unsigned int other = table.neighbour_with(filled[c].in_table, points.location_of(indices[l]));
+                if (other == table.none)
+                  found_all = false;
+                else
+                  leavers.push_back({ c, indices[l], other });
+              }
+        });
+      }
+    return found_all;
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::take_out(const Leaver &leaver, Record &record)
+  {
+    const CellPoints<dim> &points = lists.cells()[leaver.from];
+    const unsigned int in_table   = lists.filled_cells()[leaver.from].in_table;
+    const auto of_handler         = particle_handler.particles_in_cell(table[in_table].iterator);
+    const auto point              = std::next(of_handler.begin(), leaver.point);
+    Assert(point->get_local_index() == points.slots[leaver.point], ExcInternalError("The lists differ."));
+
+    const double *properties = points.properties_of(leaver.point);
+    record.properties.assign(properties, properties + n_properties);
+    record.location = point->get_location();
+    record.id       = point->get_id();
+    // In both lists the last point of the cell takes the number of one that is removed.
+    particle_handler.remove_particle(point);
+    lists.remove(leaver.from, leaver.point);
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::hand_on(const unsigned int to, Record &record)
+  {
+    const CellIterator &cell = table[to].iterator;
+    if (cell->is_locally_owned())
+      {
+        insert(to, record);
+        return;
+      }
+    emigrants.add(cell, record);
+  }
+
+
+  template <int dim>
+  unsigned int PointSet<dim>::insert_into(const unsigned int number,
+                                          const Point<dim> &location,
+                                          const types::particle_index id,
+                                          const ArrayView<const double> &properties)
+  {
+    const auto place = table[number].template place_of<double>(location);
+    Point<dim> reference_location;
+    std::copy(place.begin(), place.end(), reference_location.begin_raw());
+    return particle_handler.insert_particle(location, reference_location, id, table[number].iterator, properties)
+        ->get_local_index();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::insert(const unsigned int number, const Record &record)
+  {
+    const unsigned int slot = insert_into(number, record.location, record.id, record.properties);
+    lists.insert(number, slot);
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::add(const typename Triangulation<dim>::active_cell_iterator &cell,
+                          const Point<dim> &location,
+                          const types::particle_index id,
+                          const std::vector<double> &properties)
+  {
+    const unsigned int number = table.number_of(cell);
+    const unsigned int slot   = insert_into(number, location, id, make_array_view(properties));
+    lists.insert(number, slot);
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::finish_adding()
+  {
+    if (lists.has_entrants())
+      lists.update();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::hand_over(const Disorder disorder)
+  {
+    if (disorder != Disorder::none)
+      for (const Record &record : emigrants.exchange())
+        insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
+    if (disorder == Disorder::far)
+      sort();
+    else if (!leavers.empty() || lists.has_entrants())
+      lists.update();
+  }
+
+
+  template <int dim>
+  bool PointSet<dim>::is_in_inner_cells() const
+  {
+    const auto &filled = lists.filled_cells();
+    return std::all_of(filled.begin(), filled.end(), [this](const auto &cell) {
+      return use_of(table[cell.in_table].iterator) == CellUse::inner;
+    });
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::lift()
+  {
+    lifted                  = std::make_unique<Lifted>();
+    const std::size_t count = particle_handler.n_locally_owned_particles();
+    lifted->locations.reserve(count);
+    lifted->ids.reserve(count);
+    lifted->properties.reserve(count * n_properties);
+    const auto &pool      = particle_handler.get_property_pool();
+    const auto &cell_list = lists.cells();
+    for (unsigned int c = 0; c < cell_list.size(); ++c)
+      {
+        const CellPoints<dim> &points = cell_list[c];
+        lifted->cells.emplace_back(table[lists.filled_cells()[c].in_table].iterator->id().template to_binary<dim>(),
+                                   points.n_points);
+        for (unsigned int p = 0; p < points.n_points; ++p)
+          {
+            const double *properties = points.properties_of(p);
+            lifted->locations.push_back(points.location_of(p));
+            lifted->ids.push_back(pool.get_id(points.slots[p]));
+            lifted->properties.insert(lifted->properties.end(), properties, properties + n_properties);
+          }
+      }
+    particle_handler.clear_particles();
+    particle_handler.update_cached_numbers();
+    list_all_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::put_down()
+  {
+    particle_handler.reserve(lifted->ids.size());
+    std::size_t p = 0;
+    for (const auto &[id, n_points] : lifted->cells)
+      {
+        typename Triangulation<dim>::cell_iterator parent = mesh.create_cell_iterator(CellId(id));
+        for (unsigned int i = 0; i < n_points; ++i, ++p)
+          {
+            const Point<dim> &x = lifted->locations[p];
+            auto cell           = parent;
+            while (cell->has_children())
+              {
+                unsigned int child = 0;
+                for (unsigned int a = 0; a < dim; ++a)
+                  child |= (x[a] > cell->center()[a] ? 1u : 0u) << a;
+                cell = cell->child(child);
+              }
+            const CellIterator active = cell;
+            double *properties        = lifted->properties.data() + p * n_properties;
+            insert_into(table.number_of(active), x, lifted->ids[p], ArrayView<const double>(properties, n_properties));
+          }
+      }
+    lifted.reset();
+    particle_handler.update_cached_numbers();
+    n_moved = 0;
+    list_all_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::lose_points_outside()
+  {
+    std::vector<typename Particles::ParticleHandler<dim>::particle_iterator> outside;
+    for (auto point = particle_handler.begin(); point != particle_handler.end();)
+      {
+        const CellIterator cell = point->get_surrounding_cell();
+        const auto points       = particle_handler.particles_in_cell(cell);
+        if (use_of(cell) == CellUse::outside)
+          for (auto one = points.begin(); one != points.end(); ++one)
+            {
+              const auto properties = one->get_properties();
+              lost_points.push_back({ one->get_location(), { properties.begin(), properties.end() } });
+              outside.push_back(one);
+            }
+        point = points.end();
+      }
+    // One by one, and from the last one on, since the last point of a cell takes the number of one that is removed:
+    // deal.II's remove_particles() is collective.
+    std::for_each(
+        outside.rbegin(), outside.rend(), [this](const auto &point) { particle_handler.remove_particle(point); });
+    particle_handler.update_cached_numbers();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::list_all_cells()
+  {
+    lose_points_outside();
+    lists.list_all();
+    at_edge = !is_in_inner_cells();
+  }
+
+
+  template <int dim>
+  std::vector<types::particle_index> PointSet<dim>::ids(const unsigned int cell) const
+  {
+    const auto &pool                   = particle_handler.get_property_pool();
+    const ConstCellPoints<dim> &points = lists.cells()[cell];
+    std::vector<types::particle_index> result;
+    for (unsigned int p = 0; p < points.n_points; ++p)
+      result.push_back(pool.get_id(points.slots[p]));
+    return result;
+  }
+
+  template class PointSet<2>;
+  template class PointSet<3>;
+} // namespace scree

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/open_part.h>
+#include <scree/particles/region.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/utilities.h>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The place `index` of a lattice of n^dim places in a cube, the outer ones `inset` widths inside it.
+    template <int dim>
+    Point<dim> sample(const Point<dim> &lower,
+                      const double width,
+                      const unsigned int index,
+                      const unsigned int n,
+                      const double inset)
+    {
+      Point<dim> x;
+      for (unsigned int a = 0, rest = index; a < dim; ++a, rest /= n)
+        x[a] = lower[a] + width * (inset + (1. - 2. * inset) * (rest % n) / (n - 1.));
+      return x;
+    }
+  } // namespace
+
+
+  namespace
+  {
+    /// The part of simplices in which a condition holds; where it begins on an edge is found by halving it.
+    template <int dim, typename Condition>
+    std::vector<Simplex<dim>> part_where(std::vector<Simplex<dim>> simplices, const Condition &holds)
+    {
+      for (Simplex<dim> &simplex : simplices)
+        for (SimplexCorner<dim> &corner : simplex)
+          corner.side = holds(corner.place) ? 1. : -1.;
+      return open_part<dim>(std::move(simplices),
+                            [&](const SimplexCorner<dim> &inside, const SimplexCorner<dim> &outside) {
+                              constexpr unsigned int n_halvings = 40;
+                              Point<dim> in = inside.place, out = outside.place;
+                              for (unsigned int i = 0; i < n_halvings; ++i)
+                                {
+                                  const Point<dim> middle    = in + 0.5 * (out - in);
+                                  (holds(middle) ? in : out) = middle;
+                                }
+                              return in;
+                            });
+    }
+  } // namespace
+
+
+  template <int dim>
+  Region<dim>::Region(const std::string &where,
+                      const std::string &expression,
+                      const std::shared_ptr<const SourceMap> &map)
+      : function(parse_expression<dim>(where, expression, 1))
+      , map(map)
+  {
+  }
+
+
+  template <int dim>
+  Point<dim> Region<dim>::corner(const Point<dim> &lower, const double width, const unsigned int vertex)
+  {
+    return sample(lower, width, vertex, 2, 1e-6);
+  }
+
+
+  template <int dim>
+  Point<dim> Region<dim>::middle(const Point<dim> &lower, const double width)
+  {
+    Point<dim> middle = lower;
+    for (unsigned int a = 0; a < dim; ++a)
+      middle[a] += width / 2.;
+    return middle;
+  }
+
+
+  template <int dim>
+  bool Region<dim>::touches_cube(const Point<dim> &lower, const double width) const
+  {
+    for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+      if (contains(corner(lower, width, v)))
+        return true;
+    return contains(middle(lower, width)) || (map && map->is_layer() && part_by_lines(lower, width).first > 0.);
+  }
+
+
+  template <int dim>
+  std::pair<double, Point<dim>> Region<dim>::part_by_lines(const Point<dim> &lower, const double width) const
+  {
+    constexpr unsigned int n = 6, n_parts = 4; // lines along an axis; parts of each, where the expression is asked
+    constexpr double least = 1e-9;             // of the width: what rounding leaves
+    double length          = 0.;
+    Tensor<1, dim> moment;
+    if constexpr (dim == 3)
+      for (unsigned int i = 0; i < n * n; ++i)
+        {
+          const double x = lower[0] + width * (i % n + 0.5) / n, y = lower[1] + width * (i / n + 0.5) / n;
+          const auto [bottom, top] = map->part_of_line(x, y, lower[2], lower[2] + width);
+          const double part        = (top - bottom) / n_parts;
+          for (unsigned int k = 0; k < n_parts && part > least * width; ++k)
+            if (const Point<dim> place(x, y, bottom + part * (k + 0.5)); function->value(place) != 0.)
+              {
+                length += part;
+                moment += part * (place - lower);
+              }
+        }
+    return { length * width * width / (n * n),
+             length > 0. ? Point<dim>(lower + moment / length) : middle(lower, width) };
+  }
+
+
+  template <int dim>
+  std::pair<double, Point<dim>>
+  Region<dim>::part_of_cube(const Point<dim> &lower, const double width, const LevelSet<dim> *ground) const
+  {
+    const auto is_open  = [&](const Point<dim> &x) { return ground == nullptr || ground->is_open(x); };
+    const auto contains = [&](const Point<dim> &x) { return Region::contains(x) && is_open(x); };
+    // Most cubes lie inside or outside with all corners.
+    constexpr unsigned int n_corners = 1 << dim;
+    unsigned int in_region = 0, in_open = 0, in_both = 0;
+    for (unsigned int v = 0; v < n_corners; ++v)
+      {
+        const Point<dim> x = corner(lower, width, v);
+        const bool region = Region::contains(x), open = is_open(x);
+        in_region += region;
+        in_open += open;
+        in_both += region && open;
+      }
+    const Point<dim> middle = Region::middle(lower, width);
+    const double volume     = Utilities::fixed_power<dim>(width);
+    if (in_both == n_corners && contains(middle))
+      return { volume, middle };
+    if (map && map->is_layer())
+      return part_by_lines(lower, width);
+    if (ground != nullptr && in_region + in_open < 2 * n_corners && in_region > 0 && in_open > 0)
+      {
+        auto simplices =
+            part_where(simplices_of_cube(lower, width), [&](const Point<dim> &x) { return Region::contains(x); });
+        const auto part        = volume_and_centroid(part_where(std::move(simplices), is_open));
+        constexpr double least = 1e-9; // of the cube: what rounding leaves
+        return part.first > least * volume ? part : std::make_pair(0., middle);
+      }
+    if (in_both == 0 && !contains(middle))
+      return { 0., middle };
+
+    constexpr unsigned int n         = dim == 2 ? 32 : 12;
+    constexpr unsigned int n_samples = Utilities::pow(n, dim);
+    unsigned int n_inside            = 0;
+    Tensor<1, dim> sum;
+    for (unsigned int i = 0; i < n_samples; ++i)
+      if (const auto x = sample(lower, width, i, n, 0.5 / n); contains(x))
+        {
+          ++n_inside;
+          sum += x - lower;
+        }
+    if (n_inside == 0)
+      return { 0., middle };
+    return { volume * n_inside / n_samples, lower + sum / n_inside };
+  }
+
+  template class Region<2>;
+  template class Region<3>;
+} // namespace scree

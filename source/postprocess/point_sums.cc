@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/postprocess/point_sums.h>
+
+#include <scree/postprocess/cell_contents.h>
+#include <scree/tensor/invariants.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  PointSums<dim>::PointSums(const std::list<SoilBody<dim>> &bodies,
+                            const std::list<WaterPhase<dim>> &water,
+                            const Tensor<1, dim> &gravity,
+                            const MPI_Comm communicator)
+      : height(std::numeric_limits<double>::lowest())
+  {
+    for (const auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) { add(body, point.location, point.properties, gravity); });
+    for (const auto &one : water)
+      for_each_point(one.points(), [&](const auto &point) {
+        add_motion(point.properties[one.layout.mass], point.properties + one.layout.velocity, point.location, gravity);
+      });
+
+    std::vector<double> sums{ soil_points, soil_mass, kinetic, potential, elastic, pressure };
+    for (unsigned int a = 0; a < dim; ++a)
+      sums.push_back(momentum[a]);
+    Utilities::MPI::sum(sums, communicator, sums);
+    soil_points = sums[0], soil_mass = sums[1], kinetic = sums[2], potential = sums[3], elastic = sums[4];
+    pressure = sums[5];
+    for (unsigned int a = 0; a < dim; ++a)
+      momentum[a] = sums[6 + a];
+
+    std::vector<double> largest{ largest_pressure, height, largest_porosity };
+    Utilities::MPI::max(largest, communicator, largest);
+    largest_pressure = largest[0], height = largest[1], largest_porosity = largest[2];
+  }
+
+
+  template <int dim>
+  void PointSums<dim>::add(const SoilBody<dim> &body,
+                           const Point<dim> &x,
+                           const double *properties,
+                           const Tensor<1, dim> &gravity)
+  {
+    const double mass = properties[body.layout.mass];
+    const double P    = mean_effective_stress(properties + body.layout.stress);
+    soil_points += 1;
+    soil_mass += mass;
+    add_motion(mass, properties + body.layout.velocity, x, gravity);
+    elastic += mass / body.density * body.material->elastic_energy(properties + body.layout.left_cauchy_green);
+    pressure += P;
+    largest_pressure = std::max(largest_pressure, P);
+    height           = std::max(height, x[dim - 1]);
+    largest_porosity = std::max(largest_porosity, body.porosity(properties));
+  }
+
+
+  template <int dim>
+  void PointSums<dim>::add_motion(const double mass,
+                                  const double *velocity,
+                                  const Point<dim> &x,
+                                  const Tensor<1, dim> &gravity)
+  {
+    const Tensor<1, dim> v(make_array_view(velocity, velocity + dim));
+    momentum += mass * v;
+    kinetic += 0.5 * mass * v.norm_square();
+    potential -= mass * (gravity * (x - Point<dim>()));
+  }
+
+  template struct PointSums<2>;
+  template struct PointSums<3>;
+} // namespace scree

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/postprocess/run_checks.h>
+#include <scree/tensor/invariants.h>
+#include <scree/tensor/vector.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/string.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned long long steps_between = 20; // a look passes over all points
+
+    /// What a sound run does not exceed, by Check.
+    constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 2., 0. };
+
+    std::string short_text(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.3g", value);
+      return text;
+    }
+
+    template <int dim>
+    std::string short_text(const Point<dim> &x)
+    {
+      std::string text = "(";
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          char number[32];
+          std::snprintf(number, sizeof number, "%.6g", x[a]);
+          text += (a > 0 ? ", " : "") + std::string(number);
+        }
+      return text + ") m";
+    }
+  } // namespace
+
+
+  template <int dim>
+  RunChecks<dim>::RunChecks(const BackgroundGrid<dim> &grid,
+                            const Tensor<1, dim> &gravity,
+                            const DiscreteLevelSet<dim> *bed,
+                            RunFolder &folder)
+      : grid(grid)
+      , gravity(gravity)
+      , bed(bed)
+      , folder(folder)
+  {
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
+                            const std::list<WaterPhase<dim>> &water,
+                            const double n_lost,
+                            const double time,
+                            const unsigned long long step,
+                            const bool is_end)
+  {
+    if (has_looked && !is_end && step < last_step + steps_between)
+      return;
+    has_looked = true;
+    last_step  = step;
+    now        = Suspects();
+    look_at_speeds(bodies, water);
+    look_at_soil(bodies);
+    const double n_all = Utilities::MPI::sum(n_lost, grid.triangulation().get_communicator());
+    suspect(Check::lost, n_all, n_all, [] { return std::string(); });
+    agree(time);
+  }
+
+
+  template <int dim>
+  template <class Look>
+  void RunChecks<dim>::for_each_named(const std::string &set, const PointSet<dim> &points, const Look &look)
+  {
+    const auto &cells = points.cells();
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        unsigned int p = 0;
+        for_each_point(cells[c], [&](const auto &point) {
+          look(point, [&] {
+            return set + ", point " + std::to_string(points.ids(c)[p]) + " at " + short_text(point.location);
+          });
+          ++p;
+        });
+      }
+  }
+
+
+  template <int dim>
+  template <class Name>
+  void RunChecks<dim>::suspect(const Check check, const double value, const double found, const Name &name)
+  {
+    Suspect &so_far = now[static_cast<unsigned int>(check)];
+    if (!(value <= so_far.value)) // what is no number is worst
+      so_far = { std::isnan(value) ? std::numeric_limits<double>::infinity() : value, found, name(), 0. };
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
+  {
+    const double fall  = std::sqrt(2. * gravity.norm() * grid.cell_size()); // slower points do not harm
+    const auto include = [&](const auto &for_each) {
+      std::vector<double> speeds;
+      double largest = 0.;
+      for_each([&](const double *velocity, const auto &) {
+        speeds.push_back(vector_of<dim>(velocity).norm());
+        largest = std::max(largest, speeds.back());
+      });
+      largest = Utilities::MPI::max(largest, grid.triangulation().get_communicator());
+      if (!(largest > fall))
+        return;
+      const double usual = quantile(speeds, largest);
+      for_each([&](const double *velocity, const auto &name) {
+        if (const double speed = vector_of<dim>(velocity).norm(); speed > usual)
+          suspect(Check::speed, speed / usual, speed, name);
+      });
+    };
+    include([&](const auto &act) {
+      for (const SoilBody<dim> &body : bodies)
+        if (!body.is_rigid)
+          for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
+            act(point.properties + body.layout.velocity, name);
+          });
+    });
+    include([&](const auto &act) {
+      for (const WaterPhase<dim> &part : water)
+        if (part.carrier() == nullptr)
+          for_each_named("Water", part.points(), [&](const auto &point, const auto &name) {
+            act(point.properties + part.layout.velocity, name);
+          });
+    });
+  }
+
+
+  template <int dim>
+  double RunChecks<dim>::quantile(const std::vector<double> &speeds, const double largest) const
+  {
+    std::vector<unsigned int> counts(4096, 0);
+    for (const double speed : speeds)
+      ++counts[std::min<unsigned int>(counts.size() * (speed / largest), counts.size() - 1)];
+    Utilities::MPI::sum(counts, grid.triangulation().get_communicator(), counts);
+    double n = 0.;
+    for (const unsigned int count : counts)
+      n += count;
+    double faster    = 0.;
+    unsigned int bin = counts.size();
+    while (bin > 0 && faster + counts[bin - 1] <= 1e-3 * n)
+      faster += counts[--bin];
+    return largest * std::max(bin, 1u) / counts.size();
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look_at_soil(const std::list<SoilBody<dim>> &bodies)
+  {
+    const double g = gravity.norm();
+    std::vector<double> ends(2, std::numeric_limits<double>::lowest()); // heights: highest, minus lowest
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid && g > 0.)
+        for_each_point(body.points, [&](const auto &point) {
+          const double height = -(gravity * (point.location - Point<dim>())) / g;
+          ends                = { std::max(ends[0], height), std::max(ends[1], -height) };
+        });
+    Utilities::MPI::max(ends, grid.triangulation().get_communicator(), ends);
+    const double height = ends[0] + ends[1] + grid.cell_size();
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid)
+        for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
+          const double ratio = body.density * point.properties[body.layout.volume] / point.properties[body.layout.mass];
+          const double pressure = mean_effective_stress(point.properties + body.layout.stress);
+          suspect(Check::shrinkage, 1. / ratio, ratio, name);
+          if (g > 0.)
+            suspect(Check::pressure, pressure / (body.density * g * height), pressure, name);
+          if (bed != nullptr)
+            if (const double distance = bed->distance_of(point.cell, point.reference_location, point.location);
+                distance < 0.)
+              suspect(Check::depth, -distance / grid.cell_size(), -distance, name);
+        });
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::agree(const double time)
+  {
+    for (Suspect &suspect : now)
+      suspect.time = time;
+    const auto of_ranks = Utilities::MPI::gather(grid.triangulation().get_communicator(), now);
+    for (const Suspects &of_rank : of_ranks) // none but on the rank that writes
+      for (unsigned int c = 0; c < n_checks; ++c)
+        if (of_rank[c].value > worst[c].value)
+          worst[c] = of_rank[c];
+    for (unsigned int c = 0; c < n_checks && !of_ranks.empty(); ++c)
+      if (const Check check = static_cast<Check>(c); !is_told[c] && is_wrong(check, worst[c].value))
+        {
+          is_told[c] = true;
+          folder.log("Check: " + text(check, worst[c]) + ".");
+        }
+  }
+
+
+  template <int dim>
+  bool RunChecks<dim>::is_wrong(const Check check, const double value)
+  {
+    return value > bounds[static_cast<unsigned int>(check)];
+  }
+
+
+  template <int dim>
+  std::string RunChecks<dim>::text(const Check check, const Suspect &suspect)
+  {
+    const std::string when  = "t = " + short_text(suspect.time) + " s: ";
+    const std::string found = short_text(suspect.found), value = short_text(suspect.value);
+    const std::string which = suspect.point + ", " + when;
+    switch (check)
+      {
+      case Check::speed:
+        return which + "it moves at " + found + " m/s, " + value + " times the 99.9 % quantile of the speeds";
+      case Check::depth:
+        return which + "it is " + found + " m below the bed, " + value + " of a cell";
+      case Check::shrinkage:
+        return which + "it is compressed to V/V_0 = " + found;
+      case Check::pressure:
+        return which + "p' = " + found + " Pa, " + value + " times rho g H of all the soil";
+      default:
+        return when + found + " points of soil left the box";
+      }
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::summarise() const
+  {
+    if (!has_looked)
+      return;
+    const auto of    = [&](const Check check) -> const Suspect    &{ return worst[static_cast<unsigned int>(check)]; };
+    std::string line = "Checks      fastest point " + short_text(std::max(1., of(Check::speed).value)) +
+                       " times the 99.9 % quantile of the speeds; smallest V/V_0 " +
+                       short_text(of(Check::shrinkage).value > 0. ? of(Check::shrinkage).found : 1.);
+    if (gravity.norm() > 0.)
+      line += "; largest p' " + short_text(of(Check::pressure).value) + " of rho g H";
+    if (bed != nullptr)
+      line += "; deepest point " + short_text(of(Check::depth).found) + " m below the bed";
+    folder.log(line + "; points of soil lost " + short_text(of(Check::lost).found));
+    for (unsigned int c = 0; c < n_checks; ++c)
+      if (const Check check = static_cast<Check>(c); is_wrong(check, worst[c].value))
+        folder.log("  worst: " + text(check, worst[c]));
+  }
+
+  template class RunChecks<2>;
+  template class RunChecks<3>;
+} // namespace scree

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/pressure/pore_pressure.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Speed at which water and the grains of a cell pass each other, m/s: mean over the grains.
+    template <int dim>
+    double mean_slip(const BackgroundGrid<dim> &grid,
+                     const Mixture<dim> &mixture,
+                     const unsigned int record,
+                     const NodalField<dim> &soil,
+                     const NodalField<dim> &water)
+    {
+      const MixtureCell<dim> &cell = mixture.cells()[record];
+      const unsigned int *nodes    = grid.nodes(cell.cell);
+      const unsigned int n         = grid.n_nodes_1d();
+      double sum                   = 0;
+      for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+        {
+          const double *of_soil  = soil[nodes[i]] + NodalField<dim>::velocity;
+          const double *of_water = water[nodes[i]] + NodalField<dim>::velocity;
+          double square          = 0;
+          for (unsigned int c = 0; c < dim; ++c)
+            square += (of_water[c] - of_soil[c]) * (of_water[c] - of_soil[c]);
+          sum += mixture.grain_volumes(record, i / n)[i % n] * std::sqrt(square);
+        }
+      return sum / cell.grain_volume;
+    }
+
+
+    /// Square of the largest differences between the nodes of a cell, axis by axis, of the mixture's velocity at the
+    /// start of the step, m^2/s^2.
+    template <int dim>
+    double largest_difference(const BackgroundGrid<dim> &grid,
+                              const unsigned int cell,
+                              const NodalField<dim> &soil,
+                              const NodalField<dim> &water,
+                              const PoreField<dim> &pores)
+    {
+      const unsigned int *nodes = grid.nodes(cell);
+      double square             = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const auto at_start = [&](const double *values) {
+            return values[NodalField<dim>::velocity + c] - values[NodalField<dim>::velocity_change + c];
+          };
+          double least = std::numeric_limits<double>::max(), most = -least;
+          for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+            {
+              const unsigned int node = nodes[i];
+              if (soil[node][NodalField<dim>::mass] + water[node][NodalField<dim>::mass] <= 0.)
+                continue;
+              const double grains   = pores[node][PoreField<dim>::grain_fraction];
+              const double velocity = grains * at_start(soil[node]) + (1. - grains) * at_start(water[node]);
+              least                 = std::min(least, velocity);
+              most                  = std::max(most, velocity);
+            }
+          if (most > least)
+            square += (most - least) * (most - least);
+        }
+      return square;
+    }
+  } // namespace
+
+
+  template <int dim>
+  PorePressure<dim>::PorePressure(const BackgroundGrid<dim> &grid,
+                                  const WaterBoundaryConditions<dim> &walls,
+                                  const PressureParameters &parameters,
+                                  const WaterParameters &water,
+                                  const Tensor<1, dim> &gravity,
+                                  const CutCells<dim> *cut_cells,
+                                  TimerOutput &timer)
+      : grid(grid)
+      , splitting(parameters.splitting_kind())
+      , previous_pressure(parameters.previous_pressure_kind())
+      , relative_tolerance(parameters.relative_tolerance)
+      , projection(parameters.projection)
+      , bulk_modulus(water.bulk_modulus)
+      , cavitation_pressure(parameters.cavitation_pressure)
+      , timer(timer)
+      , corners(numbered(grid))
+      , surface(grid, corners, walls, parameters.free_surface_kind(), gravity, cut_cells)
+      , gaps(grid, corners, surface)
+      , divergence(grid, corners, surface, parameters.divergence_kind(), gravity.norm(), cut_cells)
+      , solver(grid, corners, parameters)
+      , memory(corners,
+               previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading,
+               water,
+               grid.cell_size())
+  {
+    reinit_vectors();
+  }
+
+
+  template <int dim>
+  NodeNumbering<dim> PorePressure<dim>::numbered(const BackgroundGrid<dim> &grid)
+  {
+    NodeNumbering<dim> corners(Basis::linear);
+    corners.distribute(grid.fine_cells());
+    return corners;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::reinit()
+  {
+    const std::map<std::uint64_t, double> kept = grid_pressure();
+    corners.distribute(grid.fine_cells());
+    surface.reinit();
+    gaps.reinit();
+    solver.reinit();
+    memory.reinit();
+    reinit_vectors();
+    if (kept.empty())
+      return;
+    for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
+      if (const auto found = kept.find(number_of(corner)); found != kept.end())
+        pressure.local_element(corner) = found->second;
+    has_grid_pressure = true;
+  }
+
+
+  template <int dim>
+  std::uint64_t PorePressure<dim>::number_of(const unsigned int corner) const
+  {
+    return curve_number<dim>(grid.fine_cells().box().place_of_corner(corners.position(corner)));
+  }
+
+
+  template <int dim>
+  std::map<std::uint64_t, double> PorePressure<dim>::grid_pressure() const
+  {
+    std::map<std::uint64_t, double> own, all;
+    if (previous_pressure != PreviousPressure::grid)
+      return all;
+    for (const unsigned int corner : surface.wet_corners())
+      if (has_grid_pressure)
+        own[number_of(corner)] = pressure.local_element(corner);
+    for (const auto &of_rank : Utilities::MPI::all_gather(grid.triangulation().get_communicator(), own))
+      all.insert(of_rank.begin(), of_rank.end());
+    return all;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::reinit_vectors()
+  {
+    for (CornerVector *vector : { &pressure, &kept_pressure, &change, &source })
+      reinit(*vector);
+    has_grid_pressure = false;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::locate(const Mixture<dim> &mixture)
+  {
+    const bool keeps = previous_pressure == PreviousPressure::grid && has_grid_pressure;
+    if (keeps)
+      kept_pressure = pressure;
+    surface.locate(mixture, pressure);
+    if (keeps || previous_pressure == PreviousPressure::dropped)
+      for (const unsigned int corner : surface.wet_corners())
+        if (surface.kind(corner) == PressureDofType::unknown)
+          pressure.local_element(corner) = keeps ? kept_pressure.local_element(corner) : 0.;
+    has_grid_pressure = true;
+    memory.fade(surface, pressure);
+    pressure.update_ghost_values();
+    surface.extrapolate(mixture, pressure);
+  }
+
+
+  template <int dim>
+  typename PorePressure<dim>::AtCorners PorePressure<dim>::at_corners(const CornerVector &values,
+                                                                      const unsigned int cell) const
+  {
+    AtCorners result;
+    for (unsigned int v = 0; v < result.size(); ++v)
+      result[v] = values.local_element(corners.nodes(cell)[v]);
+    return result;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::compute_pressure_coefficients(Mixture<dim> &mixture,
+                                                        const NodalField<dim> &soil,
+                                                        const NodalField<dim> &water,
+                                                        const double time_step) const
+  {
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+      if (MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
+        {
+          const double V_s = cell.effective_saturation * cell.grain_volume, V_w = cell.water_volume;
+          const double a = cell.soil_mass, b = cell.water_mass;
+          double mobility = V_w * V_w / b;
+          if (a > 0.)
+            {
+              const double porosity = 1. - grain_fraction_of(V_s, V_w, cell.effective_saturation * cell.pore_volume);
+              if (cell.inertial > 0)
+                cell.drag += porosity * cell.inertial * mean_slip(grid, mixture, record, soil, water);
+              cell.drag *= cell.drag_share * porosity;
+              const double C = splitting == Splitting::classical ? 0. : cell.drag * time_step;
+              mobility       = cell.is_rigid
+                                   ? V_w * V_w / (b + C) // an endless mass a
+                                   : (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));
+            }
+          cell.mobility = mobility / (cell_volume * std::min(cell.fill, 1.));
+        }
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus)
+  {
+    const double storage = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
+    const double tau     = projection > 0 && shear_modulus > 0 ? projection / (2. * shear_modulus * time_step) : 0.;
+    solver.assemble(
+        mixture,
+        surface,
+        time_step,
+        [&](const unsigned int corner) { return storage * surface.water_volume(corner); },
+        tau);
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::solve(Mixture<dim> &mixture,
+                                const NodalField<dim> &soil,
+                                const NodalField<dim> &water,
+                                const PoreField<dim> &pores,
+                                const double time_step,
+                                const double shear_modulus,
+                                Budget<dim> &balance)
+  {
+    {
+      const TimedPart part(timer, TimerSection::pressure_system);
+      divergence.integrate(mixture, soil, water, pores, source);
+      compute_pressure_coefficients(mixture, soil, water, time_step);
+      assemble(mixture, time_step, shear_modulus);
+    }
+    const TimedPart part(timer, TimerSection::pressure_solve);
+    const SolveReport report = solver.solve(source, pressure, relative_tolerance, change);
+    solver.update_preconditioner_age(report);
+    count(report, balance);
+    const auto [more, n_cavitating] = solver.enforce_cavitation_bound(cavitation_pressure, pressure, change);
+    count(more, balance);
+    balance.n_cavitating += n_cavitating;
+    change.update_ghost_values();
+    surface.extrapolate(mixture, change);
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::accept_change(const Mixture<dim> &mixture,
+                                        const NodalField<dim> &soil,
+                                        const NodalField<dim> &water,
+                                        const PoreField<dim> &pores)
+  {
+    for (const unsigned int corner : surface.wet_corners())
+      if (surface.kind(corner) != PressureDofType::dry)
+        pressure.local_element(corner) += change.local_element(corner);
+    pressure.update_ghost_values();
+    memory.find_forgotten(mixture, surface, pressure, [&](const unsigned int cell) {
+      return largest_difference(grid, cell, soil, water, pores);
+    });
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::solve_potential(const Mixture<dim> &mixture,
+                                          const CornerVector &source,
+                                          CornerVector &potential,
+                                          Budget<dim> &balance)
+  {
+    // It moves a part of a surplus only; what this misses is left to the next steps.
+    const double tolerance_of_potential = std::min(1e-2, 100. * relative_tolerance);
+    count(solver.solve(source, pressure, tolerance_of_potential, potential), balance);
+    potential.update_ghost_values();
+    surface.extrapolate(mixture, potential);
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::count(const SolveReport &report, Budget<dim> &balance) const
+  {
+    if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) != 0)
+      return; // All ranks took part; one tells.
+    balance.n_iterations += report.n_iterations;
+    balance.n_preconditioners += report.made_preconditioner;
+  }
+
+  template class PorePressure<2>;
+  template class PorePressure<3>;
+} // namespace scree

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/pressure/pressure_operator.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  PressureOperator<dim>::PressureOperator(const BackgroundGrid<dim> &grid,
+                                          const NodeNumbering<dim> &corners,
+                                          const PressureNumbering<dim> &numbering)
+      : grid(grid)
+      , corners(corners)
+      , numbering(numbering)
+  {
+    // Hat functions on the unit cell: one-dimensional mass and stiffness, multiplied.
+    for (unsigned int v = 0; v < n_corners; ++v)
+      for (unsigned int w = 0; w < n_corners; ++w)
+        {
+          double sum = 0, mass = 1;
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              double product = 1;
+              for (unsigned int b = 0; b < dim; ++b)
+                {
+                  const bool same = ((v ^ w) >> b & 1) == 0;
+                  product *= b == a ? (same ? 1. : -1.) : (same ? 1. / 3. : 1. / 6.);
+                }
+              sum += product;
+              mass *= ((v ^ w) >> a & 1) == 0 ? 1. / 3. : 1. / 6.;
+            }
+          laplacian[v][w]   = sum;
+          fluctuation[v][w] = mass - 1. / (n_corners * n_corners);
+        }
+  }
+
+
+  template <int dim>
+  void PressureOperator<dim>::reinit()
+  {
+    beside_surface.reinit(numbering.partitioner());
+    whole_diagonal.reinit(numbering.partitioner());
+  }
+
+
+  template <int dim>
+  void PressureOperator<dim>::assemble(const Mixture<dim> &mixture,
+                                       const FreeSurfaceLocator<dim> &surface,
+                                       const double time_step,
+                                       const std::function<double(unsigned int corner)> &storage,
+                                       const double projection)
+  {
+    unknown.assign(numbering.n_local(), false);
+    diagonal.assign(numbering.partitioner()->locally_owned_size(), 0.);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      if (surface.kind(numbering.corner(i)) == PressureDofType::unknown)
+        {
+          unknown[i]  = true;
+          diagonal[i] = storage(numbering.corner(i));
+        }
+
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    const double scale       = time_step * cell_volume / (grid.cell_size() * grid.cell_size());
+    bool is_anchored         = false; // something beside differences of pressure matters
+    double largest_mobility  = 0;
+    beside_surface           = 0.;
+    whole_diagonal           = 0.;
+    wet_cells.clear();
+    for (const MixtureCell<dim> &mixed : mixture.cells())
+      if (mixed.water_volume > 0)
+        {
+          wet_cells.emplace_back();
+          Cell &cell              = wet_cells.back();
+          cell.mobility           = scale * mixed.mobility;
+          largest_mobility        = std::max(largest_mobility, cell.mobility);
+          cell.projection         = projection * mixed.volume * std::min(mixed.fill, 1.);
+          const CellMatrix own    = matrix(cell);
+          const unsigned int *all = corners.nodes(mixed.cell);
+          for (unsigned int v = 0; v < n_corners; ++v)
+            {
+              cell.numbers[v] = numbering.number(all[v]);
+              is_anchored     = is_anchored || surface.kind(all[v]) != PressureDofType::unknown || storage(all[v]) > 0.;
+              if (surface.kind(all[v]) != PressureDofType::unknown)
+                continue;
+              unknown[cell.numbers[v]] = true;
+              whole_diagonal.local_element(cell.numbers[v]) += own[v][v];
+              // A corner beside the surface follows the unknown one; this keeps the matrix symmetric.
+              for (unsigned int w = 0; w < n_corners; ++w)
+                if (surface.kind(all[w]) == PressureDofType::surface)
+                  beside_surface.local_element(cell.numbers[v]) += own[v][w] * surface.ratio(all[w], all[v]);
+            }
+        }
+    beside_surface.compress(VectorOperation::add);
+    whole_diagonal.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      {
+        diagonal[i] += beside_surface.local_element(i);
+        whole_diagonal.local_element(i) += diagonal[i];
+      }
+    const std::vector<double> own{ largest_mobility, double(is_anchored) };
+    std::vector<double> all_ranks(2);
+    Utilities::MPI::max(own, grid.triangulation().get_communicator(), all_ranks);
+    AssertThrow(all_ranks[0] == 0. || all_ranks[1] == 1.,
+                ExcMessage("Water fills the box, and all its walls are closed: nothing sets the level of its pressure. "
+                           "Remedies: a drained wall in subsection Boundaries/Water, a 'Bulk modulus' in subsection "
+                           "Water, or a box that is higher than the water."));
+  }
+
+
+  template <int dim>
+  void PressureOperator<dim>::vmult(CornerVector &target, const CornerVector &source) const
+  {
+    target = 0.;
+    source.update_ghost_values();
+    for (const Cell &cell : wet_cells)
+      {
+        std::array<double, n_corners> values;
+        for (unsigned int v = 0; v < n_corners; ++v)
+          values[v] = unknown[cell.numbers[v]] ? source.local_element(cell.numbers[v]) : 0.;
+        for (unsigned int v = 0; v < n_corners; ++v)
+          if (unknown[cell.numbers[v]])
+            {
+              double flux = 0, projected = 0;
+              for (unsigned int w = 0; w < n_corners; ++w)
+                flux += laplacian[v][w] * values[w];
+              if (cell.projection > 0)
+                for (unsigned int w = 0; w < n_corners; ++w)
+                  projected += fluctuation[v][w] * values[w];
+              target.local_element(cell.numbers[v]) += cell.mobility * flux + cell.projection * projected;
+            }
+      }
+    target.compress(VectorOperation::add);
+    source.zero_out_ghost_values();
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      target.local_element(i) += diagonal[i] * source.local_element(i);
+  }
+
+
+  template <int dim>
+  void PressureOperator<dim>::hold(const std::vector<char> &is_held)
+  {
+    all_unknown = unknown;
+    CornerVector marks(numbering.partitioner());
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      marks.local_element(i) = is_held[i];
+    marks.update_ghost_values();
+    for (unsigned int i = 0; i < unknown.size(); ++i)
+      unknown[i] = unknown[i] && marks.local_element(i) == 0.;
+  }
+
+
+  template <int dim>
+  void PressureOperator<dim>::release()
+  {
+    unknown = all_unknown;
+  }
+
+  template class PressureOperator<2>;
+  template class PressureOperator<3>;
+} // namespace scree

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/run/results.h>
+
+#include <iostream>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  Results<dim>::Results(const Parameters &parameters, const Scene<dim> &scene, Scheme<dim> &scheme, RunFolder &folder)
+      : parameters(parameters)
+      , scene(scene)
+      , scheme(scheme)
+      , folder(folder)
+      , graphics(scene.grid, parameters.output, parameters.output_directory)
+      , statistics(scene.grid,
+                   scene.forcing.gravity(),
+                   { !scene.loads.empty(),
+                     parameters.water.volume_correction_rate > 0.,
+                     parameters.water.viscosity > 0.,
+                     !parameters.inflows.empty(),
+                     parameters.contact_groups().n > 1,
+                     scene.bed.get(),
+                     &scene.obstacles })
+      , rows(folder.file("statistics"))
+      , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
+      , maps(parameters.output.maps,
+             { parameters.bed.map_origin, scene.ground ? scene.ground->map_system() : "" },
+             scene.grid,
+             folder)
+      , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
+  {
+  }
+
+
+  template <int dim>
+  void Results<dim>::report(const RunState<dim> &state, const OutputTimes &output_times)
+  {
+    const double time          = state.time;
+    const bool at_start_or_end = state.step == 0 || output_times.is_end(time);
+    const bool row_is_due      = at_start_or_end || output_times.row_is_due(time);
+    const bool picture_is_due  = at_start_or_end || output_times.picture_is_due(time);
+
+    if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
+      folder.require_presence();
+    if (row_is_due)
+      checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end);
+    if (row_is_due)
+      write_row(state);
+    else if (picture_is_due)
+      maps.sample(scene.bodies, time);
+    if (picture_is_due)
+      write_picture(state);
+  }
+
+
+  template <int dim>
+  void Results<dim>::write_row(const RunState<dim> &state)
+  {
+    statistics.collect(
+        scene.bodies, scene.water, state.totals, state.time, state.step, state.time_step, state.last_update);
+    folder.try_to_write("statistics",
+                        [&] { rows.append((rows.is_empty() ? statistics.head() : "") + statistics.row()); });
+    probes.write_rows(probed_state(state, scheme.water_view().get()));
+    maps.sample(scene.bodies, state.time);
+    statistics.require_numbers(state.time);
+  }
+
+
+  template <int dim>
+  void Results<dim>::write_picture(const RunState<dim> &state)
+  {
+    const std::unique_ptr<WaterView<dim>> view = scheme.water_view();
+    graphics.write(scene.bodies, scheme.soil_field(), state.time, view.get());
+    probes.write_lines(probed_state(state, view.get()));
+    maps.write(state.time);
+  }
+
+
+  template <int dim>
+  ProbedState<dim> Results<dim>::probed_state(const RunState<dim> &state, const WaterView<dim> *view) const
+  {
+    return { scene.bodies, scene.water, state.totals.balance, state.time, view };
+  }
+
+
+  template <int dim>
+  void Results<dim>::sync()
+  {
+    folder.try_to_write("statistics", [&] { rows.sync(); });
+    probes.sync();
+  }
+
+
+  template <int dim>
+  void Results<dim>::cut()
+  {
+    graphics.cut();
+    probes.cut();
+    if (folder.is_writer())
+      if (const std::string missing = rows.cut(); !missing.empty())
+        folder.log(missing);
+  }
+
+
+  template <int dim>
+  void Results<dim>::complete()
+  {
+    checks.summarise();
+    folder.log(
+        "Results are in " + parameters.output_directory +
+        (parameters.output.graphics_kind() == Pictures::none ? "." : " (open solution/points.pvd in ParaView)."));
+    if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
+      statistics.print_last_row(std::cout);
+    folder.require_presence();
+    if (folder.is_writer() && !rows.is_complete())
+      rows.append(""); // throws if the disk still refuses them
+    probes.complete();
+  }
+
+  template class Results<2>;
+  template class Results<3>;
+} // namespace scree

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/case/case_changes.h>
+#include <scree/run/case_record.h>
+#include <scree/input/input_error.h>
+#include <scree/run/log_of_masses.h>
+#include <scree/run/lost_points.h>
+#include <scree/io/checkpoint.h>
+#include <scree/io/log_header.h>
+#include <scree/run/settling.h>
+#include <scree/run/simulation.h>
+#include <scree/transfer/point_fault.h>
+#include <scree/case/unusual_units.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  Simulation<dim>::Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
+      : parameters(parameters)
+      , start(start)
+      , communicator(communicator)
+      , folder(parameters.output_directory, parameters.output.screen_kind() == Screen::progress, communicator)
+      , stop(folder.is_writer() ? folder.file("terminate") : "", parameters.output.wall_time_limit)
+      , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+      , scene(parameters, communicator)
+      , scheme(scene.make_scheme(timer))
+      , partition(scene.grid.triangulation(), scheme->point_sets())
+      , adaptation(scene, *scheme, timer, communicator)
+      , clock(parameters.time_step)
+      , control(scene, clock, stop, timer, communicator)
+      , output_times(parameters.output, parameters.end_time)
+      , results(parameters, scene, *scheme, folder)
+      , totals(scene.obstacles.size())
+  {
+    if (start == Start::resume)
+      resume();
+    else
+      initialise();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::initialise()
+  {
+    scene.fill();
+    repartition();
+    control.measure_speeds();
+    scene.require_steps(stable_step(), control.speeds_of_points());
+    folder.remove_old_results(); // not before the input has proved good
+    record_case(parameters, folder, communicator);
+    log_case(parameters, scene, folder, communicator);
+    log_released(parameters, scene, folder, communicator);
+    for (const std::string &question : unusual_units(parameters))
+      folder.log(question);
+    if (parameters.settling.maximum_time > 0)
+      settle();
+    if (!is_released)
+      return;
+    scene.mark_start();
+    scheme->read_points();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::resume()
+  {
+    const Checkpoint checkpoint = find_checkpoint(
+        parameters.output_directory, [this](const std::string &line) { folder.log(line); }, communicator);
+    const std::vector<std::string> notes = notes_on_changes(checkpoint, parameters.entries());
+    load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
+    require_entry(!(parameters.end_time < clock.time()),
+                  "",
+                  "End time",
+                  parameters.end_time,
+                  "the checkpoint " + checkpoint.folder + " is at " + number_text(clock.time()) +
+                      " s already. Write a later time.");
+    if (!folder.is_writer())
+      totals = RunTotals<dim>(scene.obstacles.size()); // The writer holds the sums.
+    reinit();
+    adaptation.look_at_points();
+    output_times.begin(clock.time());
+    record_case(parameters, folder, communicator);
+    log_case(parameters, scene, folder, communicator);
+    results.cut();
+    folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", from " +
+               checkpoint.folder + " of " + checkpoint.manifest.program + '.');
+    for (const std::string &note : notes)
+      folder.log(note);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::reinit()
+  {
+    scene.reinit();
+    scheme->reinit();
+    scheme->read_points();
+  }
+
+
+  template <int dim>
+  End Simulation<dim>::run()
+  {
+    timer.reset(); // Only the steps' time is to be told.
+    stop.listen();
+    Progress progress(folder, clock.time(), parameters.end_time);
+    if (start == Start::fresh && is_released) // A resumed run has reported its first state, also that at t = 0.
+      report();
+    const double updates_before = point_updates;
+    const double first_step     = stable_step();
+    while (!is_at_end() && control.stop_reason() == StopReason::none)
+      {
+        const double largest_step = stable_step();
+        control.require_stable_step(largest_step, first_step);
+        progress.count(control.limit(), control.part_left());
+        step(largest_step, output_times.next(largest_step));
+        report();
+        progress.report(clock.time(), clock.step(), last_time_step);
+      }
+    const End end = is_at_end() ? End::complete : End::stopped;
+    if (end == End::stopped)
+      write_last();
+    summarise(progress, updates_before);
+    return end;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::write_last()
+  {
+    folder.require_presence();
+    if (!is_released)
+      {
+        write_row();
+        folder.log(
+            "Stopped while settling, by " + text_of(control.stop_reason()) +
+            ". There is no checkpoint, as nothing can go on from a state before the release: run the case again. "
+            "The row at t = 0 is of the soil on its way to rest.");
+        return;
+      }
+    if (step_of_checkpoint != clock.step())
+      write_checkpoint();
+    require_entry(
+        step_of_checkpoint == clock.step(),
+        "Output",
+        "Checkpoint failure",
+        parameters.output.checkpoint_failure,
+        "the run was stopped by " + text_of(control.stop_reason()) +
+            ", and its last checkpoint could not be written. The log tells why; make room, and use --resume if "
+            "there is an older one.");
+    // After the checkpoint, so that a resumed run drops it, unless it was due.
+    if (results.step_of_last_row() != clock.step())
+      write_row();
+    folder.log("Stopped at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", by " +
+               text_of(control.stop_reason()) + ". A checkpoint is written: --resume goes on from here.");
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::summarise(Progress &progress, const double point_updates_before)
+  {
+    progress.summarise(clock.time(),
+                       timer,
+                       Utilities::MPI::sum(point_updates - point_updates_before, communicator),
+                       scene.name_of_a_point(),
+                       communicator);
+    progress.summarise_ranks(
+        seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
+    adaptation.summarise(folder);
+    log_balance(scene, totals, folder, communicator);
+    log_peak_memory(folder, communicator);
+    results.complete();
+  }
+
+
+  template <int dim>
+  double Simulation<dim>::step(const double largest_step, const double due)
+  {
+    last_time_step = clock.next_step(largest_step, due);
+    advance(last_time_step);
+    clock.advance(last_time_step, due);
+    return last_time_step;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::advance(const double time_step)
+  {
+    adaptation.follow_points(time_step, [this] { reinit(); });
+    repartition();
+    for ([[maybe_unused]] const PointSet<dim> *points : point_sets())
+      Assert(points->is_in_inner_cells(), ExcMessage("A point lies beside cells without nodes."));
+    partition.begin_step();
+    StepReport<dim> step;
+    if (is_released)
+      scene.begin_step(clock.time(), time_step);
+    else
+      scene.forcing.set_start();
+    scheme->to_grid(clock.time());
+    partition.finish(Work::to_nodes);
+    wait();
+    scheme->solve(time_step, step);
+    partition.finish(Work::to_nodes);
+    if (is_released)
+      scene.move_obstacles(time_step); // Points in water are put back to where the ground is then.
+    try
+      {
+        scheme->to_points(time_step, step);
+      }
+    catch (const PointFault &fault)
+      {
+        AssertThrow(false, ExcMessage(fault.text(number_text(clock.time()))));
+      }
+    place_points(time_step, step.speeds);
+
+    totals.balance += step.balance;
+    totals.add(step.material);
+    last_update = step.material;
+    point_updates += step.n_updates;
+    account_for_lost_points(scene, totals, clock.time());
+    if (is_released)
+      end_step(time_step);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::end_step(const double time_step)
+  {
+    const std::unique_ptr<WaterView<dim>> water = scene.inflows.empty() ? nullptr : scheme->water_view();
+    scene.let_in(time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
+    if (scene.wet_ground_moves())
+      {
+        const TimedPart part(timer, TimerSection::bed);
+        scene.cut_cells->follow();
+        scheme->follow_ground();
+      }
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::wait()
+  {
+    const TimedPart part(timer, TimerSection::waiting);
+    partition.wait();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
+  {
+    const auto sets = point_sets();
+    std::vector<double> largest{ of_rank.wave, of_rank.points, 0. }; // and the disorder of each set
+    {
+      const TimedPart part(timer, TimerSection::sort);
+      for (PointSet<dim> *points : sets)
+        {
+          largest.push_back(static_cast<int>(points->update_places()));
+          largest[2] = std::max(largest[2], double(points->is_at_edge()));
+        }
+    }
+    partition.finish(Work::to_points);
+    control.agree_on(largest);
+    partition.resume();
+    control.require_stable_speed(time_step);
+    const TimedPart part(timer, TimerSection::sort);
+    if (largest[2] > 0.)
+      adaptation.set_points_at_edge();
+    bool is_sorted = false;
+    for (unsigned int s = 0; s < sets.size(); ++s)
+      {
+        const auto disorder = static_cast<Disorder>(static_cast<int>(largest[3 + s]));
+        sets[s]->hand_over(disorder);
+        is_sorted = is_sorted || disorder == Disorder::far;
+      }
+    if (is_sorted && scene.grid.follows_points())
+      adaptation.look_at_points();
+    partition.finish(Work::to_nodes);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::settle()
+  {
+    stop.listen();
+    is_released = false;
+    is_released = scree::settle(
+        parameters, scene, control, folder, [this](const double time_step) { advance(time_step); }, communicator);
+    // Balances begin at the release; what was lost stays lost.
+    const RunTotals<dim> settled = totals;
+    totals                       = RunTotals<dim>(scene.obstacles.size());
+    totals.n_lost                = settled.n_lost;
+    totals.lost_mass             = settled.lost_mass;
+    totals.lost_volume           = settled.lost_volume;
+    totals.lost_water_mass       = settled.lost_water_mass;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::repartition()
+  {
+    if (!partition.is_worth_changing())
+      return;
+    const TimedPart part(timer, TimerSection::repartition);
+    partition.repartition([this] { reinit(); });
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::report()
+  {
+    const TimedPart part(timer, TimerSection::output);
+    results.report(state(), output_times);
+    if (output_times.checkpoint_is_due(clock.time()))
+      write_checkpoint();
+    output_times.begin(clock.time());
+  }
+
+
+  template <int dim>
+  template <class Archive>
+  void Simulation<dim>::serialize_state(Archive &archive)
+  {
+    double time             = clock.time();
+    unsigned long long step = clock.step();
+    archive &time &step;
+    control.serialize(archive);
+    archive &last_time_step &totals;
+    results.serialize(archive);
+    for (Obstacle<dim> &obstacle : scene.obstacles)
+      archive &obstacle;
+    for (Inflow<dim> &inflow : scene.inflows)
+      archive &inflow;
+    for (PointSet<dim> *points : point_sets())
+      archive & points->next_id;
+    clock.set(time, step);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::write_checkpoint()
+  {
+    const RunTotals<dim> own = totals;
+    totals                   = totals.sum_over_ranks(communicator);
+    results.sync();
+    std::string fault;
+    try
+      {
+        save_checkpoint(parameters.output_directory,
+                        clock.time(),
+                        clock.step(),
+                        parameters.entries(),
+                        scene.grid,
+                        point_sets(),
+                        [&](auto &archive) { serialize_state(archive); });
+      }
+    catch (const EntryError &error)
+      {
+        fault = error.what();
+      }
+    totals = own;
+    if (!fault.empty() && parameters.output.stops_without_checkpoint())
+      throw EntryError(fault);
+    if (fault.empty())
+      step_of_checkpoint = clock.step();
+    else
+      folder.log("No checkpoint at t = " + number_text(clock.time()) + " s: " + fault);
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace scree

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/step/timer_section.h>
+#include <scree/run/step_control.h>
+#include <scree/tensor/vector.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string remedy_for_instability =
+        "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in subsection Stabilisation.";
+
+    /// What and where the fastest point of this rank is, its speed beside, m/s; "" and 0 without points.
+    template <int dim>
+    std::pair<double, std::string> fastest_point(const Scene<dim> &scene)
+    {
+      std::pair<double, std::string> fastest{ 0., "" };
+      Point<dim> place;
+      const auto look = [&](const std::string &name, const PointSet<dim> &points, const unsigned int velocity) {
+        for_each_point(points, [&](const auto &point) {
+          const double speed = vector_of<dim>(point.properties + velocity).norm();
+          if (std::isfinite(speed) && speed <= fastest.first)
+            return;
+          place   = point.location;
+          fastest = { std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity(),
+                      "a point of " + name + " at (" + number_text(place) + ") m" };
+        });
+      };
+      for (const auto &body : scene.bodies)
+        look(body.name, body.points, PropertyLayout<dim>::velocity);
+      for (const auto &part : scene.water)
+        if (part.carrier() == nullptr)
+          look("the water", part.points(), part.layout.velocity);
+      if (fastest.second.empty())
+        return fastest;
+      const unsigned int face = nearest_face(scene.grid, place);
+      const double to_wall    = face % 2 == 0 ? place[face / 2] - scene.grid.lower_corner()[face / 2]
+                                              : scene.grid.upper_corner()[face / 2] - place[face / 2];
+      if (to_wall < 2. * scene.grid.cell_size())
+        {
+          const auto of_soil = scene.walls.face_crossed(place);
+          fastest.second += " beside the wall '" + of_soil.first + "'";
+          if (scene.water_walls && of_soil.second != scene.water_walls->face_crossed(place).second)
+            fastest.second += of_soil.second ? ", which is open to soil and closed to water: open it to both"
+                                             : ", which is closed to soil and open to water: close it to both";
+        }
+      return fastest;
+    }
+  } // namespace
+
+
+  template <int dim>
+  StepControl<dim>::StepControl(const Scene<dim> &scene,
+                                const TimeStepper &clock,
+                                StopRequests &stop,
+                                TimerOutput &timer,
+                                const MPI_Comm communicator)
+      : scene(scene)
+      , clock(clock)
+      , stop(stop)
+      , timer(timer)
+      , communicator(communicator)
+  {
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::measure_speeds()
+  {
+    const Speeds of_rank = scene.speeds();
+    std::vector<double> largest{ of_rank.wave, of_rank.points };
+    agree_on(largest);
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::agree_on(std::vector<double> &largest)
+  {
+    const TimedPart part(timer, TimerSection::waiting);
+    for (double &value : largest)
+      if (std::isnan(value))
+        value = std::numeric_limits<double>::infinity();
+    largest.push_back(static_cast<double>(stop.reason()));
+    Utilities::MPI::max(largest, communicator, largest);
+    speeds = { largest[0], largest[1] };
+    scene.include_inflows(speeds);
+    reason = static_cast<StopReason>(largest.back());
+    largest.pop_back();
+  }
+
+
+  template <int dim>
+  Speeds StepControl<dim>::limiting_speeds() const
+  {
+    Speeds all = speeds;
+    scene.include_obstacles(all, clock.time());
+    return all;
+  }
+
+
+  template <int dim>
+  double StepControl<dim>::stable_step() const
+  {
+    const Speeds all = limiting_speeds();
+    return clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
+  }
+
+
+  template <int dim>
+  StepLimit StepControl<dim>::limit() const
+  {
+    return clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points);
+  }
+
+
+  template <int dim>
+  double StepControl<dim>::part_left() const
+  {
+    return clock.part_left(scene.grid.cell_size(), speeds.wave, speeds.points);
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::require_stable_step(const double largest_step, const double first_step) const
+  {
+    // A run that gains energy would creep on with ever smaller steps.
+    AssertThrow(largest_step > 1e-3 * first_step,
+                ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
+                           " s the stable step has fallen to " + Utilities::to_string(largest_step) + " s, from " +
+                           Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
+  }
+
+
+  template <int dim>
+  void StepControl<dim>::require_stable_speed(const double time_step) const
+  {
+    if (std::isfinite(speeds.points) && speeds.points * time_step < 2 * scene.grid.cell_size())
+      return;
+    const auto of_ranks = Utilities::MPI::all_gather(communicator, fastest_point(scene));
+    const auto fastest  = *std::max_element(of_ranks.begin(), of_ranks.end());
+    AssertThrow(false,
+                ExcMessage("The motion is unstable at t = " + number_text(clock.time()) + " s: " +
+                           number_text(speeds.points) + " m/s, " + fastest.second + ". " + remedy_for_instability));
+  }
+
+  template class StepControl<2>;
+  template class StepControl<3>;
+} // namespace scree

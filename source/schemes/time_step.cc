@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/schemes/time_step.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  void TimeStepParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Time step");
+    prm.add_parameter("Courant number",
+                      courant_number,
+                      "Step times (wave speed + velocity) over cell size. 1.2 contaminates the stress, 0.6 is safe.",
+                      Patterns::Double(1e-6, 2));
+    prm.add_parameter("Advection number",
+                      advection_number,
+                      "Largest distance a point moves in a step over cell size.",
+                      Patterns::Double(1e-6, 1));
+    prm.add_parameter(
+        "Maximum time step",
+        maximum,
+        "Upper bound of the step, s. auto: dry scenes sqrt(0.2 h/g), in which soil falls from rest through "
+        "a tenth of a cell, without gravity none; with water 0.01 s.",
+        Patterns::Anything());
+    prm.leave_subsection();
+  }
+
+
+  void TimeStepParameters::check() const
+  {
+    if (maximum == "auto")
+      return;
+    const double number = number_of(maximum);
+    require_entry(number >= 1e-12 && std::isfinite(number),
+                  "Time step",
+                  "Maximum time step",
+                  maximum,
+                  "write auto, or a number from 1e-12 on, in s.");
+  }
+
+
+  void TimeStepParameters::choose_maximum(const bool has_water, const double gravity, const double cell_size)
+  {
+    constexpr double part_of_cell = 0.1;
+    if (maximum != "auto")
+      maximum_time_step = number_of(maximum);
+    else if (!has_water)
+      maximum_time_step =
+          gravity > 0. ? std::sqrt(2. * part_of_cell * cell_size / gravity) : std::numeric_limits<double>::infinity();
+  }
+
+
+  TimeStepper::TimeStepper(const TimeStepParameters &parameters)
+      : parameters(parameters)
+  {
+  }
+
+
+  std::array<double, 3> TimeStepper::bounds(const double cell_size, const double wave_speed, const double speed) const
+  {
+    const auto over = [](const double length, const double velocity) {
+      return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
+    };
+    return { { parameters.maximum_time_step,
+               over(parameters.courant_number * cell_size, wave_speed + speed),
+               over(parameters.advection_number * cell_size, speed) } };
+  }
+
+
+  double TimeStepper::stable_step(const double cell_size, const double wave_speed, const double speed) const
+  {
+    const auto all = bounds(cell_size, wave_speed, speed);
+    return *std::min_element(all.begin(), all.end());
+  }
+
+
+  StepLimit TimeStepper::limit(const double cell_size, const double wave_speed, const double speed) const
+  {
+    const auto all = bounds(cell_size, wave_speed, speed);
+    return static_cast<StepLimit>(std::min_element(all.begin(), all.end()) - all.begin());
+  }
+
+
+  double TimeStepper::part_left(const double cell_size, const double wave_speed, const double speed) const
+  {
+    const auto all = bounds(cell_size, wave_speed, speed);
+    return std::min(1., all[0] / std::min(all[1], all[2]));
+  }
+
+
+  double TimeStepper::next_step(const double stable_step, const double due) const
+  {
+    const double remaining = due - current_time;
+    return remaining / std::max(1., std::ceil(remaining / stable_step * (1. - 1e-12)));
+  }
+
+
+  void TimeStepper::advance(const double time_step, const double due)
+  {
+    AssertThrow(current_time + time_step > current_time,
+                ExcMessage("The time stands still: at t = " + Utilities::to_string(current_time) + " s the step is " +
+                           Utilities::to_string(time_step) +
+                           " s. Remedies: a shorter 'End time', smaller moduli or a smaller 'Viscosity'."));
+    const bool arrives = current_time + 1.5 * time_step > due;
+    current_time       = arrives ? due : current_time + time_step;
+    ++n_steps;
+  }
+} // namespace scree

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/expression.h>
+#include <scree/input/input_error.h>
+#include <scree/seeding/slivers.h>
+#include <scree/seeding/water_seeding.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  using namespace dealii;
+
+  std::vector<WaterPart> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil)
+  {
+    const bool as_soil = parameters.is_where_soil_is();
+    std::vector<WaterPart> parts;
+    std::string outside = "(" + parameters.region + ")";
+    for (const SoilRegion &body : soil)
+      {
+        parts.push_back(
+            { as_soil ? body.region : "(" + parameters.region + ") && (" + body.region + ")", body.porosity, &body });
+        outside += " && (" + body.region + ") == 0";
+      }
+    if (!as_soil)
+      parts.push_back({ outside, 1., nullptr });
+    return parts;
+  }
+
+
+  void require_pores(const SoilRegion &soil)
+  {
+    require_entry(soil.porosity > 0,
+                  soil.name,
+                  "Initial porosity",
+                  soil.porosity,
+                  "the body lies in the water and needs pores. Write a number above 0, or move the region of "
+                  "subsection Water.");
+  }
+
+
+  namespace
+  {
+    template <int dim>
+    void seed_own_points(WaterPhase<dim> &water,
+                         const WaterParameters &parameters,
+                         const std::vector<SoilRegion> &soil,
+                         const Triangulation<dim> &triangulation,
+                         const double cell_size,
+                         const LevelSet<dim> *ground)
+    {
+      const auto parts = water_parts(parameters, soil);
+      std::vector<Region<dim>> regions;
+      for (const WaterPart &part : parts)
+        regions.emplace_back(entry_name("Water", "Region"), part.region);
+      const auto velocity =
+          parameters.initial_velocity.empty()
+              ? nullptr
+              : parse_expression<dim>(entry_name("Water", "Initial velocity"), parameters.initial_velocity, dim);
+
+      std::vector<double> filled(parts.size(), 0.); // of each part, m^3
+      const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
+        CubePart<dim> sum{ 0., 0., lower };
+        Tensor<1, dim> moment; // of the water about the lower corner, m^4
+        for (unsigned int i = 0; i < parts.size(); ++i)
+          {
+            const auto [volume, centroid] = regions[i].part_of_cube(lower, width, ground);
+            filled[i] += volume;
+            sum.filled += volume;
+            sum.stays |= volume > 0 && parts[i].soil == nullptr;
+            sum.volume += parts[i].porosity * volume;
+            moment += parts[i].porosity * volume * (centroid - lower);
+          }
+        if (sum.volume > 0)
+          sum.location = lower + moment / sum.volume;
+        return sum;
+      };
+      const MPI_Comm communicator = triangulation.get_communicator();
+      std::vector<Seed<dim>> seeds;
+      on_all_ranks(communicator, [&] {
+        seeds = lattice_seeds<dim>(
+            triangulation, cell_size, { parameters.points_per_cell, parameters.jitter, 1 }, part_of_cube);
+        require_velocities(velocity.get(), seeds);
+      });
+      keep_slivers_at(ground, seeds);
+      join_slivers(triangulation, ground, seeds);
+
+      Utilities::MPI::sum(filled, communicator, filled);
+      require_entry(parameters.is_fed ||
+                        std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
+                    "Water",
+                    "Region",
+                    parameters.region,
+                    ground ? "it is nowhere true in the box of subsection Mesh and above the ground of subsection Bed. "
+                             "Move the region, the box or the bed."
+                           : "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
+      for (unsigned int i = 0; i < parts.size(); ++i)
+        if (parts[i].soil && filled[i] > 0)
+          require_pores(*parts[i].soil);
+
+      const auto &layout = water.layout;
+      insert_points<dim>(
+          water.points(), seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
+            if (velocity)
+              for (unsigned int a = 0; a < dim; ++a)
+                properties[layout.velocity + a] = velocity->value(one.location, a);
+            properties[layout.mass]   = water.density * one.volume;
+            properties[layout.volume] = one.volume;
+          });
+    }
+
+
+    template <int dim>
+    void fill_pores(WaterPhase<dim> &water)
+    {
+      const SoilBody<dim> &soil = *water.carrier();
+      for_each_point(water.points(), [&](const auto &point) {
+        double *properties              = point.properties;
+        const double volume             = soil.pore_volume(properties);
+        properties[water.layout.volume] = volume;
+        properties[water.layout.mass]   = water.density * volume;
+        std::copy_n(properties + soil.layout.velocity, dim, properties + water.layout.velocity);
+      });
+    }
+  } // namespace
+
+
+  template <int dim>
+  void seed_water(WaterPhase<dim> &water,
+                  const WaterParameters &parameters,
+                  const std::vector<SoilRegion> &soil,
+                  const Triangulation<dim> &triangulation,
+                  const double cell_size,
+                  const LevelSet<dim> *ground)
+  {
+    if (water.carrier() != nullptr)
+      fill_pores(water);
+    else
+      seed_own_points(water, parameters, soil, triangulation, cell_size, ground);
+  }
+
+  template void seed_water(WaterPhase<2> &,
+                           const WaterParameters &,
+                           const std::vector<SoilRegion> &,
+                           const Triangulation<2> &,
+                           const double,
+                           const LevelSet<2> *);
+  template void seed_water(WaterPhase<3> &,
+                           const WaterParameters &,
+                           const std::vector<SoilRegion> &,
+                           const Triangulation<3> &,
+                           const double,
+                           const LevelSet<3> *);
+} // namespace scree

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/viscosity/viscous_step.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    Tensor<1, dim> part(const NodalField<dim> &field, const unsigned int node, const unsigned int first)
+    {
+      return Tensor<1, dim>(make_array_view(field[node] + first, field[node] + first + dim));
+    }
+
+    template <int dim>
+    SoilAndWater<dim> velocities(const MixtureNodes<dim> &nodes, const unsigned int node)
+    {
+      return { part(nodes.soil, node, NodalField<dim>::velocity), part(nodes.water, node, NodalField<dim>::velocity) };
+    }
+
+    template <int dim>
+    void add(SoilAndWater<dim> &to, const double factor, const SoilAndWater<dim> &other)
+    {
+      to.soil += factor * other.soil;
+      to.water += factor * other.water;
+    }
+  } // namespace
+
+
+  template <int dim>
+  ViscousStep<dim>::ViscousStep(const BackgroundGrid<dim> &grid,
+                                const WaterParameters &parameters,
+                                const std::list<SoilBody<dim>> &bodies,
+                                const std::list<WaterPhase<dim>> &water)
+      : grid(grid)
+      , bodies(bodies)
+      , water(water)
+      , water_viscosity(parameters.viscosity)
+      , force(grid, parameters)
+      , soil_motion(grid)
+      , water_motion(grid)
+      , soil_impulses(grid)
+      , water_impulses(grid)
+  {
+  }
+
+
+  template <int dim>
+  void ViscousStep<dim>::reinit()
+  {
+    for (NodalField<dim> *field : { &soil_motion, &water_motion, &soil_impulses, &water_impulses })
+      field->reinit();
+  }
+
+
+  template <int dim>
+  void ViscousStep<dim>::find_points()
+  {
+    viscous.clear();
+    for (const auto &part : water)
+      viscous.push_back({ part.points(), part.layout.mass, force.coefficients(part), false });
+    for (const auto &body : bodies)
+      viscous.push_back({ body.points, body.layout.mass, force.coefficients(body), true });
+  }
+
+
+  template <int dim>
+  double ViscousStep<dim>::largest_rate() const
+  {
+    double largest = 0;
+    for (const Viscous &one : viscous)
+      largest = std::max(largest, force.largest_rate(one.points, one.coefficients, one.mass_slot));
+    return Utilities::MPI::max(largest, grid.triangulation().get_communicator());
+  }
+
+
+  template <int dim>
+  void ViscousStep<dim>::find_impulses(const NodalField<dim> &soil_velocity,
+                                       const NodalField<dim> &water_velocity,
+                                       const CutCellContact<dim> *bed,
+                                       const double ground_share,
+                                       const double time_step)
+  {
+    soil_impulses.clear();
+    water_impulses.clear();
+    for (const Viscous &one : viscous)
+      force.add(one.points,
+                one.coefficients,
+                one.is_soil ? soil_velocity : water_velocity,
+                one.is_soil ? soil_impulses : water_impulses);
+    if (bed)
+      bed->add_viscous_force(water_velocity, ground_share, water_viscosity, water_impulses);
+    for (NodalField<dim> *field : { &soil_impulses, &water_impulses })
+      {
+        field->add_contributions();
+        for (const unsigned int node : active)
+          for (unsigned int c = 0; c < dim; ++c)
+            (*field)[node][NodalField<dim>::force + c] *= time_step;
+      }
+  }
+
+
+  template <int dim>
+  void ViscousStep<dim>::set_motion(const Vector &velocity)
+  {
+    for (unsigned int i = 0; i < active.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          soil_motion[active[i]][NodalField<dim>::velocity + c]  = velocity[i].soil[c];
+          water_motion[active[i]][NodalField<dim>::velocity + c] = velocity[i].water[c];
+        }
+    soil_motion.update_ghosts();
+    water_motion.update_ghosts();
+  }
+
+
+  template <int dim>
+  SoilAndWater<dim> ViscousStep<dim>::impulses_at(const unsigned int node) const
+  {
+    return { part(soil_impulses, node, NodalField<dim>::force), part(water_impulses, node, NodalField<dim>::force) };
+  }
+
+
+  template <int dim>
+  double ViscousStep<dim>::product(const Vector &a, const Vector &b) const
+  {
+    double sum = 0;
+    for (unsigned int i = 0; i < a.size(); ++i)
+      sum += a[i].soil * b[i].soil + a[i].water * b[i].water;
+    return Utilities::MPI::sum(sum, grid.triangulation().get_communicator());
+  }
+
+
+  template <int dim>
+  unsigned int ViscousStep<dim>::solve(Vector &velocity, const CutCellContact<dim> *bed, const double time_step)
+  {
+    constexpr double tolerance             = 1e-9; // of the residual, in the norm of its kinetic energy
+    constexpr unsigned int most_iterations = 5000;
+
+    Vector residual(active.size()), scaled(active.size());
+    for (unsigned int i = 0; i < active.size(); ++i)
+      {
+        residual[i] = impulses_at(active[i]);
+        scaled[i]   = pairs[i].solve(residual[i]);
+      }
+    Vector direction       = scaled;
+    double energy          = product(residual, scaled);
+    const double target    = tolerance * tolerance * energy;
+    unsigned int iteration = 0;
+    for (; energy > target; ++iteration)
+      {
+        AssertThrow(iteration < most_iterations,
+                    ExcMessage("The viscous stress of a step was not found in 5000 iterations. Remedies: a smaller "
+                               "'Viscosity' in subsection Water, or a smaller 'Maximum time step'."));
+        set_motion(direction);
+        find_impulses(soil_motion, water_motion, bed, 0., time_step);
+        Vector image(active.size()); // (A + dt K) direction
+        for (unsigned int i = 0; i < active.size(); ++i)
+          {
+            image[i] = pairs[i].impulses(direction[i]);
+            add(image[i], -1., pairs[i].free_part(impulses_at(active[i])));
+          }
+        const double length = energy / product(direction, image);
+        for (unsigned int i = 0; i < active.size(); ++i)
+          {
+            add(velocity[i], length, direction[i]);
+            add(residual[i], -length, image[i]);
+            scaled[i] = pairs[i].solve(residual[i]);
+          }
+        const double before = energy;
+        energy              = product(residual, scaled);
+        for (unsigned int i = 0; i < active.size(); ++i)
+          {
+            SoilAndWater<dim> next = scaled[i];
+            add(next, energy / before, direction[i]);
+            direction[i] = next;
+          }
+      }
+    return iteration;
+  }
+
+
+  template <int dim>
+  void ViscousStep<dim>::apply(const MixtureNodes<dim> &nodes,
+                               const TwoPhaseMomentum<dim> &step,
+                               CutCellContact<dim> *bed,
+                               const double time_step,
+                               Budget<dim> &balance)
+  {
+    find_points();
+    active = nodes.pores.active_nodes();
+    pairs.clear();
+    for (const unsigned int node : active)
+      pairs.push_back(step.drag_block_at(nodes, node));
+    constexpr double stable = 2.; // beyond, an explicit step turns the fastest motion round and makes it grow
+    const bool is_long      = time_step * largest_rate() > stable;
+    find_impulses(nodes.soil, nodes.water, is_long ? bed : nullptr, 1., time_step);
+    if (is_long)
+      {
+        Vector velocity;
+        for (const unsigned int node : active)
+          velocity.push_back(velocities(nodes, node));
+        const unsigned int n_iterations = solve(velocity, bed, time_step);
+        if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) == 0)
+          balance.n_viscous_iterations += n_iterations;
+        // What the solve leaves would not add up to nothing.
+        set_motion(velocity);
+        find_impulses(soil_motion, water_motion, bed, 1., time_step);
+        if (bed)
+          bed->take_viscous_force(water_motion, water_viscosity, time_step);
+      }
+    for (const unsigned int node : active)
+      step.push(nodes, node, impulses_at(node), balance);
+    if (is_long && bed && bed->no_slip()) // which counts its own impulses
+      find_impulses(soil_motion, water_motion, nullptr, 1., time_step);
+  }
+
+
+  template <int dim>
+  void ViscousStep<dim>::count_dissipation(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const
+  {
+    for (const unsigned int node : active)
+      {
+        const SoilAndWater<dim> impulses = impulses_at(node), after = velocities(nodes, node);
+        const Tensor<1, dim> soil_change  = part(nodes.soil, node, NodalField<dim>::velocity_change);
+        const Tensor<1, dim> water_change = part(nodes.water, node, NodalField<dim>::velocity_change);
+        // The work of an impulse is its product with the mean velocity.
+        balance.viscous_dissipation -=
+            impulses.soil * (after.soil - 0.5 * soil_change) + impulses.water * (after.water - 0.5 * water_change);
+      }
+  }
+
+  template class ViscousStep<2>;
+  template class ViscousStep<3>;
+} // namespace scree
