@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/box_of_raster.h>
 #include <scree/case/case_checks.h>
+#include <scree/case/removed_entries.h>
 #include <scree/case/parameters.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -42,9 +42,11 @@ namespace scree
         ParameterHandler all;
         declare(all);
         declare_water(all);
-        file.check(all, "scree --print-parameters lists all of them.", [&](const std::string &subsection) {
-          return unlisted_body(subsection);
-        });
+        file.check(
+            all,
+            "scree --print-parameters lists all of them.",
+            [&](const std::string &subsection) { return unlisted_body(subsection); },
+            removed_entry_remedy);
         if (!has_water)
           check_dry();
         declare(handler);
@@ -116,11 +118,7 @@ namespace scree
     const auto subsections = file.subsections(prefix);
     for (const std::string &subsection : subsections)
       {
-        std::string lower_case = subsection;
-        std::transform(subsection.begin(), subsection.end(), lower_case.begin(), [](const unsigned char c) {
-          return std::tolower(c);
-        });
-        if (!seen.insert(lower_case).second)
+        if (!seen.insert(lower_case(subsection)).second)
           throw EntryError("subsection " + subsection + ": another " + kind +
                            "'s name differs from it by case only, and so would the columns of the "
                            "statistics. Write another name.");

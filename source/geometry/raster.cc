@@ -16,13 +16,6 @@ namespace scree
 {
   namespace
   {
-    std::string lower_case(std::string text)
-    {
-      std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) { return std::tolower(c); });
-      return text;
-    }
-
-
     std::string on_decimals(const std::string &word)
     {
       return word.find(',') == std::string::npos ? "" : ". Decimals have a point: 0.5, not 0,5";

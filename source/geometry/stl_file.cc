@@ -50,7 +50,7 @@ namespace scree
     }
 
 
-    std::vector<Triangle> read_text(const std::string &content, const std::string &name)
+    std::vector<Triangle> read_ascii(const std::string &content, const std::string &name)
     {
       std::vector<Triangle> triangles;
       std::istringstream lines(content);
@@ -62,8 +62,7 @@ namespace scree
           std::istringstream words(line);
           std::string first;
           words >> first;
-          std::transform(
-              first.begin(), first.end(), first.begin(), [](const unsigned char c) { return std::tolower(c); });
+          first = lower_case(first);
           const auto require = [&](const bool possible, const std::string &remedy) {
             if (!possible)
               throw EntryError(name + "line " + std::to_string(number) + ' ' + remedy +
@@ -106,14 +105,10 @@ namespace scree
     const std::string content{ std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
     if (is_binary(content)) // first: its text may begin with "solid", too
       return read_binary(content, name);
-    std::string first_word = content.substr(0, 5);
-    std::transform(first_word.begin(), first_word.end(), first_word.begin(), [](const unsigned char c) {
-      return std::tolower(c);
-    });
-    if (first_word != "solid")
+    if (lower_case(content.substr(0, 5)) != "solid")
       throw EntryError(name +
                        "it is no STL file: it neither begins with \"solid\" nor is as long as a binary one with its "
                        "number of triangles. Export the surface as STL.");
-    return read_text(content, name);
+    return read_ascii(content, name);
   }
 } // namespace scree

@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
@@ -81,6 +83,13 @@ namespace scree
   std::string quoted(const std::string &text)
   {
     return '"' + text + '"';
+  }
+
+
+  std::string lower_case(std::string text)
+  {
+    std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) { return std::tolower(c); });
+    return text;
   }
 
 

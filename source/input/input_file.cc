@@ -236,7 +236,8 @@ namespace scree
 
   void InputFile::check(const ParameterHandler &prm,
                         const std::string &last_remedy,
-                        const SubsectionRemedy &subsection_remedy) const
+                        const SubsectionRemedy &subsection_remedy,
+                        const EntryRemedy &entry_remedy) const
   {
     const DeclaredNames declared(prm);
     for (const Statement &statement : statements)
@@ -250,13 +251,14 @@ namespace scree
                                 (remedy.empty() ? last_remedy : remedy));
         }
       else if (statement.kind == Kind::set)
-        check_entry(statement, declared, last_remedy);
+        check_entry(statement, declared, last_remedy, entry_remedy);
   }
 
 
   void InputFile::check_entry(const Statement &statement,
                               const DeclaredNames &declared,
-                              const std::string &last_remedy) const
+                              const std::string &last_remedy,
+                              const EntryRemedy &entry_remedy) const
   {
     const auto error = [&](const std::string &remedy) {
       return statement.error(entry_message(statement.path, statement.name, statement.value, remedy));
@@ -264,7 +266,9 @@ namespace scree
     const DeclaredNames::Name *entry = declared.entry(statement.path, statement.name);
     if (!entry)
       {
-        const std::string remedy = declared.suggest_entry(statement.path, statement.name);
+        std::string remedy = entry_remedy ? entry_remedy(statement.path, statement.name) : "";
+        if (remedy.empty())
+          remedy = declared.suggest_entry(statement.path, statement.name);
         throw error(std::string("there is no such entry") + (statement.path.empty() ? ". " : " here. ") +
                     (remedy.empty() ? last_remedy : remedy));
       }

@@ -39,12 +39,6 @@ namespace scree
       return found == names.end() ? nullptr : &*found;
     }
 
-    std::string lower_case(std::string text)
-    {
-      std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) { return std::tolower(c); });
-      return text;
-    }
-
     /// Letters to insert, delete, change or swap with the next one (Damerau 1964), whatever their case.
     unsigned int edit_distance(const std::string &first, const std::string &second)
     {

@@ -83,14 +83,12 @@ namespace scree
                                           const Constraints<dim> &constraints,
                                           const WallGaps<dim> &wall_gaps,
                                           const BodyForces<dim> &forcing,
-                                          const double water_density,
-                                          const Splitting splitting)
+                                          const double water_density)
       : constraints(constraints)
       , wall_gaps(wall_gaps)
       , forcing(forcing)
       , grid(grid)
       , water_density(water_density)
-      , splitting(splitting)
       , friction(constraints)
       , pressure_impulses(grid.numbering())
   {
@@ -331,11 +329,8 @@ namespace scree
         const SoilAndWater<dim> impulses{ vector_of<dim>(pressure_impulses[node]),
                                           vector_of<dim>(pressure_impulses[node] + dim) };
         balance.pressure_impulse += impulses.soil + impulses.water;
-        DragBlock<dim> pair = drag_block_at(nodes, node);
-        const double drag   = pair.drag;
-        if (splitting == Splitting::classical)
-          pair.drag = 0.;
-        SoilAndWater<dim> change = pair.solve(impulses);
+        const DragBlock<dim> pair = drag_block_at(nodes, node);
+        SoilAndWater<dim> change  = pair.solve(impulses);
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);
         const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;
@@ -344,9 +339,8 @@ namespace scree
         pair.follow(change);
         add_to_velocities(change, of_soil, of_water);
         const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;
-        // The work of an impulse, as at walls; the classical splitting's drag knows the predicted velocities only.
-        balance.drag_dissipation += 0.5 * drag * (splitting == Splitting::classical ? slip_predicted : slip) *
-                                    (before.water - before.soil + slip);
+        // The work of an impulse, as at walls.
+        balance.drag_dissipation += 0.5 * pair.drag * slip * (before.water - before.soil + slip);
       }
   }
 

@@ -32,10 +32,7 @@ namespace scree
   {
     for (unsigned int q = 0; q < n_points; ++q)
       for (unsigned int v = 0; v < n_corners; ++v)
-        {
-          shapes[q][v]          = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
-          shape_gradients[q][v] = GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
-        }
+        shapes[q][v] = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
   }
 
 
@@ -43,13 +40,11 @@ namespace scree
   MixtureDivergence<dim>::MixtureDivergence(const BackgroundGrid<dim> &grid,
                                             const NodeNumbering<dim> &corners,
                                             const FreeSurfaceLocator<dim> &surface,
-                                            const Divergence form,
                                             const double gravity,
                                             const CutCells<dim> *cut_cells)
       : grid(grid)
       , corners(corners)
       , surface(surface)
-      , form(form)
       , square_of_slow(gravity / grid.cell_size())
       , cut_cells(cut_cells)
   {
@@ -116,29 +111,16 @@ namespace scree
         const CellBasis<dim, n> basis(rule.points[q], open);
         const RowFactors<dim, n> rows(basis);
         const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
-        const auto value = [&](const NodeRow(&field)[n_rows]) { return sum(contract(rows.value, field) * value_x); };
         const auto slope = [&](const NodeRow(&field)[n_rows], const unsigned int a) {
           return inverse_width * (a == 0 ? sum(contract(rows.value, field) * derivative_x)
                                          : sum(contract(rows.derivative[a - 1], field) * value_x));
         };
-        if (form == Divergence::expanded)
-          {
-            double divergence = 0;
-            for (unsigned int c = 0; c < dim; ++c)
-              divergence += slope(flow.rows[c], c);
-            const double weighted = -scale * weights[q] * divergence;
-            for (unsigned int v = 0; v < n_corners; ++v)
-              integrals[v] += weighted * rule.shapes[q][v];
-          }
-        else
-          {
-            Tensor<1, dim> flux;
-            for (unsigned int c = 0; c < dim; ++c)
-              flux[c] = value(flow.rows[c]);
-            const double weight = scale * weights[q] * inverse_width;
-            for (unsigned int v = 0; v < n_corners; ++v)
-              integrals[v] += weight * (flux * rule.shape_gradients[q][v]);
-          }
+        double divergence = 0;
+        for (unsigned int c = 0; c < dim; ++c)
+          divergence += slope(flow.rows[c], c);
+        const double weighted = -scale * weights[q] * divergence;
+        for (unsigned int v = 0; v < n_corners; ++v)
+          integrals[v] += weighted * rule.shapes[q][v];
       }
   }
 
@@ -148,14 +130,11 @@ namespace scree
   void MixtureDivergence<dim>::add_ground(const CutFacet<dim> &segment, const Flow<n> &flow, AtCorners &integrals) const
   {
     double speed = -(segment.normal * cut_cells->velocity(segment)); // out of the open, from the ground
-    if (form == Divergence::expanded)                                // integrated by parts, the flux is not there
-      {
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-            speed += segment.normal[c] * segment.shapes[i] * flow.rows[c][i / n][i % n];
-        if (speed < 0. && !surface.has_unknown(segment.cell))
-          return; // Water may leave ground that it does not press on.
-      }
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int i = 0; i < segment.shapes.size(); ++i)
+        speed += segment.normal[c] * segment.shapes[i] * flow.rows[c][i / n][i % n];
+    if (speed < 0. && !surface.has_unknown(segment.cell))
+      return; // Water may leave ground that it does not press on.
     for (unsigned int v = 0; v < n_corners; ++v)
       integrals[v] += segment.area * speed * segment.vertex_weights[v];
   }

@@ -23,13 +23,11 @@ namespace scree
   FreeSurfaceLocator<dim>::FreeSurfaceLocator(const BackgroundGrid<dim> &grid,
                                               const NodeNumbering<dim> &corners,
                                               const WaterBoundaryConditions<dim> &walls,
-                                              const FreeSurface rule,
                                               const Tensor<1, dim> &gravity,
                                               const CutCells<dim> *cut_cells)
       : grid(grid)
       , corners(corners)
       , walls(walls)
-      , rule(rule)
       , down(gravity.norm() > 0. ? gravity / gravity.norm() : gravity)
       , cut_cells(cut_cells)
       , filling(corners)
@@ -164,21 +162,6 @@ namespace scree
 
 
   template <int dim>
-  bool FreeSurfaceLocator<dim>::is_unknown(const unsigned int corner, const double fill) const
-  {
-    switch (rule)
-      {
-      case FreeSurface::distance:
-        return distances[corner] >= closures::least_vertex_depth - 1e-9;
-      case FreeSurface::half_full:
-        return fill >= 0.5 - 1e-9;
-      default:
-        return is_among_wet_cells(corner);
-      }
-  }
-
-
-  template <int dim>
   void FreeSurfaceLocator<dim>::sum_filling(const Mixture<dim> &mixture)
   {
     filling.clear();
@@ -235,7 +218,7 @@ namespace scree
           kind  = PressureDofType::prescribed;
           value = walls.pressure(corners.faces(corner));
         }
-      else if (sums[water] > 0. && is_unknown(corner, fill))
+      else if (sums[water] > 0. && distances[corner] >= closures::least_vertex_depth - 1e-9)
         {
           kind  = PressureDofType::unknown;
           value = pressure_of_points(corner);
@@ -243,8 +226,6 @@ namespace scree
       pressure.local_element(corner) = value;
     };
     for_all_wet_corners(mixture, classify);
-    if (rule != FreeSurface::distance)
-      return;
     close_gaps(mixture, pressure);
 
     // Kinds beside the surface: those with unknown neighbours, then those that have only those.
@@ -336,8 +317,6 @@ namespace scree
   template <int dim>
   void FreeSurfaceLocator<dim>::extrapolate(const Mixture<dim> &mixture, CornerVector &pressure)
   {
-    if (rule != FreeSurface::distance)
-      return;
     const auto spread = [&](const PressureDofType source, const PressureDofType target) {
       neighbours.clear_ghosts();
       for (const unsigned int corner : neighbours.active_nodes())

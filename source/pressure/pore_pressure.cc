@@ -80,22 +80,17 @@ namespace scree
                                   const CutCells<dim> *cut_cells,
                                   TimerOutput &timer)
       : grid(grid)
-      , splitting(parameters.splitting_kind())
-      , previous_pressure(parameters.previous_pressure_kind())
       , relative_tolerance(parameters.relative_tolerance)
       , projection(parameters.projection)
       , bulk_modulus(water.bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
       , corners(numbered(grid))
-      , surface(grid, corners, walls, parameters.free_surface_kind(), gravity, cut_cells)
+      , surface(grid, corners, walls, gravity, cut_cells)
       , gaps(grid, corners, surface)
-      , divergence(grid, corners, surface, parameters.divergence_kind(), gravity.norm(), cut_cells)
+      , divergence(grid, corners, surface, gravity.norm(), cut_cells)
       , solver(grid, corners, parameters)
-      , memory(corners,
-               previous_pressure == PreviousPressure::dropped ? 0. : parameters.fading,
-               water,
-               grid.cell_size())
+      , memory(corners, parameters.fading, water, grid.cell_size())
   {
     reinit_vectors();
   }
@@ -113,65 +108,27 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::reinit()
   {
-    const std::map<std::uint64_t, double> kept = grid_pressure();
     corners.distribute(grid.fine_cells());
     surface.reinit();
     gaps.reinit();
     solver.reinit();
     memory.reinit();
     reinit_vectors();
-    if (kept.empty())
-      return;
-    for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
-      if (const auto found = kept.find(number_of(corner)); found != kept.end())
-        pressure.local_element(corner) = found->second;
-    has_grid_pressure = true;
-  }
-
-
-  template <int dim>
-  std::uint64_t PorePressure<dim>::number_of(const unsigned int corner) const
-  {
-    return curve_number<dim>(grid.fine_cells().box().place_of_corner(corners.position(corner)));
-  }
-
-
-  template <int dim>
-  std::map<std::uint64_t, double> PorePressure<dim>::grid_pressure() const
-  {
-    std::map<std::uint64_t, double> own, all;
-    if (previous_pressure != PreviousPressure::grid)
-      return all;
-    for (const unsigned int corner : surface.wet_corners())
-      if (has_grid_pressure)
-        own[number_of(corner)] = pressure.local_element(corner);
-    for (const auto &of_rank : Utilities::MPI::all_gather(grid.triangulation().get_communicator(), own))
-      all.insert(of_rank.begin(), of_rank.end());
-    return all;
   }
 
 
   template <int dim>
   void PorePressure<dim>::reinit_vectors()
   {
-    for (CornerVector *vector : { &pressure, &kept_pressure, &change, &source })
+    for (CornerVector *vector : { &pressure, &change, &source })
       reinit(*vector);
-    has_grid_pressure = false;
   }
 
 
   template <int dim>
   void PorePressure<dim>::locate(const Mixture<dim> &mixture)
   {
-    const bool keeps = previous_pressure == PreviousPressure::grid && has_grid_pressure;
-    if (keeps)
-      kept_pressure = pressure;
     surface.locate(mixture, pressure);
-    if (keeps || previous_pressure == PreviousPressure::dropped)
-      for (const unsigned int corner : surface.wet_corners())
-        if (surface.kind(corner) == PressureDofType::unknown)
-          pressure.local_element(corner) = keeps ? kept_pressure.local_element(corner) : 0.;
-    has_grid_pressure = true;
     memory.fade(surface, pressure);
     pressure.update_ghost_values();
     surface.extrapolate(mixture, pressure);
@@ -208,7 +165,7 @@ namespace scree
               if (cell.inertial > 0)
                 cell.drag += porosity * cell.inertial * mean_slip(grid, mixture, record, soil, water);
               cell.drag *= cell.drag_share * porosity;
-              const double C = splitting == Splitting::classical ? 0. : cell.drag * time_step;
+              const double C = cell.drag * time_step;
               mobility       = cell.is_rigid
                                    ? V_w * V_w / (b + C) // an endless mass a
                                    : (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));

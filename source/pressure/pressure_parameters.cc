@@ -2,8 +2,6 @@
 #include <scree/input/input_error.h>
 #include <scree/pressure/pressure_parameters.h>
 
-#include <map>
-
 namespace scree
 {
   using namespace dealii;
@@ -19,28 +17,11 @@ namespace scree
                       maximum_iterations,
                       "A solve that has not converged by then ends the run.",
                       Patterns::Integer(1, 100000));
-    prm.add_parameter("Splitting",
-                      splitting,
-                      "drag in correction: pressure and drag are solved together; classical: the drag acts in the "
-                      "predictor only.",
-                      Patterns::Selection("drag in correction|classical"));
-    prm.add_parameter(
-        "Free surface",
-        free_surface,
-        "Where p = 0: distance (inside a cell, from the fill of the nodes); empty cell (at nodes next to a "
-        "cell without water); half full (at nodes less than half full).",
-        Patterns::Selection("distance|empty cell|half full"));
-    prm.add_parameter(
-        "Divergence",
-        divergence,
-        "Of the mixture's velocity (1-n) v_s + n v_w: expanded (taken as it stands); flux (integrated by parts).",
-        Patterns::Selection("expanded|flux"));
     prm.add_parameter(
         "Previous pressure",
         previous_pressure,
-        "Pressure at the start of a step: affine (from the points, with their gradient); average (from the "
-        "points); grid (kept there); dropped (0).",
-        Patterns::Selection("affine|average|grid|dropped"));
+        "Pressure at the start of a step, from the points: affine (with their pressure gradient); average (without).",
+        Patterns::Selection("affine|average"));
     prm.add_parameter(
         "Fading",
         fading,
@@ -64,50 +45,14 @@ namespace scree
   {
     const PressureParameters defaults;
     const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
-    require_entry(previous_pressure != "dropped" || fading == defaults.fading,
-                  "Water/Pressure",
-                  "Fading",
-                  fading,
-                  "nothing reads it, as entry \"Previous pressure\" is dropped. Remove it.");
     require_entry(bulk_modulus == 0. || fading == defaults.fading,
                   "Water/Pressure",
                   "Fading",
                   fading,
                   "the water is compressible (entry \"Bulk modulus\" of subsection Water), and its pressure a spring "
                   "indeed. Remove one of them.");
-    require_entry(n_bodies > 0 || splitting == defaults.splitting, "Water/Pressure", "Splitting", splitting, remedy);
     require_entry(
         n_bodies > 0 || projection == defaults.projection, "Water/Pressure", "Projection", projection, remedy);
   }
 
-
-  Splitting PressureParameters::splitting_kind() const
-  {
-    return splitting == "classical" ? Splitting::classical : Splitting::drag_in_correction;
-  }
-
-
-  FreeSurface PressureParameters::free_surface_kind() const
-  {
-    static const std::map<std::string, FreeSurface> table{ { "distance", FreeSurface::distance },
-                                                           { "empty cell", FreeSurface::empty_cell },
-                                                           { "half full", FreeSurface::half_full } };
-    return table.at(free_surface);
-  }
-
-
-  Divergence PressureParameters::divergence_kind() const
-  {
-    return divergence == "flux" ? Divergence::flux : Divergence::expanded;
-  }
-
-
-  PreviousPressure PressureParameters::previous_pressure_kind() const
-  {
-    static const std::map<std::string, PreviousPressure> table{ { "affine", PreviousPressure::affine },
-                                                                { "average", PreviousPressure::average },
-                                                                { "grid", PreviousPressure::grid },
-                                                                { "dropped", PreviousPressure::dropped } };
-    return table.at(previous_pressure);
-  }
 } // namespace scree

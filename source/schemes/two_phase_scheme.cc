@@ -44,14 +44,14 @@ namespace scree
       , transfer(grid,
                  transfer_parameters,
                  water_parameters,
-                 pressure_parameters.previous_pressure_kind() == PreviousPressure::average ? 0. : 1.)
+                 pressure_parameters.uses_pressure_gradient() ? 1. : 0.)
       , mixture(grid, soil_points, cut_cells)
       , pores(grid)
       , water_field(grid)
       , pressure(grid, water_walls, pressure_parameters, water_parameters, forcing.gravity(), cut_cells, timer)
       , wall_gaps(grid, constraints)
       , spacing(grid.cell_size() / std::min(soil_points, water_parameters.points_per_cell))
-      , step(grid, constraints, wall_gaps, forcing, water_density, pressure_parameters.splitting_kind())
+      , step(grid, constraints, wall_gaps, forcing, water_density)
       , bed(std::move(bed))
   {
     wall_gaps.add({ &soil.field, &water_field });

@@ -224,24 +224,6 @@ def terzaghi_slow(scree):
     check_consolidation("Terzaghi, k = 1e-5 m/s, C = 0.9", results, bounds)
 
 
-def terzaghi_baselines(scree):
-    """What p^n and the drag in the correction are for, k = 1e-4 m/s. Each alone does without the other, but not well; without
-    both the load sinks in at once (prototype: U at T_v = .1 is .44 without p^n, 1.0 without both; exact .357). Bounds are ours.
-
-    The smaller k (C dt against the masses), the worse: at k = 1e-3 m/s and E = 1e7 Pa, U is .358 and .49.
-    """
-    column = column_of(1e-4, 1e7)
-    dropped, classical = {"Water/Pressure/Previous pressure": "dropped"}, {"Water/Pressure/Splitting": "classical"}
-    for name, entries, error, degree in (
-            ("recommended", {}, (0, 0.00115), (0.355, 0.359)),
-            ("classical", classical, (0, 0.003), (0.355, 0.359)),
-            ("dropped", dropped, (0.01, 0.1), (0.36, 0.5)),
-            ("dropped and classical", {**dropped, **classical}, (0.3, 1), (0.7, 1.2))):
-        results, _ = consolidation(scree, name.replace(" ", "_"), column, (0.1,), {"Time step/Courant number": "0.6", **entries}, 1e7)
-        check("Terzaghi, %s: L2 error of p/q at T_v = 0.1" % name, results[0.1][0], *error)
-        check("Terzaghi, %s: degree of consolidation at T_v = 0.1" % name, results[0.1][1], *degree)
-
-
 def large_strain(scree):
     """Consolidation under its own weight to a strain of 24 % at the base: within 2 % of the exact end and of the course in time."""
     mud = closed_forms.Mud(1., closed_forms.oedometric_modulus(2e4, 0.2), 0.5, 1e-2)
@@ -525,24 +507,6 @@ def dam_break(scree):
     for time in DAM_BREAK:
         check("dam break: front at T = %g, h = 0.025 m over h = 0.05 m (ours)" % time,
               fronts["0.025", time] / fronts["0.05", time], 0.97, 1.03)
-
-
-def dam_break_baselines(scree):
-    """The flux form freezes the surface in the cells: the bulk stays behind and most energy is lost, though spray flies as far
-    as the real tip (prototype: front 1.0 to 2.2 m). p = 0 next to empty cells is wrong by .75 rho g h. Bounds are ours."""
-    table = dam_break_run(scree, "flux", {"Water/Pressure/Divergence": "flux"}, may_stop=True)
-    time = dam_break_time(2.98)
-    check("dam break, flux form: front 90 % at T = 2.98, m (expanded form: 3.07)", at(table, "Water front 90 % (m)", time), 0.9, 2.4)
-    released = table["Potential energy (J)"][0] - at(table, "Potential energy (J)", time)
-    check("dam break, flux form: energy lost over released (expanded form: 0.003)",
-          at(table, "Numerical dissipation (J)", time) / released, 0.3, 2)
-    check("dam break, flux form: p oscillation (expanded form: 0.002)", at(table, "p oscillation (-)", time), 0.05, 10)
-    cell = 0.1
-    run(scree, "hydrostatic", "empty_cell",
-        pictures({"Water/Region": "y < 1.025", "Water/Pressure/Free surface": "empty cell"}), may_stop=True)
-    water = render.read_points("empty_cell", None, "water")
-    error = np.max(np.abs(water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], 1.025)))
-    check("p = 0 next to empty cells, surface at 0.25 of a cell: error over rho g h", error / (WATER * cell), 0.5, 10)
 
 
 # Soil and water in motion ---------------------------------------------------------------------------------------------

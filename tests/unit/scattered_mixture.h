@@ -45,7 +45,7 @@ struct ScatteredMixture
       , constraints(grid, walls, &water_walls)
       , forcing(grid, std::vector<double>(dim, 0.), scree::BodyForceParameters(), scree::BaseMotionParameters())
       , wall_gaps(grid, constraints)
-      , step(grid, constraints, wall_gaps, forcing, 1000., scree::Splitting())
+      , step(grid, constraints, wall_gaps, forcing, 1000.)
       , soil(grid)
       , water(grid)
       , pores(grid)

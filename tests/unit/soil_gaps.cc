@@ -58,7 +58,7 @@ unsigned int n_beside(const std::string &basis, const unsigned int axis, std::st
   WaterBoundaryParameters wall_parameters;
   wall_parameters.top = "impermeable";
   const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
-  FreeSurfaceLocator<dim> surface(grid, corners, walls, FreeSurface::distance, Tensor<1, dim>(), nullptr);
+  FreeSurfaceLocator<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr);
   CornerVector pressure(corners.partitioner());
   surface.locate(mixture, pressure);
   SoilGaps<dim> gaps(grid, corners, surface);

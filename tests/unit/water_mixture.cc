@@ -157,7 +157,7 @@ void test(const std::string &basis, std::ostream &out)
   WaterBoundaryParameters wall_parameters;
   wall_parameters.top = "impermeable";
   const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
-  FreeSurfaceLocator<dim> surface(grid, corners, walls, FreeSurface::distance, Tensor<1, dim>(), nullptr);
+  FreeSurfaceLocator<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr);
   CornerVector pressure(corners.partitioner());
   surface.locate(mixture, pressure);
   double error = 0, unknowns = 0;
@@ -195,7 +195,7 @@ void test(const std::string &basis, std::ostream &out)
     return middle;
   };
   constexpr double gravity = 9.81;
-  MixtureDivergence<dim> divergence(grid, corners, surface, Divergence::expanded, gravity, nullptr);
+  MixtureDivergence<dim> divergence(grid, corners, surface, gravity, nullptr);
   const auto set_motion = [&](const bool moves_as_one, const double factor) {
     // Nodes of all cells, so that absent phases move along.
     for (NodalField<dim> *field : { &soil_field, &water_field })

@@ -1,6 +1,6 @@
 """Closure of an air gap: a body 0.4 m high falls on another one, 0.4 m high, between smooth walls, so that the exact end is known: all is at rest, the gap
 is gone. Water on water, saturated soil on water, water on saturated soil, and soil on soil; the gap (in cells of 0.05 m) and the speed at the start
-vary. Air has no pressure here. Further rows of panels: `Fading = 5`, and the pressure of the previous step dropped.
+vary. Air has no pressure here. Further row of panels: `Fading = 5`.
 State: `measures.BOUNDS`; the oscillation of p is its roughness at the end (`measures.roughness`) over rho_w g 0.8 m. The number is the air that stays in the
 closed gap, as a height in cells."""
 import numpy as np
@@ -10,7 +10,7 @@ from measures import classify, roughness
 from study import Claim, Study, axis, product
 
 CELL, HEIGHT = 0.05, 0.4  # m
-PRESSURES = {"default": {}, "fading": {"Water/Pressure/Fading": 5}, "dropped": {"Water/Pressure/Previous pressure": "dropped"}}
+PRESSURES = {"default": {}, "fading": {"Water/Pressure/Fading": 5}}
 PAIRS = ["water on water", "soil on water", "water on soil", "soil on soil"]
 
 
@@ -55,14 +55,14 @@ def verdict(rows):
     ended = [row for row in rows if row["ended"]]
     water = of("water on water", "default")
     gaining = {pair: [row for row in of(pair, "default") if row["state"] == "energy gain"] for pair in PAIRS}
-    faded, dropped = ([row for row in rows if row["old p"] == pressure] for pressure in ("fading", "dropped"))
+    faded = [row for row in rows if row["old p"] == "fading"]
     return [
         Claim("By default energy is gained by " + (", ".join(
             f"{pair} in {len(gaining[pair])} of {len(of(pair, 'default'))} (up to {gain(of(pair, 'default')):.2g} % of what is released)"
             for pair in PAIRS if gaining[pair]) or "none")
-              + f"; without the pressure of the previous step at most {gain(dropped):.2g} %. With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of "
-              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Wanted: at most .5 % by default and without the previous pressure.",
-              gain([row for row in rows if row["old p"] == "default"]) <= 0.5 and gain(dropped) < 0.5),
+              + f". With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of "
+              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Wanted: at most .5 % by default.",
+              gain([row for row in rows if row["old p"] == "default"]) <= 0.5),
         Claim("The bodies do not touch: of a cell, air stays by default below " + ", ".join(
             f"{pair.split()[0]} on soil {min(left):.2g} to {max(left):.2g}" for pair in PAIRS[2:]
             if (left := [row["air left, cells"] for row in of(pair, "default")])) + ". Wanted: at most half a cell.",

@@ -2,8 +2,7 @@
 """Which part of the method makes the front of a collapse depend on the size of the cells. The dense dry column of
 [run_out](run_out.md), 1 m x 1 m, after 1.5 s, is run with cells of 0.1 m and of 0.05 m, 3 x 3 points in a cell, FLIP with a PIC rate of 5/s, on a base that is
 fixed and on one with friction of the soil's own angle, 22.3 degrees. One thing at a time is changed: damping (PIC rate, TPIC), F-bar, points per
-cell, base. Bars: by how much the smaller cells bring the front forward, measured at 90 % and at 99 % of the mass. For the surface rule of water the loose
-saturated slope serves in the same way, with cells of 1/7 m and 1/10 m. "Front by depth 0.05 m" in the table: the largest x at which the soil, averaged over
+cell, base. Bars: by how much the smaller cells bring the front forward, measured at 90 % and at 99 % of the mass. "Front by depth 0.05 m" in the table: the largest x at which the soil, averaged over
 0.1 m, is that deep.
 """
 
@@ -21,15 +20,13 @@ COLUMN_CAUSES = {
     "4 x 4 points": {"Soil/Points per cell": 4},
     "base of 35 degrees": {"Boundaries/Bottom": "friction 35"},
 }
-SURFACES = {"surface by distance (default)": {},
-            "surface at half full cells": {"Water/Pressure/Free surface": "half full"}}
-SIZES = {run_out.COLUMN: (10, 20), run_out.SATURATED: (7, 10)}
+SIZES = (10, 20)
 
 
 def changed(scene, soil, base, name, entries):
     """The sizes of a scene with one thing changed; that between them is for the short version."""
     found = []
-    for n in (10, 14, 20) if name == "as it is" else SIZES[scene]:
+    for n in (10, 14, 20) if name == "as it is" else SIZES:
         plain = run_out.variant(scene, soil, base, n)
         found.append(plain._replace(labels={**plain.labels, "changed": name}, entries={**plain.entries, **entries}))
     return found
@@ -38,8 +35,6 @@ def changed(scene, soil, base, name, entries):
 VARIANTS = [variant for base in (run_out.FIXED, run_out.FRICTION) for name, entries in COLUMN_CAUSES.items()
             if base == run_out.FIXED or name in ("as it is", "PIC rate 0", "no F-bar", "4 x 4 points")
             for variant in changed(run_out.COLUMN, "dense", base, name, entries)]
-VARIANTS += [variant for name, entries in SURFACES.items()
-             for variant in changed(run_out.SATURATED, "loose", run_out.FRICTION, name, entries)]
 
 
 def pairs(rows):
@@ -79,9 +74,6 @@ def verdict(rows):
         claims.append(Claim("Not F-bar, points or transfer: on the fixed base the front at 99 % still moves by " +
                             ", ".join(f"{value:.1f} % ({changed})" for changed, value in others.items()) + ".",
                             min(others.values()) > 0.6 * at[run_out.FIXED, 99], quick=False))
-        wet = [100 * abs(advance(both[run_out.SATURATED, run_out.FRICTION, changed], 99)) for changed in SURFACES]
-        claims.append(Claim(f"Nor water's surface: the saturated slope moves by {wet[0]:.1f} % with the surface at a distance, by {wet[1]:.1f} % at half full cells.",
-                            max(wet) < 0.5 * at[run_out.FIXED, 99], quick=False))
     return claims
 
 
@@ -89,7 +81,6 @@ def draw(figure, rows):
     both = pairs(rows)
     groups = {f"dense column, base: {base}": {key[2]: pair for key, pair in both.items() if key[:2] == (run_out.COLUMN, base)}
               for base in (run_out.FIXED, run_out.FRICTION)}
-    groups["loose saturated slope, base: friction"] = {key[2]: pair for key, pair in both.items() if key[0] == run_out.SATURATED}
     groups = {title: group for title, group in groups.items() if group}
     for axes, (title, group) in zip(figure.subplots(1, len(groups), squeeze=False, sharex=True)[0], groups.items()):
         for offset, quantile in ((-0.2, 90), (0.2, 99)):

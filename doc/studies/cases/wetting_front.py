@@ -1,6 +1,6 @@
 """Water infiltrates dry soil from a pond: 0.2 m of water stand on 0.5 m of dry elastic sand and sink in, with no capillary suction. Without inertia, with a sharp
 front at depth z and saturated rigid soil above it, n dz/dt = k (h + z)/z, h = h_0 - n z (Green & Ampt 1911, falling head), or
-t = n/k [z/(1-n) - h_0/(1-n)^2 ln(1 + (1-n) z/h_0)]. Runs end when z is 0.3 m by that formula. Rows and columns: cell size and conductivity; panels: 2 x 2 or 4 x 4 points a cell, and `Divergence = flux`.
+t = n/k [z/(1-n) - h_0/(1-n)^2 ln(1 + (1-n) z/h_0)]. Runs end when z is 0.3 m by that formula. Rows and columns: cell size and conductivity; panels: 2 x 2 or 4 x 4 points a cell.
 
 The reference has a sharp front, too, p = 0 at it and water above it that fills the pores, but inertia and elasticity as in the program's equations. In rigid soil p falls by rho_w (u^2 - q^2)/2 where the pond
 enters the pores with u = q/n, as the gradient of p alone acts there, and (z + n h) u' = g (h + z) - (1 - n^2) u^2/2 - g (n/k) u z, u = dz/dt (`rigid_front`; energy is kept but for the drag's). The sand gives way to
@@ -21,8 +21,7 @@ GRAVITY, WATER, GRAINS = 9.81, 1000., 2650.  # m/s^2, kg/m^3, kg/m^3
 MODULUS = 1e5  # Pa, Young's; Poisson's ratio is .3
 
 
-METHODS = {"2 x 2": {"Soil/Points per cell": 2, "Water/Points per cell": 2}, "4 x 4": {"Soil/Points per cell": 4, "Water/Points per cell": 4},
-           "4 x 4, flux": {"Soil/Points per cell": 4, "Water/Points per cell": 4, "Water/Pressure/Divergence": "flux"}}
+METHODS = {"2 x 2": {"Soil/Points per cell": 2, "Water/Points per cell": 2}, "4 x 4": {"Soil/Points per cell": 4, "Water/Points per cell": 4}}
 
 
 def time_of(z, k):
@@ -134,7 +133,7 @@ def verdict(rows):
     errors = {h: [abs(row["fall/exact"] - 1) for row in of("4 x 4") if row["h"] == h] for h in sorted({row["h"] for row in ended})}
     fronts = [row["front/exact"] for row in of("4 x 4") if row["h"] == fine]
     few = [abs(row["fall/exact"] - 1) for row in of("2 x 2") if row["h"] == coarse]
-    alike = [row for row in of("4 x 4") if any(other["h"] == row["h"] for other in of("4 x 4, flux"))]
+    alike = [row for row in of("4 x 4") if row["h"] >= 0.025]
     return [
         Claim(f"With 4 x 4 points a cell the water's fall is off from the reference's by up to {max(map(max, errors.values())):.1%}: "
               + ", ".join(f"{max(error):.1%} at h = {h:g} m" for h, error in reversed(errors.items()))
@@ -148,8 +147,7 @@ def verdict(rows):
         Claim(f"At h = {fine:g} m the front's tip (99 % of the water is above it) is at {min(fronts):.2f} to {max(fronts):.2f} of the sharp front's depth.",
               0.95 < min(fronts) and max(fronts) < 1.05),
         Claim(f"Energy comes from nothing where water enters dry soil: {gain(of('2 x 2')):.2g} % of what its fall releases with 2 x 2 points a cell (up to {most(of('2 x 2')):.2g} %), "
-              f"{gain(alike):.2g} % with 4 x 4 (up to {most(of('4 x 4')):.2g} %), {gain(of('4 x 4, flux')):.2g} % with Divergence = flux (means), which holds free water back: the fall is then off by up to "
-              f"{max(abs(row['fall/exact'] - 1) for row in of('4 x 4, flux')):.0%}, against {max(abs(row['fall/exact'] - 1) for row in alike):.0%}.",
+              f"{gain(alike):.2g} % with 4 x 4 (up to {most(of('4 x 4')):.2g} %; means, cells of .025 m and more).",
               gain(alike) < gain(of("2 x 2")) and most(of("4 x 4")) < 100 * BOUNDS["gain"]),
         Claim(f"{len(ended)} of {len(rows)} runs come to their end.", len(ended) == len(rows)),
         Claim(f"At h = {coarse:g} m two points a cell and axis are off by up to {max(few):.0%}, four by {max(errors[coarse]):.0%}.", max(few) > max(errors[coarse])),
@@ -159,10 +157,8 @@ def verdict(rows):
 STUDY = Study(title="Infiltration into dry soil", base="prm/saturated_rest.prm", needs_end=False,
               entries={"Mesh/Upper corner": "0.2, 0.8", "Soil/Region": f"y < {TOP}", "Soil/Linear elastic/Young's modulus": MODULUS,
                        "Water/Region": f"y > {TOP} && y < {TOP + POND}", "Water/Initial pressure": "none"},
-              variants=product(axis("points", METHODS.get, list(METHODS)[:2]), axis("h", "Mesh/Cell size", [0.1, 0.05, 0.025, 0.0125]),
-                               axis("k", conductivity, [0.1, 0.03, 0.01]))
-              + product(axis("points", METHODS.get, list(METHODS)[2:]), axis("h", "Mesh/Cell size", [0.1, 0.05, 0.025]),
-                        axis("k", conductivity, [0.1, 0.03, 0.01])),
+              variants=product(axis("points", METHODS.get, list(METHODS)), axis("h", "Mesh/Cell size", [0.1, 0.05, 0.025, 0.0125]),
+                               axis("k", conductivity, [0.1, 0.03, 0.01])),
               quick=lambda labels: (labels["h"] in (0.1, 0.025) and labels["k"] == 0.03) or list(labels.values()) == ["4 x 4", 0.0125, 0.1],
               measure=measure, verdict=verdict, default={"points": "4 x 4"},
               chart=StabilityMap("k", "h", panels=["points"], number="fall/exact", xlabel="k, m/s", ylabel="cell size, m"))

@@ -79,6 +79,8 @@ namespace scree
   /// The text between double quotes.
   std::string quoted(const std::string &text);
 
+  std::string lower_case(std::string text);
+
   /// One blank for tabs, ends of lines and several blanks, as deal.II reads a line.
   std::string single_blanks(const std::string &text);
 

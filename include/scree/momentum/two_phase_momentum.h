@@ -19,8 +19,7 @@ namespace scree
                      const Constraints<dim> &constraints,
                      const WallGaps<dim> &wall_gaps,
                      const BodyForces<dim> &forcing,
-                     const double water_density,
-                     const Splitting splitting);
+                     const double water_density);
 
     /// Fits what lives on the nodes to the grid's current partition. Collective.
     void reinit();
@@ -96,7 +95,6 @@ namespace scree
     const BodyForces<dim> &forcing;
     const BackgroundGrid<dim> &grid;
     const double water_density;
-    const Splitting splitting;
     WallFriction<dim> friction;
     NodeValues<dim, 2 * dim> pressure_impulses; // of the change of pressure on soil and water, N s
   };

@@ -23,7 +23,6 @@ namespace scree
     MixtureDivergence(const BackgroundGrid<dim> &grid,
                       const NodeNumbering<dim> &corners,
                       const FreeSurfaceLocator<dim> &surface,
-                      const Divergence form,
                       const double gravity,
                       const CutCells<dim> *cut_cells);
 
@@ -62,7 +61,6 @@ namespace scree
       std::array<dealii::Point<dim>, n_points> points;
       std::array<double, n_points> weights;
       std::array<std::array<double, n_corners>, n_points> shapes;
-      std::array<std::array<dealii::Tensor<1, dim>, n_corners>, n_points> shape_gradients; // per cell width
 
       Rule();
 
@@ -132,7 +130,6 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &corners;
     const FreeSurfaceLocator<dim> &surface;
-    const Divergence form;
     const double square_of_slow;    // g/h, 1/s^2
     const CutCells<dim> *cut_cells; // may be null
     const Rule<2> whole;            // exact for slopes of quadratics times linear functions

@@ -42,7 +42,6 @@ namespace scree
     FreeSurfaceLocator(const BackgroundGrid<dim> &grid,
                        const NodeNumbering<dim> &corners,
                        const WaterBoundaryConditions<dim> &walls,
-                       const FreeSurface rule,
                        const dealii::Tensor<1, dim> &gravity,
                        const CutCells<dim> *cut_cells);
 
@@ -184,7 +183,6 @@ namespace scree
     double fill_with_ground(const unsigned int corner, const double fill) const;
     /// Whether all cells around a corner hold water.
     bool is_among_wet_cells(const unsigned int corner) const;
-    bool is_unknown(const unsigned int corner, const double fill) const;
     void sum_filling(const Mixture<dim> &mixture);
 
     /// The pressure of a corner's points, Pa.
@@ -213,7 +211,6 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &corners;
     const WaterBoundaryConditions<dim> &walls;
-    const FreeSurface rule;
     const dealii::Tensor<1, dim> down; // unit, or 0
     const CutCells<dim> *cut_cells;    // may be null
     NodeValues<dim, 6> filling;        // Filling

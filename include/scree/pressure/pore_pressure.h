@@ -122,13 +122,6 @@ namespace scree
     static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
     void reinit_vectors();
 
-    /// Pressures that outlast a change of the mesh, by the curve numbers of the corners' places; those of all ranks.
-    /// Empty unless the pressure lives on the grid. Collective.
-    std::map<std::uint64_t, double> grid_pressure() const;
-
-    /// Of a corner's place on the curve.
-    std::uint64_t number_of(const unsigned int corner) const;
-
     void compute_pressure_coefficients(Mixture<dim> &mixture,
                                        const NodalField<dim> &soil,
                                        const NodalField<dim> &water,
@@ -139,8 +132,6 @@ namespace scree
     void count(const SolveReport &report, Budget<dim> &balance) const;
 
     const BackgroundGrid<dim> &grid;
-    const Splitting splitting;
-    const PreviousPressure previous_pressure;
     const double relative_tolerance, projection, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
@@ -150,9 +141,7 @@ namespace scree
     MixtureDivergence<dim> divergence;
     PressureSolver<dim> solver;
     PressureMemory<dim> memory;
-    CornerVector pressure, kept_pressure, change, source;
-
-    bool has_grid_pressure = false; // of the last step, in the current partition
+    CornerVector pressure, change, source;
   };
 } // namespace scree
 
