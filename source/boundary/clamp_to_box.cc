@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/clamp_to_box.h>
+#include <scree/particles/batch_pointers.h>
 
 namespace scree
 {
@@ -69,10 +70,52 @@ namespace scree
       }
   }
 
+
+  template <int dim>
+  void move_out_of_ground(const BackgroundGrid<dim> &grid,
+                          const RigidBoundary<dim> &ground,
+                          const double farthest,
+                          const std::uint8_t closed_faces,
+                          PointSet<dim> &points)
+  {
+    const double width         = grid.cell_size();
+    const FineCells<dim> &fine = grid.fine_cells();
+    for (const auto &cell : points.cells())
+      {
+        if (ground.least_distance(cell.cell) > farthest)
+          continue;
+        const Point<dim> lower = fine.box().corner(fine.cells()[fine.of_index(cell.cell)].place);
+        for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+          std::array<Batch, dim> places;
+          simd::load_records<dim>(as_constant(BatchPointers<dim>(cell, indices).locations), places.data());
+          for (unsigned int a = 0; a < dim; ++a)
+            places[a] = (places[a] - lower[a]) * (1. / width);
+          const unsigned int below = simd::bits_of(ground.distances(cell.cell, places) < 0.);
+          for (unsigned int l = 0; l < n; ++l)
+            if (below >> l & 1)
+              {
+                Point<dim> &location        = cell.location_of(indices[l]);
+                const SurfaceView<dim> view = ground.view(cell.cell, Point<dim>((location - lower) / width));
+                move_out_of_ground(grid, closed_faces, view.normal, inside * width - view.distance, location);
+              }
+        });
+      }
+  }
+
   template void clamp_to_box(const BackgroundGrid<2> &, const std::uint8_t, PointSet<2> &);
   template void clamp_to_box(const BackgroundGrid<3> &, const std::uint8_t, PointSet<3> &);
   template void
   move_out_of_ground(const BackgroundGrid<2> &, const std::uint8_t, const Tensor<1, 2> &, double, Point<2> &);
   template void
   move_out_of_ground(const BackgroundGrid<3> &, const std::uint8_t, const Tensor<1, 3> &, double, Point<3> &);
+  template void move_out_of_ground(const BackgroundGrid<2> &,
+                                   const RigidBoundary<2> &,
+                                   const double,
+                                   const std::uint8_t,
+                                   PointSet<2> &);
+  template void move_out_of_ground(const BackgroundGrid<3> &,
+                                   const RigidBoundary<3> &,
+                                   const double,
+                                   const std::uint8_t,
+                                   PointSet<3> &);
 } // namespace scree

@@ -130,50 +130,38 @@ namespace scree
   template <int dim>
   std::unique_ptr<Scheme<dim>> Scene<dim>::make_scheme(TimerOutput &timer)
   {
-    if (!parameters.has_water)
-      return std::make_unique<ExplicitScheme<dim>>(grid,
-                                                   forcing,
-                                                   parameters.transfer,
-                                                   parameters.stabilisation,
-                                                   bodies,
-                                                   loads,
-                                                   surroundings_of_groups(),
-                                                   groups.pairs,
-                                                   timer);
-    return std::make_unique<TwoPhaseScheme<dim>>(
-        grid,
-        constraints,
-        *water_walls,
-        forcing,
-        parameters.transfer,
-        parameters.stabilisation,
-        parameters.water,
-        parameters.pressure,
-        bodies,
-        points_per_cell().first,
-        water,
-        loads,
-        cut_cells.get(),
-        cut_cells ? std::make_unique<CutCellContact<dim>>(
-                        grid, *wet_ground, rigid_surfaces(), *cut_cells, parameters.pressure.relative_tolerance)
-                  : nullptr,
-        inflows,
-        timer);
+    const Model<dim> model{ grid,
+                            forcing,
+                            parameters.transfer,
+                            parameters.stabilisation,
+                            bodies,
+                            loads,
+                            rigid_surfaces(),
+                            constraints_of_groups(),
+                            groups.pairs,
+                            water,
+                            parameters.water,
+                            parameters.pressure,
+                            water_walls.get(),
+                            inflows,
+                            wet_ground.get(),
+                            cut_cells.get(),
+                            points_per_cell().first };
+    if (parameters.has_water)
+      return std::make_unique<TwoPhaseScheme<dim>>(model, timer);
+    return std::make_unique<ExplicitScheme<dim>>(model, timer);
   }
 
 
   template <int dim>
-  std::vector<GroupSurroundings<dim>> Scene<dim>::surroundings_of_groups()
+  std::vector<Constraints<dim> *> Scene<dim>::constraints_of_groups()
   {
-    std::vector<GroupSurroundings<dim>> result(groups.n);
+    std::vector<Constraints<dim> *> result;
     for (unsigned int g = 0; g < groups.n; ++g)
       {
         const bool sticks_to_rigid = std::any_of(
             bodies.begin(), bodies.end(), [g](const SoilBody<dim> &body) { return body.is_rigid && body.group == g; });
-        result[g].constraints = walls_alone && !sticks_to_rigid ? walls_alone.get() : &constraints;
-        if (parameters.n_rigid_surfaces() > 0)
-          result[g].bed = std::make_unique<PointContact<dim>>(
-              grid, *result[g].constraints, rigid_surfaces(), forcing.gravity().norm(), bodies, g);
+        result.push_back(walls_alone && !sticks_to_rigid ? walls_alone.get() : &constraints);
       }
     return result;
   }

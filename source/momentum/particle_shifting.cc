@@ -20,8 +20,9 @@ namespace scree
       , pressure(pressure)
       , gravity(gravity)
       , rate(rate)
-      , shifts(grid.numbering())
   {
+    if (rate > 0.)
+      shifts.emplace(grid.numbering());
     reinit();
   }
 
@@ -29,10 +30,12 @@ namespace scree
   template <int dim>
   void ParticleShifting<dim>::reinit()
   {
+    if (rate == 0.)
+      return;
     pressure.reinit(volume_inside);
     pressure.reinit(source);
     pressure.reinit(potential);
-    shifts.reinit();
+    shifts->reinit();
   }
 
 
@@ -84,26 +87,26 @@ namespace scree
                                           const PoreField<dim> &pores,
                                           const double time_step)
   {
-    shifts.clear();
+    shifts->clear();
     for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       if (const MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
         {
-          shifts.activate_cell(cell.cell);
+          shifts->activate_cell(cell.cell);
           mixture.add_pressure_gradient(record,
                                         multilinear_of<dim>(pressure.at_corners(potential, cell.cell)),
                                         -time_step * time_step,
-                                        shifts,
+                                        *shifts,
                                         0,
-                                        shifts,
+                                        *shifts,
                                         dim);
         }
-    shifts.add_contributions();
+    shifts->add_contributions();
     const double most = 0.1 * grid.cell_size();
-    for (const unsigned int node : shifts.active_nodes())
+    for (const unsigned int node : shifts->active_nodes())
       {
         const double mass = water_field[node][NodalField<dim>::mass];
         const bool moves  = mass > 0. && !(pores[node][PoreField<dim>::grain_fraction] > 0.);
-        double *values    = shifts[node] + dim;
+        double *values    = (*shifts)[node] + dim;
         Tensor<1, dim> shift;
         for (unsigned int c = 0; c < dim && moves; ++c)
           shift[c] = std::clamp(values[c] / mass, -most, most);
@@ -112,7 +115,7 @@ namespace scree
         for (unsigned int c = 0; c < dim; ++c)
           values[c] = shift[c];
       }
-    shifts.update_ghosts();
+    shifts->update_ghosts();
   }
 
 
@@ -124,6 +127,8 @@ namespace scree
                                     const double time_step,
                                     Budget<dim> &balance)
   {
+    if (rate == 0.)
+      return;
     if (water.own_points() == nullptr)
       return; // Water that rides on the soil's points moves with them.
     if (!find_potential(mixture, time_step, balance))
@@ -148,7 +153,7 @@ namespace scree
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int c = 0; c < dim; ++c)
-              of_nodes[c][r][i] = shifts[grid.nodes(cell.cell)[r * n + i]][dim + c];
+              of_nodes[c][r][i] = (*shifts)[grid.nodes(cell.cell)[r * n + i]][dim + c];
         for_each_record(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
           Tensor<1, dim> shift;

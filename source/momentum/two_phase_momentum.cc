@@ -83,12 +83,14 @@ namespace scree
                                           const Constraints<dim> &constraints,
                                           const WallGaps<dim> &wall_gaps,
                                           const BodyForces<dim> &forcing,
-                                          const double water_density)
+                                          const double water_density,
+                                          TimerOutput &timer)
       : constraints(constraints)
       , wall_gaps(wall_gaps)
       , forcing(forcing)
       , grid(grid)
       , water_density(water_density)
+      , timer(timer)
       , friction(constraints)
       , pressure_impulses(grid.numbering())
   {
@@ -244,6 +246,7 @@ namespace scree
   template <int dim>
   void TwoPhaseMomentum<dim>::predict(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance)
   {
+    const TimedPart part(timer, TimerSection::nodes);
     friction.clear();
     for (const unsigned int node : nodes.pores.active_nodes())
       {
@@ -262,6 +265,8 @@ namespace scree
         write_motion(nodes.soil[node], before.soil, after.soil);
         write_motion(nodes.water[node], before.water, after.water);
       }
+    nodes.update_velocity_ghosts();
+    nodes.pores.update_ghosts();
   }
 
 
@@ -320,6 +325,7 @@ namespace scree
                                       const double time_step,
                                       Budget<dim> &balance)
   {
+    const TimedPart part(timer, TimerSection::nodes);
     sum_pressure_impulses(mixture, pressure, time_step);
     for (const unsigned int node : nodes.pores.active_nodes())
       {
@@ -342,6 +348,7 @@ namespace scree
         // The work of an impulse, as at walls.
         balance.drag_dissipation += 0.5 * pair.drag * slip * (before.water - before.soil + slip);
       }
+    nodes.update_velocity_ghosts();
   }
 
 

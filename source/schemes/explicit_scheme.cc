@@ -9,35 +9,43 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  ExplicitScheme<dim>::ExplicitScheme(const BackgroundGrid<dim> &grid,
-                                      const BodyForces<dim> &forcing,
-                                      const TransferParameters &transfer,
-                                      const StabilisationParameters &stabilisation,
-                                      std::list<SoilBody<dim>> &bodies,
-                                      std::list<SurfaceLoad<dim>> &loads,
-                                      std::vector<GroupSurroundings<dim>> surroundings,
-                                      const std::vector<ContactPair> &pairs,
-                                      TimerOutput &timer)
-      : bodies(bodies)
-      , forcing(forcing)
+  ExplicitScheme<dim>::Group::Group(const Model<dim> &model,
+                                    const unsigned int number,
+                                    WallGaps<dim> &wall_gaps,
+                                    TimerOutput &timer)
+      : soil(model.grid, model.transfer, model.stabilisation, model.bodies, model.loads, number)
+      , wall_gaps(wall_gaps)
+      , momentum(*model.constraints[number], wall_gaps, model.forces)
+      , contact(model.grid,
+                *model.constraints[number],
+                model.surfaces,
+                model.forces.gravity().norm(),
+                model.bodies,
+                number,
+                timer)
+  {
+    wall_gaps.add({ &soil.field });
+  }
+
+
+  template <int dim>
+  ExplicitScheme<dim>::ExplicitScheme(const Model<dim> &model, TimerOutput &timer)
+      : bodies(model.bodies)
+      , forces(model.forces)
+      , meets_surfaces(!model.surfaces.empty())
       , timer(timer)
   {
     std::vector<BodyGroup<dim>> at_nodes;
-    for (auto &around : surroundings)
+    for (unsigned int number = 0; number < model.constraints.size(); ++number)
       {
-        const unsigned int number = groups.size();
-        WallGaps<dim> &gaps       = gaps_of(grid, *around.constraints);
-        groups.push_back({ SolidPhase<dim>(grid, transfer, stabilisation, bodies, loads, number),
-                           &gaps,
-                           ExplicitUpdate<dim>(*around.constraints, gaps, forcing),
-                           std::move(around.bed) });
-        gaps.add({ &groups.back().soil.field });
-        at_nodes.push_back({ number, &groups.back().soil.field, around.constraints });
+        Constraints<dim> &constraints = *model.constraints[number];
+        Group &group                  = groups.emplace_back(model, number, gaps_of(model.grid, constraints), timer);
+        at_nodes.push_back({ number, &group.soil.field, &constraints });
       }
-    for (const ContactPair &pair : pairs)
-      contacts.emplace_back(grid, at_nodes[pair.first], at_nodes[pair.second], pair, bodies);
+    for (const ContactPair &pair : model.contacts)
+      contacts.emplace_back(model.grid, at_nodes[pair.first], at_nodes[pair.second], pair, bodies);
     if (groups.size() > 1)
-      mean_field = std::make_unique<NodalField<dim>>(grid);
+      mean_field = std::make_unique<NodalField<dim>>(model.grid);
   }
 
 
@@ -59,8 +67,7 @@ namespace scree
     for (Group &group : groups)
       {
         group.soil.reinit();
-        if (group.bed)
-          group.bed->reinit();
+        group.contact.reinit();
       }
     for (auto &contact : contacts)
       contact.reinit();
@@ -87,29 +94,38 @@ namespace scree
       gaps.clear();
     for (const auto &body : bodies)
       if (!body.is_rigid)
-        std::next(groups.begin(), body.group)->wall_gaps->add(body.points, body.spacing);
+        std::next(groups.begin(), body.group)->wall_gaps.add(body.points, body.spacing);
+  }
+
+
+  template <int dim>
+  void ExplicitScheme<dim>::sum_at_nodes(const double time_step)
+  {
+    {
+      const TimedPart part(timer, TimerSection::points_to_grid);
+      for (Group &group : groups)
+        {
+          group.soil.add_loads(0.); // Leapfrog: loads are those of the start of the step.
+          group.soil.field.add_contributions();
+        }
+    }
+    const TimedPart part(timer, TimerSection::nodes);
+    for (WallGaps<dim> &gaps : wall_gaps)
+      gaps.release(forces, time_step);
   }
 
 
   template <int dim>
   void ExplicitScheme<dim>::solve(const double time_step, StepReport<dim> &report)
   {
-    for (Group &group : groups)
-      {
-        const TimedPart part(timer, TimerSection::points_to_grid);
-        group.soil.add_loads(0.); // Velocity and place leap over each other: the acceleration is that of the start.
-        group.soil.field.add_contributions();
-      }
-    for (WallGaps<dim> &gaps : wall_gaps)
-      {
-        const TimedPart part(timer, TimerSection::nodes);
-        gaps.release(forcing, time_step);
-      }
+    Budget<dim> &budget = report.balance;
+
+    sum_at_nodes(time_step);
     for (Group &group : groups)
       {
         const TimedPart part(timer, TimerSection::nodes);
-        report.balance += group.step.solve(group.soil.field, time_step);
-        report.balance.load_impulse += group.soil.load_impulse(time_step);
+        budget += group.momentum.solve(group.soil.field, time_step); // m v = m v + dt f
+        budget.load_impulse += group.soil.load_impulse(time_step);
         group.soil.field.update_ghosts();
       }
     for (auto &contact : contacts)
@@ -117,24 +133,18 @@ namespace scree
         const TimedPart part(timer, TimerSection::contacts);
         contact.find();
       }
-    solve_contacts(time_step, report);
-    bool any_bed = false;
+    solve_contacts(time_step, budget);
     for (Group &group : groups)
-      if (group.bed)
-        {
-          const TimedPart part(timer, TimerSection::bed);
-          group.bed->solve(group.soil.field, time_step, report.balance);
-          any_bed = true;
-        }
-    if (any_bed)
-      solve_contacts(time_step, report); // The bed has stopped some of what lies on it.
+      group.contact.solve(group.soil.field, time_step, budget);
+    if (meets_surfaces)
+      solve_contacts(time_step, budget); // The surfaces have stopped some of what lies on them.
     for (const auto &contact : contacts)
-      contact.count_dissipation(report.balance);
+      contact.count_dissipation(budget);
   }
 
 
   template <int dim>
-  void ExplicitScheme<dim>::solve_contacts(const double time_step, StepReport<dim> &report)
+  void ExplicitScheme<dim>::solve_contacts(const double time_step, Budget<dim> &budget)
   {
     if (contacts.empty())
       return;
@@ -143,7 +153,7 @@ namespace scree
     const unsigned int n_sweeps = contacts.size() == 1 ? 1 : 4;
     for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
       for (auto &contact : contacts)
-        contact.solve(time_step, report.balance);
+        contact.solve(time_step, budget);
     for (Group &group : groups)
       group.soil.field.update_ghosts();
   }

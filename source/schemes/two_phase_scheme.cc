@@ -9,59 +9,52 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  TwoPhaseScheme<dim>::TwoPhaseScheme(const BackgroundGrid<dim> &grid,
-                                      Constraints<dim> &constraints,
-                                      const WaterBoundaryConditions<dim> &water_walls,
-                                      const BodyForces<dim> &forcing,
-                                      const TransferParameters &transfer_parameters,
-                                      const StabilisationParameters &stabilisation,
-                                      const WaterParameters &water_parameters,
-                                      const PressureParameters &pressure_parameters,
-                                      std::list<SoilBody<dim>> &bodies,
-                                      const unsigned int soil_points,
-                                      std::list<WaterPhase<dim>> &water,
-                                      std::list<SurfaceLoad<dim>> &loads,
-                                      const CutCells<dim> *cut_cells,
-                                      std::unique_ptr<CutCellContact<dim>> bed,
-                                      const std::list<Inflow<dim>> &inflows,
-                                      TimerOutput &timer)
-      : grid(grid)
-      , forcing(forcing)
-      , water_density(water_parameters.density)
-      , fluidisation_porosity(water_parameters.fluidisation_porosity)
-      , water(water)
+  TwoPhaseScheme<dim>::TwoPhaseScheme(const Model<dim> &model, TimerOutput &timer)
+      : grid(model.grid)
+      , forces(model.forces)
+      , water_density(model.water_parameters.density)
+      , fluidisation_porosity(model.water_parameters.fluidisation_porosity)
+      , water(model.water)
       // Without gravity nothing falls; where water is compressible, closing is strain; what soil gains would be water
       // if its points carry that.
       , limits_volumetric_strain(
-            stabilisation.f_bar_kind() != FBar::none && forcing.gravity().norm() > 0. &&
-            water_parameters.bulk_modulus == 0. &&
+            model.stabilisation.f_bar_kind() != FBar::none && forces.gravity().norm() > 0. &&
+            model.water_parameters.bulk_modulus == 0. &&
             std::all_of(water.begin(), water.end(), [](const auto &one) { return one.carrier() == nullptr; }))
-      , faces_closed_to_soil(constraints.faces_closed_to_soil())
-      , faces_closed_to_water(water_walls.closed_faces())
-      , inflows(inflows)
+      , faces_closed_to_soil(model.constraints[0]->faces_closed_to_soil())
+      , faces_closed_to_water(model.water_walls->closed_faces())
+      , inflows(model.inflows)
       , timer(timer)
-      , soil(grid, transfer_parameters, stabilisation, bodies, loads)
+      , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads)
       , transfer(grid,
-                 transfer_parameters,
-                 water_parameters,
-                 pressure_parameters.uses_pressure_gradient() ? 1. : 0.)
-      , mixture(grid, soil_points, cut_cells)
+                 model.transfer,
+                 model.water_parameters,
+                 model.pressure_parameters.uses_pressure_gradient() ? 1. : 0.)
+      , mixture(grid, model.soil_points, model.cut_cells)
       , pores(grid)
       , water_field(grid)
-      , pressure(grid, water_walls, pressure_parameters, water_parameters, forcing.gravity(), cut_cells, timer)
-      , wall_gaps(grid, constraints)
-      , spacing(grid.cell_size() / std::min(soil_points, water_parameters.points_per_cell))
-      , step(grid, constraints, wall_gaps, forcing, water_density)
-      , bed(std::move(bed))
+      , pressure(grid,
+                 *model.water_walls,
+                 model.pressure_parameters,
+                 model.water_parameters,
+                 forces.gravity(),
+                 model.cut_cells,
+                 timer)
+      , wall_gaps(grid, *model.constraints[0])
+      , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
+      , momentum(grid, *model.constraints[0], wall_gaps, forces, water_density, timer)
+      , viscosity(grid, model.water_parameters, model.bodies, water, timer)
+      , contact(grid,
+                model.ground,
+                model.surfaces,
+                model.cut_cells,
+                model.pressure_parameters.relative_tolerance,
+                timer)
+      , shifting(grid, *model.constraints[0], pressure, forces.gravity(), model.water_parameters.volume_correction_rate)
   {
     wall_gaps.add({ &soil.field, &water_field });
-    for (const auto &body : bodies)
+    for (const auto &body : model.bodies)
       shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
-    if (water_parameters.viscosity > 0)
-      viscosity = std::make_unique<ViscousStep<dim>>(grid, water_parameters, bodies, water);
-    if (water_parameters.volume_correction_rate > 0)
-      volume_correction = std::make_unique<ParticleShifting<dim>>(
-          grid, constraints, pressure, forcing.gravity(), water_parameters.volume_correction_rate);
   }
 
 
@@ -74,13 +67,10 @@ namespace scree
     water_field.reinit();
     pressure.reinit();
     wall_gaps.reinit();
-    step.reinit();
-    if (viscosity)
-      viscosity->reinit();
-    if (bed)
-      bed->reinit();
-    if (volume_correction)
-      volume_correction->reinit();
+    momentum.reinit();
+    viscosity.reinit();
+    contact.reinit();
+    shifting.reinit();
   }
 
 
@@ -88,7 +78,7 @@ namespace scree
   void TwoPhaseScheme<dim>::follow_ground()
   {
     pressure.follow_ground();
-    bed->follow();
+    contact.follow();
   }
 
 
@@ -181,74 +171,52 @@ namespace scree
 
 
   template <int dim>
+  void TwoPhaseScheme<dim>::sum_at_nodes(const double time_step)
+  {
+    const TimedPart part(timer, TimerSection::nodes);
+    complete_pores();
+    pressure.locate(mixture);
+    add_pressure_forces();
+    soil.add_loads(time_step); // Pressure is implicit, so the load is that of the step's end.
+    soil.field.add_contributions();
+    water_field.add_contributions();
+    pores.add_contributions();
+    wall_gaps.release(forces, time_step);
+  }
+
+
+  template <int dim>
   void TwoPhaseScheme<dim>::solve(const double time_step, StepReport<dim> &report)
   {
     const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
+    Budget<dim> &budget = report.balance;
+
+    sum_at_nodes(time_step);
+    momentum.predict(nodes, time_step, budget); // A v* = m v + dt (f - G p^n)
+    contact.begin_step(mixture, pressure.free_surface());
+    viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
+    contact.predict(nodes, mixture, momentum, time_step, budget);
+    pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, budget); // L dp = -div u**
+    momentum.correct(nodes, mixture, pressure, time_step, budget);                             // v = v** - dt A^-1 G dp
+    contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);
+    end_step(nodes, time_step, budget);
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+  {
     {
       const TimedPart part(timer, TimerSection::nodes);
-      complete_pores();
-      pressure.locate(mixture);
-      add_pressure_forces();
-      soil.add_loads(time_step); // p is that of the end, and the load is what it bears.
-      soil.field.add_contributions();
-      water_field.add_contributions();
-      pores.add_contributions();
-      wall_gaps.release(forcing, time_step);
-      step.predict(nodes, time_step, report.balance);
-      soil.field.update_ghosts();
-      water_field.update_ghosts();
-      pores.update_ghosts();
-    }
-    if (bed)
-      {
-        const TimedPart part(timer, TimerSection::bed);
-        bed->begin_step(mixture, pressure.free_surface());
-      }
-    if (viscosity)
-      {
-        const TimedPart part(timer, TimerSection::nodes);
-        viscosity->apply(nodes, step, bed.get(), time_step, report.balance);
-        soil.field.update_ghosts();
-        water_field.update_ghosts();
-      }
-    if (bed)
-      {
-        const TimedPart part(timer, TimerSection::bed);
-        bed->predict(nodes, mixture, step, time_step, report.balance);
-        soil.field.update_ghosts();
-        water_field.update_ghosts();
-      }
-    pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, report.balance);
-    {
-      const TimedPart part(timer, TimerSection::nodes);
-      step.correct(nodes, mixture, pressure, time_step, report.balance);
-      soil.field.update_ghosts();
-      water_field.update_ghosts();
-    }
-    if (bed)
-      {
-        const TimedPart part(timer, TimerSection::bed);
-        bed->correct(nodes, mixture, step, pressure.free_surface(), time_step, report.balance);
-        soil.field.update_ghosts();
-        water_field.update_ghosts();
-        bed->count(nodes, report.balance);
-      }
-    {
-      const TimedPart part(timer, TimerSection::nodes);
-      if (viscosity)
-        viscosity->count_dissipation(nodes, report.balance);
+      viscosity.count_dissipation(nodes, budget);
       pressure.accept_change(mixture, soil.field, water_field, pores);
       if (limits_volumetric_strain)
         pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
       // The predictor has counted the load among the forces.
-      report.balance.load_impulse += soil.load_impulse(time_step);
-      report.balance.pressure_impulse -= soil.load_impulse(time_step);
+      budget.load_impulse += soil.load_impulse(time_step);
+      budget.pressure_impulse -= soil.load_impulse(time_step);
     }
-    if (bed)
-      {
-        const TimedPart part(timer, TimerSection::bed);
-        bed->count_pressure(mixture, pressure, time_step, report.balance);
-      }
+    contact.count_pressure(mixture, pressure, time_step, budget);
   }
 
 
@@ -292,28 +260,30 @@ namespace scree
               pressure.fades() ? [this](const unsigned int cell) { return pressure.forgotten_of(cell); }
                                : ForgottenOfCell<dim>(),
               time_step));
-          if (volume_correction)
-            volume_correction->apply(one, mixture, water_field, pores, time_step, report.balance);
-          if (PointSet<dim> *own = one.own_points())
-            {
-              clamp_to_box(grid, faces_closed_to_water, *own);
-              report.n_updates += own->n_points();
-            }
+          shifting.apply(one, mixture, water_field, pores, time_step, report.balance);
+          if (const PointSet<dim> *own = one.own_points())
+            report.n_updates += own->n_points();
         }
     }
-    if (bed)
-      {
-        const TimedPart part(timer, TimerSection::bed);
-        // Nodes may be faster than points, and volume correction shifts by a tenth of a cell along each axis.
-        const double farthest = 0.25 * grid.cell_size() + 2. * time_step * report.speeds.points;
-        std::vector<PointSet<dim> *> of_soil;
-        soil.append_point_sets(of_soil);
-        for (PointSet<dim> *points : of_soil)
-          bed->project_to_boundary(*points, farthest, faces_closed_to_soil);
-        for (auto &one : water)
-          if (PointSet<dim> *own = one.own_points())
-            bed->project_to_boundary(*own, farthest, faces_closed_to_water);
-      }
+    project_to_boundary(time_step, report.speeds.points);
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::project_to_boundary(const double time_step, const double largest_speed)
+  {
+    // Nodes may be faster than points, and shifting moves by a tenth of a cell along each axis.
+    const double farthest = 0.25 * grid.cell_size() + 2. * time_step * largest_speed;
+    for (auto &one : water)
+      if (PointSet<dim> *own = one.own_points())
+        clamp_to_box(grid, faces_closed_to_water, *own);
+    std::vector<PointSet<dim> *> of_soil;
+    soil.append_point_sets(of_soil);
+    for (PointSet<dim> *points : of_soil)
+      contact.project_to_boundary(*points, farthest, faces_closed_to_soil);
+    for (auto &one : water)
+      if (PointSet<dim> *own = one.own_points())
+        contact.project_to_boundary(*own, farthest, faces_closed_to_water);
   }
 
 

@@ -37,25 +37,27 @@ namespace scree
   ViscousStep<dim>::ViscousStep(const BackgroundGrid<dim> &grid,
                                 const WaterParameters &parameters,
                                 const std::list<SoilBody<dim>> &bodies,
-                                const std::list<WaterPhase<dim>> &water)
+                                const std::list<WaterPhase<dim>> &water,
+                                TimerOutput &timer)
       : grid(grid)
       , bodies(bodies)
       , water(water)
       , water_viscosity(parameters.viscosity)
+      , timer(timer)
       , force(grid, parameters)
-      , soil_motion(grid)
-      , water_motion(grid)
-      , soil_impulses(grid)
-      , water_impulses(grid)
   {
+    if (water_viscosity > 0.)
+      for (std::optional<NodalField<dim>> *field : { &soil_motion, &water_motion, &soil_impulses, &water_impulses })
+        field->emplace(grid);
   }
 
 
   template <int dim>
   void ViscousStep<dim>::reinit()
   {
-    for (NodalField<dim> *field : { &soil_motion, &water_motion, &soil_impulses, &water_impulses })
-      field->reinit();
+    for (std::optional<NodalField<dim>> *field : { &soil_motion, &water_motion, &soil_impulses, &water_impulses })
+      if (*field)
+        (*field)->reinit();
   }
 
 
@@ -87,16 +89,16 @@ namespace scree
                                        const double ground_share,
                                        const double time_step)
   {
-    soil_impulses.clear();
-    water_impulses.clear();
+    soil_impulses->clear();
+    water_impulses->clear();
     for (const Viscous &one : viscous)
       force.add(one.points,
                 one.coefficients,
                 one.is_soil ? soil_velocity : water_velocity,
-                one.is_soil ? soil_impulses : water_impulses);
+                one.is_soil ? *soil_impulses : *water_impulses);
     if (bed)
-      bed->add_viscous_force(water_velocity, ground_share, water_viscosity, water_impulses);
-    for (NodalField<dim> *field : { &soil_impulses, &water_impulses })
+      bed->add_viscous_force(water_velocity, ground_share, water_viscosity, *water_impulses);
+    for (NodalField<dim> *field : { &*soil_impulses, &*water_impulses })
       {
         field->add_contributions();
         for (const unsigned int node : active)
@@ -112,18 +114,18 @@ namespace scree
     for (unsigned int i = 0; i < active.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
         {
-          soil_motion[active[i]][NodalField<dim>::velocity + c]  = velocity[i].soil[c];
-          water_motion[active[i]][NodalField<dim>::velocity + c] = velocity[i].water[c];
+          (*soil_motion)[active[i]][NodalField<dim>::velocity + c]  = velocity[i].soil[c];
+          (*water_motion)[active[i]][NodalField<dim>::velocity + c] = velocity[i].water[c];
         }
-    soil_motion.update_ghosts();
-    water_motion.update_ghosts();
+    soil_motion->update_ghosts();
+    water_motion->update_ghosts();
   }
 
 
   template <int dim>
   SoilAndWater<dim> ViscousStep<dim>::impulses_at(const unsigned int node) const
   {
-    return { part(soil_impulses, node, NodalField<dim>::force), part(water_impulses, node, NodalField<dim>::force) };
+    return { part(*soil_impulses, node, NodalField<dim>::force), part(*water_impulses, node, NodalField<dim>::force) };
   }
 
 
@@ -159,7 +161,7 @@ namespace scree
                     ExcMessage("The viscous stress of a step was not found in 5000 iterations. Remedies: a smaller "
                                "'Viscosity' in subsection Water, or a smaller 'Maximum time step'."));
         set_motion(direction);
-        find_impulses(soil_motion, water_motion, bed, 0., time_step);
+        find_impulses(*soil_motion, *water_motion, bed, 0., time_step);
         Vector image(active.size()); // (A + dt K) direction
         for (unsigned int i = 0; i < active.size(); ++i)
           {
@@ -189,10 +191,13 @@ namespace scree
   template <int dim>
   void ViscousStep<dim>::apply(const MixtureNodes<dim> &nodes,
                                const TwoPhaseMomentum<dim> &step,
-                               CutCellContact<dim> *bed,
+                               CutCellContact<dim> &bed,
                                const double time_step,
                                Budget<dim> &balance)
   {
+    if (water_viscosity == 0.)
+      return;
+    const TimedPart part(timer, TimerSection::nodes);
     find_points();
     active = nodes.pores.active_nodes();
     pairs.clear();
@@ -200,25 +205,25 @@ namespace scree
       pairs.push_back(step.drag_block_at(nodes, node));
     constexpr double stable = 2.; // beyond, an explicit step turns the fastest motion round and makes it grow
     const bool is_long      = time_step * largest_rate() > stable;
-    find_impulses(nodes.soil, nodes.water, is_long ? bed : nullptr, 1., time_step);
+    find_impulses(nodes.soil, nodes.water, is_long ? &bed : nullptr, 1., time_step);
     if (is_long)
       {
         Vector velocity;
         for (const unsigned int node : active)
           velocity.push_back(velocities(nodes, node));
-        const unsigned int n_iterations = solve(velocity, bed, time_step);
+        const unsigned int n_iterations = solve(velocity, &bed, time_step);
         if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) == 0)
           balance.n_viscous_iterations += n_iterations;
         // What the solve leaves would not add up to nothing.
         set_motion(velocity);
-        find_impulses(soil_motion, water_motion, bed, 1., time_step);
-        if (bed)
-          bed->take_viscous_force(water_motion, water_viscosity, time_step);
+        find_impulses(*soil_motion, *water_motion, &bed, 1., time_step);
+        bed.take_viscous_force(*water_motion, water_viscosity, time_step);
       }
     for (const unsigned int node : active)
       step.push(nodes, node, impulses_at(node), balance);
-    if (is_long && bed && bed->no_slip()) // which counts its own impulses
-      find_impulses(soil_motion, water_motion, nullptr, 1., time_step);
+    nodes.update_velocity_ghosts();
+    if (is_long && bed.no_slip()) // which counts its own impulses
+      find_impulses(*soil_motion, *water_motion, nullptr, 1., time_step);
   }
 
 

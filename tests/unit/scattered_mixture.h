@@ -45,7 +45,8 @@ struct ScatteredMixture
       , constraints(grid, walls, &water_walls)
       , forcing(grid, std::vector<double>(dim, 0.), scree::BodyForceParameters(), scree::BaseMotionParameters())
       , wall_gaps(grid, constraints)
-      , step(grid, constraints, wall_gaps, forcing, 1000.)
+      , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
+      , step(grid, constraints, wall_gaps, forcing, 1000., timer)
       , soil(grid)
       , water(grid)
       , pores(grid)
@@ -90,6 +91,7 @@ struct ScatteredMixture
   scree::Constraints<dim> constraints;
   const scree::BodyForces<dim> forcing;
   const scree::WallGaps<dim> wall_gaps;
+  dealii::TimerOutput timer;
   const scree::TwoPhaseMomentum<dim> step;
   scree::NodalField<dim> soil, water;
   scree::PoreField<dim> pores;

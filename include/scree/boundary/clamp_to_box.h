@@ -3,6 +3,7 @@
 #define scree_boundary_clamp_to_box_h
 
 #include <scree/mesh/background_grid.h>
+#include <scree/mesh/rigid_boundary.h>
 #include <scree/particles/point_set.h>
 
 namespace scree
@@ -23,6 +24,14 @@ namespace scree
                           const dealii::Tensor<1, dim> &normal,
                           double depth,
                           dealii::Point<dim> &place);
+
+  /// Does so with the points that have come below the ground. None has moved farther than `farthest`, m.
+  template <int dim>
+  void move_out_of_ground(const BackgroundGrid<dim> &grid,
+                          const RigidBoundary<dim> &ground,
+                          const double farthest,
+                          const std::uint8_t closed_faces,
+                          PointSet<dim> &points);
 } // namespace scree
 
 #endif

@@ -122,8 +122,8 @@ namespace scree
     /// Holds the nodes of rigid bodies, for soil that sticks to them. Collective.
     void hold_rigid_nodes();
 
-    /// What the groups of bodies that stick to each other meet.
-    std::vector<GroupSurroundings<dim>> surroundings_of_groups();
+    /// What holds the nodes of each group of bodies that stick to each other.
+    std::vector<Constraints<dim> *> constraints_of_groups();
 
     /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
     std::pair<unsigned int, unsigned int> points_per_cell() const;

@@ -5,6 +5,8 @@
 #include <scree/boundary/constraints.h>
 #include <scree/pressure/pore_pressure.h>
 
+#include <optional>
+
 namespace scree
 {
   /// Moves points of free water from where they crowd to where they are few: positions only, by a tenth of a cell at
@@ -14,7 +16,7 @@ namespace scree
   class ParticleShifting
   {
   public:
-    /// @param rate at which the surplus of a corner decays, 1/s, above 0
+    /// @param rate at which the surplus of a corner decays, 1/s; 0: points are not moved
     ParticleShifting(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      PorePressure<dim> &pressure,
@@ -56,7 +58,7 @@ namespace scree
     const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s
     CornerVector volume_inside, source, potential;
-    NodeValues<dim, 2 * dim> shifts; // of soil, not used, and of water, m
+    std::optional<NodeValues<dim, 2 * dim>> shifts; // of soil, not used, and of water, m
   };
 } // namespace scree
 

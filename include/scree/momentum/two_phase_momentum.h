@@ -19,18 +19,18 @@ namespace scree
                      const Constraints<dim> &constraints,
                      const WallGaps<dim> &wall_gaps,
                      const BodyForces<dim> &forcing,
-                     const double water_density);
+                     const double water_density,
+                     dealii::TimerOutput &timer);
 
     /// Fits what lives on the nodes to the grid's current partition. Collective.
     void reinit();
 
     /// A v* = m v + dt f, where A holds masses and drag, and f the force of the old pressure. `nodes` hold the sums of
-    /// all ranks before, and velocities and their change afterwards, without ghosts; the pores then hold drag times
-    /// step, and the fraction of grains.
+    /// all ranks before, and velocities and their change afterwards; the pores then hold drag times step, and the
+    /// fraction of grains. Collective.
     void predict(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
 
-    /// v = v* - dt A^-1 G dp with the change of `pressure`. `nodes` hold velocities afterwards, without ghosts.
-    /// Collective.
+    /// v = v* - dt A^-1 G dp with the change of `pressure`. Collective.
     void correct(const MixtureNodes<dim> &nodes,
                  const Mixture<dim> &mixture,
                  const PorePressure<dim> &pressure,
@@ -95,6 +95,7 @@ namespace scree
     const BodyForces<dim> &forcing;
     const BackgroundGrid<dim> &grid;
     const double water_density;
+    dealii::TimerOutput &timer;
     WallFriction<dim> friction;
     NodeValues<dim, 2 * dim> pressure_impulses; // of the change of pressure on soil and water, N s
   };

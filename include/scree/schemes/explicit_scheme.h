@@ -4,38 +4,20 @@
 
 #include <scree/contact/points/point_contact.h>
 #include <scree/contact/bodies/body_contact.h>
-#include <scree/contact/contact_parameters.h>
 #include <scree/momentum/explicit_update.h>
+#include <scree/schemes/model.h>
 #include <scree/schemes/scheme.h>
 #include <scree/momentum/solid_phase.h>
 
 namespace scree
 {
-  /// What bodies that stick to each other meet besides the others. What it refers to must live on.
-  template <int dim>
-  struct GroupSurroundings
-  {
-    Constraints<dim> *constraints;
-    std::unique_ptr<PointContact<dim>> bed; ///< contact with rigid surfaces; null without any
-  };
-
   /// Soil without water: one phase, explicit. Each group of bodies that stick to each other has a velocity field of its
   /// own; nearly always there is one.
   template <int dim>
   class ExplicitScheme : public Scheme<dim>
   {
   public:
-    /// @param groups by number
-    /// @param pairs of groups in contact
-    ExplicitScheme(const BackgroundGrid<dim> &grid,
-                   const BodyForces<dim> &forcing,
-                   const TransferParameters &transfer,
-                   const StabilisationParameters &stabilisation,
-                   std::list<SoilBody<dim>> &bodies,
-                   std::list<SurfaceLoad<dim>> &loads,
-                   std::vector<GroupSurroundings<dim>> groups,
-                   const std::vector<ContactPair> &pairs,
-                   dealii::TimerOutput &timer);
+    ExplicitScheme(const Model<dim> &model, dealii::TimerOutput &timer);
 
     void reinit() override;
     void read_points() override;
@@ -50,20 +32,26 @@ namespace scree
     /// Bodies that stick to each other.
     struct Group
     {
+      Group(const Model<dim> &model, const unsigned int number, WallGaps<dim> &wall_gaps, dealii::TimerOutput &timer);
+
       SolidPhase<dim> soil;
-      WallGaps<dim> *wall_gaps;
-      ExplicitUpdate<dim> step;
-      std::unique_ptr<PointContact<dim>> bed;
+      WallGaps<dim> &wall_gaps;
+      ExplicitUpdate<dim> momentum;
+      PointContact<dim> contact; ///< with rigid surfaces
     };
 
     /// Those at nodes with these constraints, which groups may share; made where there are none yet.
     WallGaps<dim> &gaps_of(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
 
+    /// Sums of all ranks, with the loads, and walls that act. Collective.
+    void sum_at_nodes(const double time_step);
+
     /// Impulses where groups meet.
-    void solve_contacts(const double time_step, StepReport<dim> &report);
+    void solve_contacts(const double time_step, Budget<dim> &budget);
 
     std::list<SoilBody<dim>> &bodies;
-    const BodyForces<dim> &forcing;
+    const BodyForces<dim> &forces;
+    const bool meets_surfaces; // rigid ones
     std::list<WallGaps<dim>> wall_gaps;
     std::list<Group> groups;
     std::list<BodyContact<dim>> contacts;

@@ -3,8 +3,8 @@
 #define scree_schemes_two_phase_scheme_h
 
 #include <scree/contact/cut_cells/cut_cell_contact.h>
-#include <scree/boundary/inflow/inflow.h>
 #include <scree/momentum/two_phase_momentum.h>
+#include <scree/schemes/model.h>
 #include <scree/schemes/scheme.h>
 #include <scree/momentum/solid_phase.h>
 #include <scree/viscosity/viscous_step.h>
@@ -17,35 +17,18 @@ namespace scree
   /// 2021; Yuan et al. 2023; two sets of points: Xie, Navas & Lopez-Querol 2024).
   ///
   /// 1. Predictor with the old pressure: A v* = m v + dt (f - G p^n), where A holds masses and drag (TwoPhaseMomentum).
-  ///    Then the viscosity, if there is any: (A + dt K) v** = A v* (ViscousStep).
+  ///    Then the viscosity: (A + dt K) v** = A v* (ViscousStep).
   /// 2. Pressure: L dp = -div[(1-n) v_s* + n v_w*], with the drag in L (PorePressure).
   /// 3. Corrector: v = v* - dt A^-1 G dp (TwoPhaseMomentum).
-  ///    Soil is stopped at the ground after the predictor, soil and water after the corrector (CutCellContact), if
-  ///    there is a bed.
-  /// 4. Points of free water leave where they crowd (ParticleShifting), if the case asks for it.
+  ///    Soil is stopped at the ground after the predictor, soil and water after the corrector (CutCellContact).
+  /// 4. Points of free water leave where they crowd (ParticleShifting).
+  ///
+  /// What a case does not have, viscosity, ground or shifting, is an empty object, whose calls return at once.
   template <int dim>
   class TwoPhaseScheme : public Scheme<dim>
   {
   public:
-    /// @param soil_points see Mixture
-    /// @param cut_cells what the bed leaves of the cells, may be null, as `bed`
-    /// @param inflows of water are looked at
-    TwoPhaseScheme(const BackgroundGrid<dim> &grid,
-                   Constraints<dim> &constraints,
-                   const WaterBoundaryConditions<dim> &water_walls,
-                   const BodyForces<dim> &forcing,
-                   const TransferParameters &transfer,
-                   const StabilisationParameters &stabilisation,
-                   const WaterParameters &water_parameters,
-                   const PressureParameters &pressure_parameters,
-                   std::list<SoilBody<dim>> &bodies,
-                   const unsigned int soil_points,
-                   std::list<WaterPhase<dim>> &water,
-                   std::list<SurfaceLoad<dim>> &loads,
-                   const CutCells<dim> *cut_cells,
-                   std::unique_ptr<CutCellContact<dim>> bed,
-                   const std::list<Inflow<dim>> &inflows,
-                   dealii::TimerOutput &timer);
+    TwoPhaseScheme(const Model<dim> &model, dealii::TimerOutput &timer);
 
     void reinit() override;
     void follow_ground() override;
@@ -67,11 +50,21 @@ namespace scree
     /// The force of the old pressure on soil and water.
     void add_pressure_forces();
 
+    /// What the predictor starts from at the nodes: sums of all ranks, forces of loads and of the old pressure, walls
+    /// that act. Collective.
+    void sum_at_nodes(const double time_step);
+
+    /// Books what is known at the end of a step only, and fits the pressure to it. Collective.
+    void end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
+
+    /// Takes points back that have left through the box or the ground.
+    void project_to_boundary(const double time_step, const double largest_speed);
+
     /// Takes the stress from soil that is looser than entry Fluidisation porosity.
     void fluidise();
 
     const BackgroundGrid<dim> &grid;
-    const BodyForces<dim> &forcing;
+    const BodyForces<dim> &forces;
     const double water_density, fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
@@ -88,10 +81,10 @@ namespace scree
     PorePressure<dim> pressure;
     WallGaps<dim> wall_gaps;
     const double spacing; // of the points at the start, where they are widest apart, m
-    TwoPhaseMomentum<dim> step;
-    std::unique_ptr<ViscousStep<dim>> viscosity;              // null if there is none
-    std::unique_ptr<CutCellContact<dim>> bed;                 // null if there is none
-    std::unique_ptr<ParticleShifting<dim>> volume_correction; // null if the case does not ask for it
+    TwoPhaseMomentum<dim> momentum;
+    ViscousStep<dim> viscosity;
+    CutCellContact<dim> contact;
+    ParticleShifting<dim> shifting;
   };
 } // namespace scree
 

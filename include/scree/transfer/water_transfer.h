@@ -51,6 +51,13 @@ namespace scree
   {
     NodalField<dim> &soil, &water;
     PoreField<dim> &pores;
+
+    /// Ghosts get the velocities that their owners have. Collective.
+    void update_velocity_ghosts() const
+    {
+      soil.update_ghosts();
+      water.update_ghosts();
+    }
   };
 
   /// The pressure in a cell, Pa, and the part of it that the next step does not start from.

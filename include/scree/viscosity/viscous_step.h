@@ -6,6 +6,7 @@
 #include <scree/viscosity/viscous_force.h>
 
 #include <list>
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -22,17 +23,17 @@ namespace scree
     ViscousStep(const BackgroundGrid<dim> &grid,
                 const WaterParameters &parameters,
                 const std::list<SoilBody<dim>> &bodies,
-                const std::list<WaterPhase<dim>> &water);
+                const std::list<WaterPhase<dim>> &water,
+                dealii::TimerOutput &timer);
 
     /// Fits what lives on the nodes to the grid's current partition. Collective.
     void reinit();
 
-    /// Changes the predicted velocities of `nodes`, whose ghosts hold values. Collective; throws if the solve does not
-    /// converge.
-    /// @param bed null if there is none
+    /// Changes the predicted velocities of `nodes`, whose ghosts hold values before and after; nothing without
+    /// viscosity. Collective; throws if the solve does not converge.
     void apply(const MixtureNodes<dim> &nodes,
                const TwoPhaseMomentum<dim> &step,
-               CutCellContact<dim> *bed,
+               CutCellContact<dim> &bed,
                const double time_step,
                Budget<dim> &balance);
 
@@ -81,12 +82,13 @@ namespace scree
     const std::list<SoilBody<dim>> &bodies;
     const std::list<WaterPhase<dim>> &water;
     const double water_viscosity; // Pa s
+    dealii::TimerOutput &timer;
     const ViscousForce<dim> force;
     std::vector<Viscous> viscous;
-    std::vector<unsigned int> active;              // owned nodes on which points act
-    std::vector<DragBlock<dim>> pairs;             // A, of each of them
-    NodalField<dim> soil_motion, water_motion;     // velocities that K is applied to
-    NodalField<dim> soil_impulses, water_impulses; // N s, where NodalField has forces
+    std::vector<unsigned int> active;                             // owned nodes on which points act
+    std::vector<DragBlock<dim>> pairs;                            // A, of each of them
+    std::optional<NodalField<dim>> soil_motion, water_motion;     // velocities that K is applied to
+    std::optional<NodalField<dim>> soil_impulses, water_impulses; // N s, where NodalField has forces
   };
 } // namespace scree
 

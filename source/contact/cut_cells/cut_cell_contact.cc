@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/particles/batch_pointers.h>
 #include <scree/contact/cut_cells/cut_cell_contact.h>
 #include <scree/boundary/clamp_to_box.h>
 #include <scree/mixture/closures.h>
@@ -23,10 +22,11 @@ namespace scree
 
   template <int dim>
   CutCellContact<dim>::CutCellContact(const BackgroundGrid<dim> &grid,
-                                      const RigidBoundary<dim> &ground,
+                                      const RigidBoundary<dim> *ground,
                                       const std::vector<RigidSurface<dim>> &surfaces,
-                                      const CutCells<dim> &cut_cells,
-                                      const double relative_tolerance)
+                                      const CutCells<dim> *cut_cells,
+                                      const double relative_tolerance,
+                                      TimerOutput &timer)
       : grid(grid)
       , ground(ground)
       , surfaces(surfaces)
@@ -34,10 +34,13 @@ namespace scree
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , cut_cells(cut_cells)
       , relative_tolerance(relative_tolerance)
-      , contacts(grid, cut_cells)
+      , timer(timer)
       , any_holds_water(
             std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.no_slip; }))
   {
+    if (ground == nullptr)
+      return;
+    contacts.emplace(grid, *cut_cells);
     reinit();
   }
 
@@ -45,7 +48,7 @@ namespace scree
   template <int dim>
   unsigned int CutCellContact<dim>::find_surface(const CutFacet<dim> &segment, const Point<dim> &middle) const
   {
-    const GroundPart<dim> &part = ground.parts()[segment.part];
+    const GroundPart<dim> &part = ground->parts()[segment.part];
     unsigned int number         = 0;
     double nearest              = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < surfaces.size(); ++i)
@@ -67,7 +70,7 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::find_surfaces()
   {
-    const auto &segments       = cut_cells.segments();
+    const auto &segments       = cut_cells->segments();
     const FineCells<dim> &fine = grid.fine_cells();
     surface_numbers.resize(segments.size());
     middles.resize(segments.size());
@@ -85,8 +88,10 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::reinit()
   {
-    contacts.reinit();
-    of_segments.assign(cut_cells.segments().size(), OfSegment()); // The next step begins its search from nothing.
+    if (!contacts)
+      return;
+    contacts->reinit();
+    of_segments.assign(cut_cells->segments().size(), OfSegment()); // The next step begins its search from nothing.
     find_surfaces();
   }
 
@@ -94,10 +99,10 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::follow()
   {
-    const std::vector<unsigned int> &numbers = cut_cells.numbers_before();
+    const std::vector<unsigned int> &numbers = cut_cells->numbers_before();
     std::vector<OfSegment> now(numbers.size());
     for (unsigned int s = 0; s < numbers.size(); ++s)
-      if (numbers[s] != cut_cells.none)
+      if (numbers[s] != cut_cells->none)
         now[s] = of_segments[numbers[s]];
     of_segments = std::move(now);
     find_surfaces();
@@ -134,7 +139,7 @@ namespace scree
                                         const Tensor<1, dim> &base,
                                         const Tensor<1, dim> &first)
   {
-    const CutFacet<dim> &of_ground = cut_cells.segments()[segment];
+    const CutFacet<dim> &of_ground = cut_cells->segments()[segment];
     GroundContact<dim> contact{};
     contact.segment       = segment;
     contact.phase         = phase;
@@ -146,13 +151,13 @@ namespace scree
     contact.area   = of_ground.area;
     contact.normal = of_ground.normal;
     contact.speed =
-        mean_velocity(of_ground, phase == Phase::soil ? nodes.soil : nodes.water) - cut_cells.velocity(of_ground);
+        mean_velocity(of_ground, phase == Phase::soil ? nodes.soil : nodes.water) - cut_cells->velocity(of_ground);
     // What neither presses nor comes near is left alone.
     if (is_unilateral && contact.speed * contact.normal <= 0. && !(base * contact.normal > 0.))
       return;
     contact.base    = base;
     contact.impulse = contact.part(contact.holds(), first);
-    contacts.add(contact);
+    contacts->add(contact);
   }
 
 
@@ -162,23 +167,26 @@ namespace scree
                                     const double wanted,
                                     Budget<dim> &balance)
   {
-    largest_flow = std::max(largest_flow, contacts.flow());
+    largest_flow = std::max(largest_flow, contacts->flow());
     if (largest_flow == 0.)
       return;
-    contacts.find(nodes, step, wanted * largest_flow);
-    for (const GroundContact<dim> &contact : contacts.contacts())
+    contacts->find(nodes, step, wanted * largest_flow);
+    for (const GroundContact<dim> &contact : contacts->contacts())
       {
         OfSegment &taken = of_segments[contact.segment];
         (contact.phase == Phase::soil ? taken.soil : taken.water) += contact.impulse;
       }
-    contacts.take(nodes, step, balance);
+    contacts->take(nodes, step, balance);
   }
 
 
   template <int dim>
   void CutCellContact<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface)
   {
-    contacts.begin_step();
+    if (!contacts)
+      return;
+    const TimedPart part(timer, TimerSection::bed);
+    contacts->begin_step();
     for (OfSegment &segment : of_segments)
       segment.soil = segment.water = Tensor<1, dim>();
     if (!any_holds_water)
@@ -201,8 +209,8 @@ namespace scree
                                                     const double ground_share,
                                                     const double viscosity) const
   {
-    const CutFacet<dim> &segment  = cut_cells.segments()[s];
-    const Tensor<1, dim> velocity = mean_velocity(segment, motion) - ground_share * cut_cells.velocity(segment);
+    const CutFacet<dim> &segment  = cut_cells->segments()[s];
+    const Tensor<1, dim> velocity = mean_velocity(segment, motion) - ground_share * cut_cells->velocity(segment);
     return -viscosity * segment.area / (closures::slip_length * grid.cell_size()) * velocity;
   }
 
@@ -215,7 +223,7 @@ namespace scree
   {
     for (const unsigned int s : holding)
       {
-        const CutFacet<dim> &segment    = cut_cells.segments()[s];
+        const CutFacet<dim> &segment    = cut_cells->segments()[s];
         const Tensor<1, dim> of_segment = viscous_force(s, motion, ground_share, viscosity);
         const unsigned int *nodes       = grid.nodes(segment.cell);
         for (unsigned int i = 0; i < segment.shapes.size(); ++i)
@@ -241,7 +249,10 @@ namespace scree
                                     const double time_step,
                                     Budget<dim> &balance)
   {
-    contacts.clear();
+    if (!contacts)
+      return;
+    const TimedPart part(timer, TimerSection::bed);
+    contacts->clear();
     largest_flow = 0.;
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.soil_mass > 0. && !cell.is_rigid)
@@ -252,6 +263,7 @@ namespace scree
     project(nodes, step, relative_tolerance, balance);
     for (OfSegment &segment : of_segments)
       segment.predicted_soil = segment.soil / time_step;
+    nodes.update_velocity_ghosts();
   }
 
 
@@ -263,7 +275,10 @@ namespace scree
                                     const double time_step,
                                     Budget<dim> &balance)
   {
-    contacts.clear();
+    if (!contacts)
+      return;
+    const TimedPart part(timer, TimerSection::bed);
+    contacts->clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
       for_segments(cell.cell, [&](const unsigned int segment) {
         const OfSegment &known = of_segments[segment];
@@ -281,11 +296,13 @@ namespace scree
       segment.corrected_soil = segment.corrected_water = Tensor<1, dim>();
     constexpr double coarser = 10.; // the next predictor finds what is left; nothing at rest or in motion is worse
     project(nodes, step, coarser * relative_tolerance, balance);
-    for (const GroundContact<dim> &contact : contacts.contacts())
+    for (const GroundContact<dim> &contact : contacts->contacts())
       {
         OfSegment &found                                                              = of_segments[contact.segment];
         (contact.phase == Phase::soil ? found.corrected_soil : found.corrected_water) = contact.impulse / time_step;
       }
+    nodes.update_velocity_ghosts();
+    count(nodes, balance);
   }
 
 
@@ -298,7 +315,7 @@ namespace scree
         const OfSegment &taken = of_segments[s];
         if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
           continue;
-        const CutFacet<dim> &segment = cut_cells.segments()[s];
+        const CutFacet<dim> &segment = cut_cells->segments()[s];
         const unsigned int *of_cell  = grid.nodes(segment.cell);
         Tensor<1, dim> impulse;
         double dissipation = 0.;
@@ -326,7 +343,7 @@ namespace scree
         add(nodes.water, taken.water);
         if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
           {
-            const double work = impulse * cut_cells.velocity(segment);
+            const double work = impulse * cut_cells->velocity(segment);
             obstacle->impulse += impulse;
             obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
             obstacle->work += work;
@@ -347,15 +364,16 @@ namespace scree
                                            const double time_step,
                                            Budget<dim> &balance) const
   {
-    if (n_obstacles == 0)
+    if (!contacts || n_obstacles == 0)
       return;
+    const TimedPart part(timer, TimerSection::bed);
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0.)
         for_segments(cell.cell, [&](const unsigned int s) {
           ObstacleBalance<dim> *obstacle = balance_of(s, balance);
           if (obstacle == nullptr)
             return;
-          const CutFacet<dim> &segment = cut_cells.segments()[s];
+          const CutFacet<dim> &segment = cut_cells->segments()[s];
           const auto corners           = pressure.pressure_of(cell.cell);
           double mean                  = 0.;
           for (unsigned int v = 0; v < corners.size(); ++v)
@@ -363,7 +381,7 @@ namespace scree
           const Tensor<1, dim> impulse = -time_step * mean * segment.area * segment.normal;
           obstacle->pressure_impulse += impulse;
           obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
-          obstacle->work += impulse * cut_cells.velocity(segment);
+          obstacle->work += impulse * cut_cells->velocity(segment);
         });
   }
 
@@ -373,29 +391,10 @@ namespace scree
                                                 const double farthest,
                                                 const std::uint8_t closed_faces) const
   {
-    const double width         = grid.cell_size();
-    const double inside        = 1e-6 * width; // where points are put
-    const FineCells<dim> &fine = grid.fine_cells();
-    for (const auto &cell : points.cells())
-      {
-        if (ground.least_distance(cell.cell) > farthest)
-          continue;
-        const Point<dim> lower = fine.box().corner(fine.cells()[fine.of_index(cell.cell)].place);
-        for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
-          std::array<Batch, dim> places;
-          simd::load_records<dim>(as_constant(BatchPointers<dim>(cell, indices).locations), places.data());
-          for (unsigned int a = 0; a < dim; ++a)
-            places[a] = (places[a] - lower[a]) * (1. / width);
-          const unsigned int below = simd::bits_of(ground.distances(cell.cell, places) < 0.);
-          for (unsigned int l = 0; l < n; ++l)
-            if (below >> l & 1)
-              {
-                Point<dim> &location        = cell.location_of(indices[l]);
-                const SurfaceView<dim> view = ground.view(cell.cell, Point<dim>((location - lower) / width));
-                move_out_of_ground(grid, closed_faces, view.normal, inside - view.distance, location);
-              }
-        });
-      }
+    if (!contacts)
+      return;
+    const TimedPart part(timer, TimerSection::bed);
+    move_out_of_ground(grid, *ground, farthest, closed_faces, points);
   }
 
   template class CutCellContact<2>;

@@ -36,7 +36,8 @@ namespace scree
                                   const std::vector<RigidSurface<dim>> &surfaces,
                                   const double gravity,
                                   std::list<SoilBody<dim>> &bodies,
-                                  const unsigned int group)
+                                  const unsigned int group,
+                                  TimerOutput &timer)
       : grid(grid)
       , constraints(constraints)
       , surfaces(surfaces)
@@ -46,6 +47,7 @@ namespace scree
       , most_speed(0.03 * std::sqrt(gravity * grid.cell_size()))
       , bodies(bodies)
       , group(group)
+      , timer(timer)
       , nodes(grid, constraints)
       , exchange(grid, nodes)
   {
@@ -55,6 +57,8 @@ namespace scree
   template <int dim>
   void PointContact<dim>::reinit()
   {
+    if (surfaces.empty())
+      return;
     nodes.reinit();
     exchange.reinit();
   }
@@ -321,6 +325,9 @@ namespace scree
   template <int dim>
   void PointContact<dim>::solve(NodalField<dim> &field, const double time_step, Budget<dim> &balance)
   {
+    if (surfaces.empty())
+      return;
+    const TimedPart part(timer, TimerSection::bed);
     if (grid.n_nodes_1d() == 2)
       solve<2>(field, time_step, balance);
     else

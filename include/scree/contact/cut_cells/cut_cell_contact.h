@@ -6,6 +6,7 @@
 #include <scree/contact/cut_cells/contact_solver.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -23,15 +24,16 @@ namespace scree
   class CutCellContact
   {
   public:
-    /// @param ground all surfaces
+    /// @param ground all surfaces; null: there is no contact, and all calls return at once
     /// @param surfaces what it consists of
-    /// @param cut_cells of the ground
+    /// @param cut_cells of the ground, null without it
     /// @param relative_tolerance of the velocities through the ground
     CutCellContact(const BackgroundGrid<dim> &grid,
-                   const RigidBoundary<dim> &ground,
+                   const RigidBoundary<dim> *ground,
                    const std::vector<RigidSurface<dim>> &surfaces,
-                   const CutCells<dim> &cut_cells,
-                   const double relative_tolerance);
+                   const CutCells<dim> *cut_cells,
+                   const double relative_tolerance,
+                   dealii::TimerOutput &timer);
 
     /// Fits the nodes to the grid's current partition, after the cells have been looked at. Collective.
     void reinit();
@@ -63,7 +65,7 @@ namespace scree
     /// Takes down what add_viscous_force() gives in a step of `time_step` s.
     void take_viscous_force(const NodalField<dim> &motion, const double viscosity, const double time_step);
 
-    /// Stops predicted soil. Ghosts of `nodes` hold values before, not after. Collective.
+    /// Stops predicted soil. Ghosts of `nodes` hold values before and after. Collective.
     void predict(const MixtureNodes<dim> &nodes,
                  const Mixture<dim> &mixture,
                  const TwoPhaseMomentum<dim> &step,
@@ -78,10 +80,7 @@ namespace scree
                  const double time_step,
                  Budget<dim> &balance);
 
-    /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
-    void count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
-
-    /// Adds what obstacles bear of the water's pressure in a step of `time_step` s, where it is positive.
+    /// Adds what obstacles bear of the water's pressure in a step of `time_step` s.
     void count_pressure(const Mixture<dim> &mixture,
                         const PorePressure<dim> &pressure,
                         const double time_step,
@@ -100,11 +99,14 @@ namespace scree
       dealii::Tensor<1, dim> predicted_soil, corrected_soil, corrected_water;
     };
 
+    /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
+    void count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
+
     /// Calls `act(segment)` for the segments in a cell.
     template <typename Function>
     void for_segments(const unsigned int cell, const Function &act) const
     {
-      if (const CutCell<dim> *cut = cut_cells.find(cell))
+      if (const CutCell<dim> *cut = cut_cells->find(cell))
         for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
           act(s);
     }
@@ -156,12 +158,13 @@ namespace scree
     unsigned int find_surface(const CutFacet<dim> &segment, const dealii::Point<dim> &middle) const;
 
     const BackgroundGrid<dim> &grid;
-    const RigidBoundary<dim> &ground;
+    const RigidBoundary<dim> *ground; // may be null
     const std::vector<RigidSurface<dim>> surfaces;
     const unsigned int n_obstacles; // the last of the surfaces
-    const CutCells<dim> &cut_cells;
+    const CutCells<dim> *cut_cells;
     const double relative_tolerance;
-    ContactSolver<dim> contacts;
+    std::optional<ContactSolver<dim>> contacts; // nothing without ground
+    dealii::TimerOutput &timer;
     const bool any_holds_water;
     std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
     std::vector<OfSegment> of_segments;        // by segment

@@ -6,6 +6,7 @@
 #include <scree/bodies/soil_body.h>
 #include <scree/contact/points/contact_exchange.h>
 #include <scree/boundary/obstacle.h>
+#include <scree/step/timer_section.h>
 
 #include <list>
 #include <vector>
@@ -45,7 +46,7 @@ namespace scree
   class PointContact
   {
   public:
-    /// @param surfaces in the order of the points' slots
+    /// @param surfaces in the order of the points' slots; none: all calls return at once
     /// @param gravity m/s^2
     /// @param bodies of all groups
     /// @param group of the bodies whose points these are
@@ -54,7 +55,8 @@ namespace scree
                  const std::vector<RigidSurface<dim>> &surfaces,
                  const double gravity,
                  std::list<SoilBody<dim>> &bodies,
-                 const unsigned int group = 0);
+                 const unsigned int group,
+                 dealii::TimerOutput &timer);
 
     /// Fits the nodes to the grid's current partition. Collective.
     void reinit();
@@ -175,6 +177,7 @@ namespace scree
     const double most_speed;        // m/s, at which overlap is undone
     std::list<SoilBody<dim>> &bodies;
     const unsigned int group;
+    dealii::TimerOutput &timer;
     ContactDofs<dim> nodes;
     ContactExchange<dim> exchange;
     /// A surface that a cell's points may touch, and the largest gap of those that may, m.

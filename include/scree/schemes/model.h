@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_schemes_model_h
+#define scree_schemes_model_h
+
+#include <scree/boundary/inflow/inflow.h>
+#include <scree/contact/contact_parameters.h>
+#include <scree/contact/points/point_contact.h>
+#include <scree/mesh/cut_cells.h>
+#include <scree/transfer/surface_load.h>
+
+namespace scree
+{
+  /// What a case has built, as the schemes see it. All that it refers to must outlive them.
+  template <int dim>
+  struct Model
+  {
+    const BackgroundGrid<dim> &grid;
+    const BodyForces<dim> &forces;
+    const TransferParameters &transfer;
+    const StabilisationParameters &stabilisation;
+    std::list<SoilBody<dim>> &bodies;
+    std::list<SurfaceLoad<dim>> &loads;
+    std::vector<RigidSurface<dim>> surfaces;     ///< the bed and the obstacles
+    std::vector<Constraints<dim> *> constraints; ///< of each group of bodies that stick to each other; with water one
+    std::vector<ContactPair> contacts;           ///< of these groups
+
+    std::list<WaterPhase<dim>> &water; ///< empty in a dry scene
+    const WaterParameters &water_parameters;
+    const PressureParameters &pressure_parameters;
+    const WaterBoundaryConditions<dim> *water_walls; ///< null in a dry scene
+    const std::list<Inflow<dim>> &inflows;
+    const RigidBoundary<dim> *ground; ///< what water meets; null if there is nothing
+    const CutCells<dim> *cut_cells;   ///< what this leaves of the cells; null: all
+    unsigned int soil_points;         ///< fewest of a body in a cell, along an axis
+  };
+} // namespace scree
+
+#endif
