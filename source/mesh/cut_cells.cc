@@ -134,28 +134,29 @@ namespace scree
 
 
   template <int dim>
+  CutFacet<dim> &CutCells<dim>::facet_of(CutCell<dim> &cut, const Point<dim> &middle)
+  {
+    const bool is_known =
+        ground.n_near(cut.cell) == 1 && cut.n_segments == 1; // one part of the ground, which has its facet
+    const unsigned int part = is_known ? all_segments.back().part : ground.nearest_part(cut.cell, middle);
+    for (unsigned int s = cut.first_segment; s < all_segments.size(); ++s)
+      if (all_segments[s].part == part)
+        return all_segments[s];
+    ++cut.n_segments;
+    CutFacet<dim> segment;
+    segment.cell = cut.cell;
+    segment.part = part;
+    segment.shapes.resize(grid.n_nodes_per_cell());
+    all_segments.push_back(std::move(segment));
+    return all_segments.back();
+  }
+
+
+  template <int dim>
   void CutCells<dim>::integrate_ground(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut)
   {
     static const QWitherdenVincentSimplex<dim - 1> rule(dim == 2 ? 3 : 4); // quadratics along all axes
-    cut.first_segment      = all_segments.size();
-    const bool is_one_part = ground.n_near(cut.cell) == 1;
-    const auto segment_at  = [&](const std::array<Point<dim>, dim> &face) -> CutFacet<dim>  &{
-      Point<dim> middle;
-      for (const Point<dim> &corner : face)
-        middle += 1. / dim * corner;
-      const unsigned int part =
-          is_one_part && cut.n_segments == 1 ? all_segments.back().part : ground.nearest_part(cut.cell, middle);
-      for (unsigned int s = cut.first_segment; s < all_segments.size(); ++s)
-        if (all_segments[s].part == part)
-          return all_segments[s];
-      ++cut.n_segments;
-      CutFacet<dim> segment;
-      segment.cell = cut.cell;
-      segment.part = part;
-      segment.shapes.resize(grid.n_nodes_per_cell());
-      all_segments.push_back(std::move(segment));
-      return all_segments.back();
-    };
+    cut.first_segment = all_segments.size();
     for (const Simplex<dim> &simplex : open)
       {
         // A simplex with a face on the ground has one corner in the open.
@@ -172,8 +173,11 @@ namespace scree
         Tensor<1, dim> area = area_vector(face);
         if (area * (inside - face[0]) > 0.)
           area *= -1.;
+        Point<dim> middle;
+        for (const Point<dim> &corner : face)
+          middle += 1. / dim * corner;
         const double size      = area.norm();
-        CutFacet<dim> &segment = segment_at(face);
+        CutFacet<dim> &segment = facet_of(cut, middle);
         segment.area += size;
         segment.normal += area;
         visit_rule<dim>(rule, face, [&](const Point<dim> &x, const double part) {
@@ -185,6 +189,13 @@ namespace scree
           });
         });
       }
+    finish_facets(cut);
+  }
+
+
+  template <int dim>
+  void CutCells<dim>::finish_facets(CutCell<dim> &cut)
+  {
     constexpr double smallest_area = 1e-9; // what is less is a corner that touches the ground
     const auto is_small            = [](const CutFacet<dim> &segment) { return segment.normal.norm() < smallest_area; };
     all_segments.erase(std::remove_if(all_segments.begin() + cut.first_segment, all_segments.end(), is_small),

@@ -111,6 +111,12 @@ namespace scree
     /// Adds the segments of a cell.
     void integrate_ground(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut);
 
+    /// The facet of the ground's part that is nearest to a place of the unit cell; made where there is none yet.
+    CutFacet<dim> &facet_of(CutCell<dim> &cut, const dealii::Point<dim> &middle);
+
+    /// Makes means of the sums over a cell's facets, and drops those without size.
+    void finish_facets(CutCell<dim> &cut);
+
     const BackgroundGrid<dim> &grid;
     const RigidBoundary<dim> &ground;
     const double thinnest;

@@ -13,13 +13,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    template <int dim>
-    using Field = NodalField<dim>;
-  } // namespace
-
-
   template <int dim>
   CutCellContact<dim>::CutCellContact(const BackgroundGrid<dim> &grid,
                                       const RigidBoundary<dim> *ground,
@@ -122,11 +115,11 @@ namespace scree
   {
     const unsigned int *nodes     = grid.nodes(segment.cell);
     const unsigned int n_nodes_1d = grid.n_nodes_1d();
-    static_assert(Field<dim>::velocity + 4 <= Field<dim>::n_components, "A row begins with the velocity.");
+    static_assert(NodalField<dim>::velocity + 4 <= NodalField<dim>::n_components, "A row begins with the velocity.");
     NodeRow sums[3] = {}; // Several, as each addition would wait for the one before.
     for (unsigned int i = 0; i < segment.shapes.size(); i += n_nodes_1d)
       for (unsigned int j = 0; j < n_nodes_1d; ++j)
-        sums[j] += segment.shapes[i + j] * load_row(field[nodes[i + j]] + Field<dim>::velocity);
+        sums[j] += segment.shapes[i + j] * load_row(field[nodes[i + j]] + NodalField<dim>::velocity);
     return to_vector<dim>(sums[0] + sums[1] + sums[2]);
   }
 
@@ -179,7 +172,6 @@ namespace scree
     contacts->take(nodes, step, balance);
   }
 
-
   template <int dim>
   void CutCellContact<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface)
   {
@@ -228,7 +220,7 @@ namespace scree
         const unsigned int *nodes       = grid.nodes(segment.cell);
         for (unsigned int i = 0; i < segment.shapes.size(); ++i)
           for (unsigned int c = 0; c < dim; ++c)
-            force[nodes[i]][Field<dim>::force + c] += segment.shapes[i] * of_segment[c];
+            force[nodes[i]][NodalField<dim>::force + c] += segment.shapes[i] * of_segment[c];
       }
   }
 
@@ -322,20 +314,21 @@ namespace scree
         const auto add     = [&](const NodalField<dim> &field, const Tensor<1, dim> &of_phase) {
           if (of_phase.norm_square() == 0.)
             return;
-          constexpr unsigned int last = Field<dim>::n_components - 4; // The change of velocity ends a node's values.
-          double share                = 0.;
+          constexpr unsigned int last =
+              NodalField<dim>::n_components - 4; // The change of velocity ends a node's values.
+          double share = 0.;
           NodeRow motions{}, last_values{};
           for (unsigned int i = 0; i < segment.shapes.size(); ++i)
             {
               const double *values = field[of_cell[i]];
-              const double shape   = values[Field<dim>::mass] > 0. ? segment.shapes[i] : 0.;
+              const double shape   = values[NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
               share += shape;
-              motions += shape * load_row(values + Field<dim>::velocity);
+              motions += shape * load_row(values + NodalField<dim>::velocity);
               last_values += shape * load_row(values + last);
             }
           Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
           for (unsigned int c = 0; c < dim; ++c)
-            velocity[c] = motions[c] - 0.5 * last_values[Field<dim>::velocity_change - last + c];
+            velocity[c] = motions[c] - 0.5 * last_values[NodalField<dim>::velocity_change - last + c];
           impulse -= share * of_phase;
           dissipation += of_phase * velocity;
         };
