@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """bed_water_scenes.py SCREE SCENE: water and saturated soil on a bed that is oblique to the mesh, as scenes.py.
 
@@ -10,11 +9,10 @@ import math
 
 import numpy as np
 
-from scene_tools import check, largest_fall, main, run
+from scree import closed_forms
+from scree.results import read_points
 
-# scene_tools has put doc/ on the path.
-import closed_forms
-import render
+from scene_tools import check, largest_fall, main, run
 from bed_scenes import ANGLES, GRAVITY, Plane, slope_of
 
 WEIGHT = 1000 * GRAVITY  # of water, N/m^3
@@ -46,7 +44,7 @@ def check_balance(name, table):
 
 def pressure_error(name, surface, cell, up):
     """Of the water's points, over the weight of a cell: root mean square and largest."""
-    water = render.read_points(name, None, "water")
+    water = read_points(name, None, "water")
     error = (water.arrays["pressure"].ravel() - WEIGHT * (surface - water.positions[:, up])) / (WEIGHT * cell)
     return math.sqrt(np.mean(error**2)), np.max(np.abs(error))
 
@@ -104,7 +102,7 @@ def bed_saturated_rest(scree):
                          "Output/Graphics": "points", "Output/Interval": "0.5", "Probes/Displacement": "true"})
             name = "saturated soil at rest, %d degrees, k = %s m/s" % (theta, conductivity)
             check(name + ": rms error of p over that of a cell", pressure_error("saturated", 0.8, 0.1, 1)[0], 0, bound)
-            moved = np.linalg.norm(render.read_points("saturated").arrays["displacement"], axis=1)
+            moved = np.linalg.norm(read_points("saturated").arrays["displacement"], axis=1)
             check(name + ": largest displacement over a cell", np.max(moved) / 0.1, 0, 2e-4)
             check_balance(name, table)
 
@@ -113,7 +111,7 @@ def dam_break(scree, name, entries, plane):
     """Place behind which 99 % of the water are, m, and the gain of energy."""
     table = run(scree, "bed/dam_break_on_slope", name,
                 {"Water/Volume correction rate": "0", **entries, "Output/Graphics": "points", "Output/Interval": "0.6"})
-    water = render.read_points(name, None, "water")
+    water = read_points(name, None, "water")
     place, mass = (water.positions[:, :2] - plane.origin) @ plane.down, water.arrays["mass"].ravel()
     order = np.argsort(place)
     check_balance(name, table)
@@ -223,7 +221,7 @@ def bed_film(scree):
     pull, viscosity, length = GRAVITY * math.sin(angle), 1e4, 10
     table = run(scree, "bed/film", "film", {"Output/Graphics": "points", "Output/Statistics interval": "0.003"})
     for time in (0.03, 0.06, 0.24):
-        water = render.read_points("film", time, "water")
+        water = read_points("film", time, "water")
         place = water.positions[:, :2] - [0.13, 5.57]
         along, height = place @ down, place @ [-down[1], down[0]]
         volumes, speeds = water.arrays["volume"].ravel(), water.arrays["velocity"][:, :2] @ down

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """obstacle_water_scenes.py SCREE SCENE: obstacles at rest in water and in saturated soil, as scenes.py.
 

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """scenes.py SCREE SCENE: runs whole scenes from variants of the cases in prm/ and checks what they must show.
 
@@ -11,7 +10,10 @@ import os
 
 import numpy as np
 
-from scene_tools import ROOT, at, check, check_balances, largest_fall, main, mean_oscillation, read_statistics, run
+from scree.results import read_table
+from scree.variants import read_case
+
+from scene_tools import ROOT, at, check, check_balances, largest_fall, main, mean_oscillation, run
 
 
 def columns(scree):
@@ -89,16 +91,16 @@ def drop(scree):
     friction = math.tan(math.radians(20))
     check("slide: momentum over that of a rigid block", at(table, "Momentum x (N s)", 0.2) / mass / (1 - friction * gravity * 0.2), 0.99, 1.01)
     run(scree, "mohr_coulomb_collapse", "rest", {**slide, "Soil/Initial velocity": "0; 0", "Probes/Wall forces": "true"})
-    force = np.mean(read_statistics(os.path.join("rest", "probe_walls"))["Bottom soil y (N)"][1:])
+    force = np.mean(read_table("rest/probe_walls")["Bottom soil y (N)"][1:])
     check("rest: force on the floor over weight", force / (mass * gravity), -1.01, -0.99)
 
 
 def obstacle(scree):
     """A dry column runs against a rigid block and comes to rest behind it; by FLIP, whose points take the nodes' change of velocity:
     momentum tells whether soil feels the block's mass beside its own (residual .0045 if it does)."""
-    text = open(os.path.join(ROOT, "prm", "column_dense.prm"), encoding="utf-8").read()
+    text = read_case(os.path.join(ROOT, "prm", "column_dense.prm"))
     with open("obstacle.prm", "w", encoding="utf-8") as file:
-        file.write("set Bodies = Soil, Block\n" + text + "subsection Block\n  set Region   = x > 1.5 && x < 2 && y < 0.5\n"
+        file.write("set Bodies = Soil, Block\n" + text + "\nsubsection Block\n  set Region   = x > 1.5 && x < 2 && y < 0.5\n"
                    "  set Material = rigid\nend\n")
     table = run(scree, os.path.abspath("obstacle"), "obstacle_run", {"Mesh/Cell size": "0.1", "End time": "1"})
     check("obstacle: front 99 % of the soil that moves, m (without block 2.17)", at(table, "Front 99 % (m)", 1), 1.2, 1.6)

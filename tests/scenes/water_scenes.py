@@ -1,8 +1,7 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """water_scenes.py SCREE SCENE: scenes with water, as scenes.py.
 
-Bounds are from closed forms (doc/closed_forms.py), from the reference numbers of the prototype (an independent 2D code with the
+Bounds are from closed forms (scree.closed_forms), from the reference numbers of the prototype (an independent 2D code with the
 same equations), or, where it says "ours", a generous frame around what must not happen.
 """
 
@@ -11,11 +10,11 @@ import os
 
 import numpy as np
 
-from scene_tools import ROOT, at, check, check_balances, largest_fall, main, run
+from scree import closed_forms
+from scree.results import read_points, read_times
+from scree.variants import read_case
 
-# scene_tools has put doc/ on the path.
-import closed_forms
-import render
+from scene_tools import ROOT, at, check, check_balances, largest_fall, main, run
 
 WATER = 1000 * closed_forms.GRAVITY  # N/m^3
 
@@ -78,9 +77,9 @@ def volume_error(cells, cell_size, water, soil=None, grain_density=2650):
 
 def largest_volume_error(run_folder, cells, cell_size, with_soil=True):
     """The largest of a run's pictures."""
-    return max(volume_error(cells, cell_size, render.read_points(run_folder, time, "water"),
-                            render.read_points(run_folder, time) if with_soil else None)
-               for time in render.read_times(run_folder, "water"))
+    return max(volume_error(cells, cell_size, read_points(run_folder, time, "water"),
+                            read_points(run_folder, time) if with_soil else None)
+               for time in read_times(run_folder, "water"))
 
 
 # At rest --------------------------------------------------------------------------------------------------------------
@@ -94,7 +93,7 @@ def hydrostatic(scree):
         table = run(scree, "hydrostatic", name,
                     pictures({"Water/Region": "y < %.10g" % surface, "Water/Pressure/Relative tolerance": "1e-12"}))
         unit = WATER * cell
-        water = render.read_points(name, None, "water")
+        water = read_points(name, None, "water")
         exact = closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
         label = "surface at %.2f of a cell: " % part
         # Pictures hold single precision: 1e-6 of the pressure at the base.
@@ -119,7 +118,7 @@ def hydrostatic_jittered(scree):
         table = run(scree, "hydrostatic", name,
                     pictures({"Water/Region": "y < %.10g" % surface, "Water/Jitter": "0.25",
                               "Water/Pressure/Relative tolerance": "1e-12"}))
-        water = render.read_points(name, None, "water")
+        water = read_points(name, None, "water")
         error = water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
         label = "jittered points, surface at %.2f of a cell: " % part
         check(label + "rms error of p over rho g h", math.sqrt(np.mean(error**2)) / (WATER * cell), 0, 0.01)
@@ -132,7 +131,7 @@ def rest(scree):
         name = "rest_" + conductivity
         table = run(scree, "saturated_rest", name,
                     pictures({"Water/Hydraulic conductivity": conductivity, "Output/Interval": "1"}))
-        water = render.read_points(name, None, "water")
+        water = read_points(name, None, "water")
         error = np.max(np.abs(water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], 1)))
         label = "saturated column, k = %s m/s: " % conductivity
         check(label + "speed after 1 s, m/s", speed(table), 0, 1e-6)
@@ -156,8 +155,8 @@ def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base
         **entries}))
     results = {}
     for factor in factors:
-        water = render.read_points(name, column.time(factor), "water")
-        soil = render.read_points(name, column.time(factor))
+        water = read_points(name, column.time(factor), "water")
+        soil = read_points(name, column.time(factor))
         exact = closed_forms.terzaghi_pressure(column.height - water.positions[:, 1], factor)
         error = math.sqrt(np.mean((water.arrays["pressure"] / column.load - exact)**2))
         # The mean effective vertical stress over the load is U: exact for a strain as small as this one.
@@ -204,7 +203,7 @@ def terzaghi(scree):
     run(scree, "terzaghi", "undrained",
         pictures({"Water/Hydraulic conductivity": "1e-12", "End time": "0.1", "Output/Interval": "0.1",
                   "Output/Statistics interval": "0.1"}))
-    water = render.read_points("undrained", None, "water")
+    water = read_points("undrained", None, "water")
     deep = water.positions[:, 1] < 0.85
     check("Terzaghi, k = 1e-12 m/s: largest |p/q - 1| below three cells (ours)",
           np.max(np.abs(water.arrays["pressure"][deep] / 1e3 - 1)), 0, 0.02)
@@ -253,7 +252,7 @@ def large_strain(scree):
     pressure_scale = mud.buoyant_weight * mud.height
     across = None
     for state, factor in zip(closed_forms.consolidate(mud, [mud.time(factor) for factor in factors]), factors):
-        soil, water = (render.read_points(name, state.time, collection) for collection in ("points", "water"))
+        soil, water = (read_points(name, state.time, collection) for collection in ("points", "water"))
         order = np.argsort(soil.positions[:, 1], kind="stable")
         # Points of a row stay side by side: 80 rows (20 cells of 4), from the base to the top.
         across = across or len(order) // 80
@@ -286,7 +285,7 @@ def large_strain(scree):
 
 def top_cell(name, time, cells):
     """Points of the highest cell that holds soil: vertical stress, compression positive; and the surface of all soil, m."""
-    soil = render.read_points(name, time)
+    soil = read_points(name, time)
     layer = np.floor(soil.positions[:, 1] * cells)
     rows = np.unique(np.round(soil.positions[:, 1], 7))
     return -soil.arrays["stress"][layer == np.max(layer), 4], rows[-1] + (rows[-1] - rows[-2]) / 2
@@ -301,7 +300,7 @@ def loaded_column(scree, name, cells, load, f_bar, entries, wet=True):
     if wet:
         return run(scree, "terzaghi", name, pictures(values)), traction
     # A column of the same soil without the water, in a case of its own.
-    lines = open(ROOT + "/prm/terzaghi.prm", encoding="utf-8").read()
+    lines = read_case(ROOT + "/prm/terzaghi.prm")
     begin = lines.index("subsection Water")
     with open("dry_column.prm", "w", encoding="utf-8") as file:
         file.write(lines[:begin] + lines[lines.index("subsection Surface load"):])
@@ -321,7 +320,7 @@ def surface_load(scree):
         _, traction = loaded_column(scree, name, cells, load, f_bar, {
             "End time": "2", "Output/Interval": "0.25", "Time step/Courant number": repr(courant)}, wet=False)
         ratios = []
-        for time in render.read_times(name, "points")[2:]:
+        for time in read_times(name, "points")[2:]:
             part = 1 if time >= 1.5 else (1 - math.cos(math.pi * time / 1.5)) / 2
             stress, surface = top_cell(name, time, cells)
             ratios += list(stress / (part * traction))
@@ -365,8 +364,8 @@ def load_in_time(scree):
             "Water/Hydraulic conductivity": "1e-6", "End time": "0.4", "Output/Interval": "0.05", "Time step/Courant number": repr(courant),
             "Surface load/Traction": "0; %r * (1 - cos(2*pi*t/%g))/2" % (-1e-3 * modulus, period)}))
         errors = []
-        for time in render.read_times(name, "water")[1:]:
-            water = render.read_points(name, time, "water")
+        for time in read_times(name, "water")[1:]:
+            water = read_points(name, time, "water")
             deep = water.positions[:, 1] < 0.5
             exact = (1 - math.cos(2 * math.pi * time / period)) / 2
             errors.append(np.max(np.abs(water.arrays["pressure"][deep] / (1e-3 * modulus) - exact)))
@@ -389,8 +388,8 @@ def pulled_columns(scree):
     for name, bound, entries, columns in (("pulled", 1e5, in_plane, 3), ("pulled_3d", 1e5, in_space, 4), ("unbound", 1e12, in_plane, 3)):
         table = run(scree, "terzaghi", name, pictures({**entries, "Water/Pressure/Cavitation pressure": repr(-bound)}))
         before, after = [], []
-        for time in render.read_times(name, "water")[1:]:
-            water = render.read_points(name, time, "water")
+        for time in read_times(name, "water")[1:]:
+            water = read_points(name, time, "water")
             deep, load = water.positions[:, 2 if name == "pulled_3d" else 1] < 0.5, rate * time
             if not 0.95e5 < load < 1.05e5:
                 error = np.max(np.abs(water.arrays["pressure"][deep] + min(load, bound))) / load
@@ -488,8 +487,8 @@ def sloshing_for_long(scree):
     check("sloshing, 2 m wide: energy lost a period beyond what the amplitude tells, five periods, over the wave's",
           (lost[200] - of_amplitude) / wave / 5, -0.002, 0.002)
     errors, fills = [], []
-    for time in render.read_times("sloshing_for_long", "water"):
-        water = render.read_points("sloshing_for_long", time, "water")
+    for time in read_times("sloshing_for_long", "water"):
+        water = read_points("sloshing_for_long", time, "water")
         errors.append(volume_error((20, 13), cell, water))
         fills.append(np.max(np.histogram2d(*water.positions[:, :2].T, (20, 13), ((0, 2), (0, 1.3)), weights=water.arrays["volume"])[0]) / cell**2)
     check("sloshing, 2 m wide: volume error by corners, largest in 20 periods", max(errors), 0, 0.005)
@@ -540,7 +539,7 @@ def dam_break_baselines(scree):
     cell = 0.1
     run(scree, "hydrostatic", "empty_cell",
         pictures({"Water/Region": "y < 1.025", "Water/Pressure/Free surface": "empty cell"}), may_stop=True)
-    water = render.read_points("empty_cell", None, "water")
+    water = read_points("empty_cell", None, "water")
     error = np.max(np.abs(water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], 1.025)))
     check("p = 0 next to empty cells, surface at 0.25 of a cell: error over rho g h", error / (WATER * cell), 0.5, 10)
 
@@ -652,10 +651,10 @@ def seepage(scree):
         table = run(scree, "porous_dam", folder,
                     pictures({"End time": "4", "Mesh/Cell size": "0.1", "Output/Interval": "0.05", **entries}))
         measured, expected = [], []
-        for time in render.read_times(folder, "water"):
+        for time in read_times(folder, "water"):
             if time < 2:
                 continue
-            water = render.read_points(folder, time, "water")
+            water = read_points(folder, time, "water")
             (x, y), volume = water.positions[:, :2].T, water.arrays["volume"]
             head = y + water.arrays["pressure"] / WATER
             upstream, downstream = (np.average(head[tank], weights=volume[tank]) for tank in ((x < 0.8) & (y < 0.8), (x > 2.3) & (y < 0.3)))
@@ -669,7 +668,7 @@ def seepage(scree):
 
 def check_rigid(name, folder, table):
     """A rigid body stays where it is, to the last digit, and takes up what pushes it."""
-    first, last = (render.read_points(folder, render.read_times(folder, "points")[i]) for i in (0, -1))
+    first, last = (read_points(folder, read_times(folder, "points")[i]) for i in (0, -1))
     check(name + ": largest move of a rigid point, m", np.max(np.abs(first.positions - last.positions)), 0, 0)
     weight = (table["Mass (kg)"][0] + table["Water mass (kg)"][0]) * closed_forms.GRAVITY
     check(name + ": momentum residual over weight times time",
@@ -685,8 +684,8 @@ def filter_layers(scree):
         table = run(scree, "filter", "filter", pictures({"End time": "4", "Output/Interval": "0.5", "Mesh/Cell size": str(cell),
                                                          "Sand/Region": "y >= 0.5 && y < %g" % top}))
         flows, slopes = {"sand": [], "gravel": []}, {"sand": [], "gravel": []}
-        for time in render.read_times("filter", "water")[1:]:
-            water = render.read_points("filter", time, "water")
+        for time in read_times("filter", "water")[1:]:
+            water = read_points("filter", time, "water")
             y = water.positions[:, 1]
             # The pond is 2 m deep at first and falls with what seeps.
             darcy = (2 - 3e-3 * time) / ((top - 0.5) / conductivities["sand"] + 0.5 / conductivities["gravel"])
@@ -713,14 +712,14 @@ def net(scree):
             "Sand/Grain density": "2650", "Sand/Linear elastic/Young's modulus": "1e7", "Sand/Linear elastic/Poisson's ratio": "0.3",
             "Sand/Initial state/Type": "K0", "Sand/Initial state/K0": "0.43", "Gravel/Region": "y >= 0.9 && y < 1",
             "Gravel/Initial porosity": "0.4", "Gravel/Hydraulic conductivity": "2e-4", "Boundaries/Water/Bottom": "drained 9810"}))
-        water, soil = render.read_points("net", None, "water"), render.read_points("net")
+        water, soil = read_points("net", None, "water"), read_points("net")
         y = water.positions[:, 1]
         discharge = -np.mean(water.arrays["velocity"][(y > 0.2) & (y < 0.6), 1])
         check("net below soil, cells of %g m: discharge over Darcy's" % cell, discharge * (0.5 / 1e-3 + 0.1 / 2e-4), 0.99, 1.01)
         check("net below soil, cells of %g m: lowest point of the soil that moves, m" % cell,
               np.min(soil.positions[soil.arrays["body"].ravel() == 0, 1]), 1., 1.01)
     table = run(scree, "net", "wall", pictures({"End time": "2", "Output/Interval": "2"}))
-    water, soil = render.read_points("wall", None, "water"), render.read_points("wall")
+    water, soil = read_points("wall", None, "water"), read_points("wall")
     x, mass = water.positions[:, 0], water.arrays["mass"].ravel()
     check("net before a saturated column: share of the water beyond", np.sum(mass[x > 1.6]) / np.sum(mass), 0.03, 0.1)
     moves = soil.arrays["body"].ravel() == 0
@@ -735,11 +734,11 @@ def porous_block(scree):
     """
     conductivity, cell = 0.1, 0.1
     table = run(scree, "porous_block", "porous_block", pictures({"End time": "2.5", "Mesh/Cell size": str(cell)}))
-    times = [time for time in render.read_times("porous_block", "water") if time > 0.49]
+    times = [time for time in read_times("porous_block", "water") if time > 0.49]
     fills, volume_errors, discharge, expected = [], [], 0, 0
     for time in times:
-        water = render.read_points("porous_block", time, "water")
-        soil = render.read_points("porous_block", time)
+        water = read_points("porous_block", time, "water")
+        soil = read_points("porous_block", time)
         (x, y), volume = water.positions[:, :2].T, water.arrays["volume"]
         columns = np.histogram(x[y < 0.8], 30, (0, 3), weights=volume[y < 0.8])[0] / (0.8 * cell)
         fills.append(columns / np.where(np.arange(30) // 10 == 1, 0.4, 1))
@@ -771,7 +770,7 @@ def packed_bed(scree):
                                            (1e-6, "double", "elastic", {}), (1e-3, "single", "elastic", {}), (1e-3, "double", "rigid", rigid)):
         name = "packed_bed_%g_%s_%s" % (viscosity, sets, kind)
         table = run(scree, "packed_bed", name, pictures({"Water/Viscosity": repr(viscosity), "Water/Point sets": sets, **entries}))
-        water = render.read_points(name, None, "water")
+        water = read_points(name, None, "water")
         inside = (water.positions[:, 1] > 0.2) & (water.positions[:, 1] < 0.8)
         exact = closed_forms.ergun_velocity(closed_forms.GRAVITY, 5e-3, 0.4, viscosity)
         flow = -water.arrays["seepage_velocity"][inside, 1] / exact
@@ -791,7 +790,7 @@ def poiseuille_flow(name, viscosity, gravity):
     """Mean velocity in the middle of the slug over the exact one for what drives it there, and the distance of the points' velocities
     from the parabola, over its root mean square. The open ends take up to .05 of gravity (about 3 mu U/H of pressure each), which
     the fit of the pressure tells."""
-    water, width = render.read_points(name, None, "water"), 0.1
+    water, width = read_points(name, None, "water"), 0.1
     x, y = water.positions[:, 0], water.positions[:, 1]
     middle = np.abs(x - np.mean(x)) < width / 2
     driving = 1000 * gravity - np.polyfit(x[middle], water.arrays["pressure"][middle], 1)[0]
@@ -889,7 +888,7 @@ def suspension(scree):
 
     sinks = {"Gravity": "0, -9.81", "Soil/Initial velocity": "", "Water/Initial velocity": "", "Water/Hydraulic conductivity": "1e-2"}
     run(scree, "suspension", "suspension_sinks", pictures({**sinks, "Output/Interval": "0.5"}))
-    soil = render.read_points("suspension_sinks", None, "points")
+    soil = read_points("suspension_sinks", None, "points")
     middle = np.abs(soil.positions[:, 1] - 0.5) < 1 / 6
     speed_of_grains = -soil.arrays["velocity"][middle, 1] / closed_forms.settling_velocity(1e-2, 0.6, 2650)
     check("suspension: speed of sinking grains over the exact one, mean", np.mean(speed_of_grains), 0.99, 1.01)
@@ -903,10 +902,10 @@ def dam_break_wet(scree):
     table = run(scree, name, name, pictures({"Mesh/Cell size": str(cell), "Time step/Maximum time step": "4e-3",
                                              "Water/Volume correction rate": "5"}))
     bore = closed_forms.stoker_bore(upstream, downstream)
-    times = [time for time in render.read_times(name, "water") if time > 0.99]
+    times = [time for time in read_times(name, "water") if time > 0.99]
     passed, fronts, depths = [], [], []
     for time in times:
-        water = render.read_points(name, time, "water")
+        water = read_points(name, time, "water")
         x, volume = water.positions[:, 0], water.arrays["volume"]
         passed.append(np.sum(volume[x > gate]))
         depth, faces = np.histogram(x, 200, (0, 20), weights=volume / cell)
@@ -992,7 +991,7 @@ def drawdown(scree):
     for name, entries in (("closed", {"Boundaries/Water/Right": "impermeable", "End time": "1.5"}), ("drawdown", {"End time": "3"})):
         table = run(scree, "drawdown", name, pictures({"Mesh/Cell size": "0.1", "Time step/Maximum time step": "2e-3",
                                                        "Water/Volume correction rate": "5", **entries}))
-        first, last = (render.read_points(name, render.read_times(name, "points")[i]) for i in (0, -1))
+        first, last = (read_points(name, read_times(name, "points")[i]) for i in (0, -1))
         order = [np.argsort(points.arrays["id"]) for points in (first, last)]
         moved = np.max(np.linalg.norm(last.positions[order[1]] - first.positions[order[0]], axis=1))
         if name == "closed":
