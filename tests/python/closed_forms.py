@@ -41,7 +41,7 @@ def check_all():
               max(np.max(np.abs(pressure - terzaghi_pressure(depth, time_factor))), abs(degree - terzaghi_degree(time_factor))), 1e-6)
     inertia = [consolidation_with_inertia(column, 2650, 0.4, depth, column.time(t))[0] - terzaghi_pressure(depth, t)
               for t in (0.1, 0.5, 1)]
-    check(failures, "consolidation with inertia: prm/terzaghi.prm, k = 1e-3 m/s: largest distance to Terzaghi",
+    check(failures, "consolidation with inertia: prm/consolidation/terzaghi.prm, k = 1e-3 m/s: largest distance to Terzaghi",
           max(np.max(np.abs(difference)) for difference in inertia), 2e-3)
 
     y, w = gauss(0., 0.1)
@@ -87,7 +87,7 @@ def check_all():
     mud = Mud(1., oedometric_modulus(2e4, .2), .5, 1e-2)
     settlement = final_settlement(mud)
     coarse, fine = (consolidate(mud, [mud.time(t) for t in (0.25, 1, 20)], *n) for n in ((50, 200), (200, 400)))
-    check(failures, "prm/large_strain_consolidation.prm: settlement at T_v = 20 is the exact final one",
+    check(failures, "prm/consolidation/large_strain_consolidation.prm: settlement at T_v = 20 is the exact final one",
           abs(fine[-1].settlement / settlement - 1), 1e-4)
     end = fine[-1]
     check(failures, "the same: J at T_v = 20", np.max(np.abs(end.volume_ratio - final_volume_ratio(mud, end.material_height))), 1e-4)
@@ -131,9 +131,9 @@ def check_all():
 
     check(failures, "hydrostatics: 1 m of water", abs(float(hydrostatic_pressure(0.25, 1.25)) - 9810), 1e-9)
 
-    print(f"\nprm/large_strain_consolidation.prm: final settlement {settlement:.6f} m, "
+    print(f"\nprm/consolidation/large_strain_consolidation.prm: final settlement {settlement:.6f} m, "
           f"J at the base {float(final_volume_ratio(mud, 0.)):.5f}; " + ", ".join(f"U({t}) = {s.settlement / settlement:.4f}" for t, s in zip((.25, 1), fine)))
-    print("prm/terzaghi.prm: inertia moves p/q by at most " +
+    print("prm/consolidation/terzaghi.prm: inertia moves p/q by at most " +
           ", ".join(f"{np.max(np.abs(d)):.1e}" for d in inertia) + " at T_v = 0.1, 0.5, 1")
     return failures
 

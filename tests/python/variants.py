@@ -2,8 +2,12 @@
 """Cases and their variants: entries, includes, paths."""
 
 import pathlib
+import re
 
 from scree.variants import read_case, read_entries, set_entry, write_variant
+
+
+CASES = pathlib.Path(__file__).resolve().parents[2] / "prm"
 
 
 def write(name, text):
@@ -39,5 +43,19 @@ def test_includes():
         raise AssertionError("a loop of includes")
 
 
+def test_list_of_cases():
+    """prm/README.md names each case once, in the section of its folder; each of them reads."""
+    listed = re.sub(r"\n## .*", lambda found: found.group(0) + "@", (CASES / "README.md").read_text(encoding="utf-8")).split("@")
+    found = {}
+    for section in listed[1:]:
+        folder = re.search(r"^In `(\w+)`", section, re.MULTILINE)
+        for name in re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE):
+            found[name] = CASES / (folder.group(1) if folder else "") / f"{name}.prm"
+    assert sorted(found.values()) == sorted(CASES.rglob("*.prm")), set(found.values()) ^ set(CASES.rglob("*.prm"))
+    for case in found.values():
+        assert "Output directory" in read_entries(case), case
+
+
 test_entries()
 test_includes()
+test_list_of_cases()

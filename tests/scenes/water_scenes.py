@@ -90,7 +90,7 @@ def hydrostatic(scree):
     cell = 0.1
     for part in (0, 0.25, 0.5, 0.75):
         name, surface = "hydrostatic_%d" % (100 * part), 1 + part * cell
-        table = run(scree, "hydrostatic", name,
+        table = run(scree, "water/hydrostatic", name,
                     pictures({"Water/Region": "y < %.10g" % surface, "Water/Pressure/Relative tolerance": "1e-12"}))
         unit = WATER * cell
         water = read_points(name, None, "water")
@@ -115,7 +115,7 @@ def hydrostatic_jittered(scree):
     cell = 0.1
     for part in (0, 0.25, 0.5, 0.75):
         name, surface = "jittered_%d" % (100 * part), 1 + part * cell
-        table = run(scree, "hydrostatic", name,
+        table = run(scree, "water/hydrostatic", name,
                     pictures({"Water/Region": "y < %.10g" % surface, "Water/Jitter": "0.25",
                               "Water/Pressure/Relative tolerance": "1e-12"}))
         water = read_points(name, None, "water")
@@ -129,7 +129,7 @@ def rest(scree):
     """A saturated column stays at rest for any conductivity: prototype 7e-8 m/s after 1 s, k = 1e-2 to 1e-8 m/s."""
     for conductivity in ("1e-2", "1e-5", "1e-8", "1e-12"):
         name = "rest_" + conductivity
-        table = run(scree, "saturated_rest", name,
+        table = run(scree, "seepage/saturated_rest", name,
                     pictures({"Water/Hydraulic conductivity": conductivity, "Output/Interval": "1"}))
         water = read_points(name, None, "water")
         error = np.max(np.abs(water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], 1)))
@@ -142,8 +142,8 @@ def rest(scree):
 # Consolidation --------------------------------------------------------------------------------------------------------
 
 
-def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base="terzaghi"):
-    """Runs prm/terzaghi.prm with the column's values; {T_v: (L2 error of p/q, U)} and the statistics."""
+def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base="consolidation/terzaghi"):
+    """Runs prm/consolidation/terzaghi.prm with the column's values; {T_v: (L2 error of p/q, U)} and the statistics."""
     interval = column.time(min(factors))
     table = run(scree, base, name, pictures({
         "Water/Hydraulic conductivity": repr(column.conductivity),
@@ -200,7 +200,7 @@ def terzaghi(scree):
         check("Terzaghi, jittered points, %d^2 a cell: L2 error of p/q at T_v = 0.1" % points, results[0.1][0], 0, bound)
 
     # Nothing can leave: p = q, but for the cells next to the surface, where p = 0.
-    run(scree, "terzaghi", "undrained",
+    run(scree, "consolidation/terzaghi", "undrained",
         pictures({"Water/Hydraulic conductivity": "1e-12", "End time": "0.1", "Output/Interval": "0.1",
                   "Output/Statistics interval": "0.1"}))
     water = read_points("undrained", None, "water")
@@ -214,10 +214,10 @@ def terzaghi_slow(scree):
     bounds = {0.1: 0.00105, 0.3: 0.00145, 0.5: 0.00145, 1: 0.0015}
     stiff = column_of(1e-5, 1e9, 1e6)
     results, _ = consolidation(scree, "slow_stiff", stiff, (0.1, 0.3, 0.5, 1), {"Time step/Courant number": "0.9"}, 1e9,
-                               "terzaghi_slow")
+                               "consolidation/terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.9", results, bounds)
     results, _ = consolidation(scree, "slow_stiff_small_step", stiff, (0.1,), {"Time step/Courant number": "0.1"}, 1e9,
-                               "terzaghi_slow")
+                               "consolidation/terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.1", results, bounds)
     results, _ = consolidation(scree, "slow_soft", column_of(1e-5, 1e7, 1e4), (0.1,), {"Time step/Courant number": "0.9"}, 1e7)
     check_consolidation("Terzaghi, k = 1e-5 m/s, C = 0.9", results, bounds)
@@ -247,7 +247,7 @@ def large_strain(scree):
     factors = (0.25, 0.5, 1, 2.5)
     interval = repr(mud.time(0.25))
     name = "large_strain"
-    table = run(scree, "large_strain_consolidation", name,
+    table = run(scree, "consolidation/large_strain_consolidation", name,
                 pictures({"End time": repr(mud.time(2.5)), "Output/Interval": interval, "Output/Statistics interval": interval}))
     pressure_scale = mud.buoyant_weight * mud.height
     across = None
@@ -292,15 +292,15 @@ def top_cell(name, time, cells):
 
 
 def loaded_column(scree, name, cells, load, f_bar, entries, wet=True):
-    """prm/terzaghi.prm, a cell wide, with a load of this part of M = E_oed. Dry: of the same soil, loaded slowly."""
+    """prm/consolidation/terzaghi.prm, a cell wide, with a load of this part of M = E_oed. Dry: of the same soil, loaded slowly."""
     traction = load * closed_forms.oedometric_modulus(1e6, 0.2)
     values = {"Mesh/Cell size": repr(1 / cells), "Mesh/Upper corner": "%r, %r" % (1 / cells, 1 + 2 / cells),
               "Surface load/Upper corner": "%r, 1" % (1 / cells), "Surface load/Traction": "0; %r" % -traction,
               "Stabilisation/F-bar": f_bar, **entries}
     if wet:
-        return run(scree, "terzaghi", name, pictures(values)), traction
+        return run(scree, "consolidation/terzaghi", name, pictures(values)), traction
     # A column of the same soil without the water, in a case of its own.
-    lines = read_case(ROOT + "/prm/terzaghi.prm")
+    lines = read_case(ROOT + "/prm/consolidation/terzaghi.prm")
     begin = lines.index("subsection Water")
     with open("dry_column.prm", "w", encoding="utf-8") as file:
         file.write(lines[:begin] + lines[lines.index("subsection Surface load"):])
@@ -360,7 +360,7 @@ def load_in_time(scree):
     modulus, period = closed_forms.oedometric_modulus(1e6, 0.2), 0.5
     for courant in (0.9, 0.6):
         name = "cyclic_%g" % courant
-        run(scree, "terzaghi", name, pictures({
+        run(scree, "consolidation/terzaghi", name, pictures({
             "Water/Hydraulic conductivity": "1e-6", "End time": "0.4", "Output/Interval": "0.05", "Time step/Courant number": repr(courant),
             "Surface load/Traction": "0; %r * (1 - cos(2*pi*t/%g))/2" % (-1e-3 * modulus, period)}))
         errors = []
@@ -386,7 +386,7 @@ def pulled_columns(scree):
                 "Soil/Region": "z < 1", "Surface load/Lower corner": "0, 0, 1", "Surface load/Upper corner": "0.05, 0.05, 1",
                 "Surface load/Traction": "0; 0; %r*t" % rate}
     for name, bound, entries, columns in (("pulled", 1e5, in_plane, 3), ("pulled_3d", 1e5, in_space, 4), ("unbound", 1e12, in_plane, 3)):
-        table = run(scree, "terzaghi", name, pictures({**entries, "Water/Pressure/Cavitation pressure": repr(-bound)}))
+        table = run(scree, "consolidation/terzaghi", name, pictures({**entries, "Water/Pressure/Cavitation pressure": repr(-bound)}))
         before, after = [], []
         for time in read_times(name, "water")[1:]:
             water = read_points(name, time, "water")
@@ -413,7 +413,7 @@ def cavitation(scree):
              "Surface load/Traction": "120e3*t; 0"}
     tables = {}
     for name, bound in (("sheared", "-1e5"), ("sheared_unbound", "-1e12")):
-        table = tables[name] = run(scree, "slope_saturated_dense", name, {**layer, "Water/Pressure/Cavitation pressure": bound})
+        table = tables[name] = run(scree, "slopes/slope_saturated_dense", name, {**layer, "Water/Pressure/Cavitation pressure": bound})
         check_water(name, table)
         check(name + ": unresolved returns", table["Unresolved"][-1], 0, 0)
     held, free = tables["sheared"], tables["sheared_unbound"]
@@ -439,7 +439,7 @@ def still_water(scree):
     """
     for part in (0, 0.1, 0.25, 0.5, 0.6, 0.75):
         surface = 1 + 0.1 * part
-        tables = [run(scree, "hydrostatic", "still_%g_%s" % (part, rate), {
+        tables = [run(scree, "water/hydrostatic", "still_%g_%s" % (part, rate), {
             "Water/Region": "y < %.10g" % surface, "Water/Volume correction rate": rate, "Water/Pressure/Relative tolerance": "1e-12"})
             for rate in ("20", "0")]
         corrected, free = (table["Potential energy (J)"] for table in tables)
@@ -458,14 +458,14 @@ def sloshing(scree):
     entries = {"Mesh/Cell size": "0.1", "Mesh/Upper corner": "1, 1.3", "Time step/Maximum time step": "4e-3",
                "Water/Region": "y < 1 + 0.05*cos(pi*x)", "End time": repr(5 * period),
                "Output/Statistics interval": repr(period / 40), "Water/Volume correction rate": "5"}
-    table = run(scree, "dam_break", "sloshing", entries)
+    table = run(scree, "water/dam_break", "sloshing", entries)
     kinetic, wave = table["Kinetic energy (J)"], 1000 * closed_forms.GRAVITY * 0.05**2 / 4
     of_amplitude = wave * (1 - max(kinetic[-41:]) / max(kinetic[:41]))
     lost = table["Numerical dissipation (J)"][-1] - table["Volume correction work (J)"][-1]
     check("sloshing: energy lost beyond what the amplitude tells, over the wave's", (lost - of_amplitude) / wave, -0.05, 0.05)
     lifts = []
     for step in ("4e-3", "1e-3"):
-        crowded, free = (run(scree, "hydrostatic", "crowded_%s_%s" % (step, rate), {
+        crowded, free = (run(scree, "water/hydrostatic", "crowded_%s_%s" % (step, rate), {
             "Water/Jitter": "0.4", "Time step/Maximum time step": step, "Water/Volume correction rate": rate,
             "Water/Pressure/Relative tolerance": "1e-8"}) for rate in ("10", "0"))
         lifts.append(crowded["Potential energy (J)"][-1] - free["Potential energy (J)"][-1])
@@ -477,7 +477,7 @@ def sloshing_for_long(scree):
     """First mode, 20 periods in a tank twice as wide: volume does not drift, points do not crowd."""
     cell, n_periods = 0.1, 20
     period = 2 * math.pi / math.sqrt(closed_forms.GRAVITY * math.pi / 2 * math.tanh(math.pi / 2))
-    table = run(scree, "dam_break", "sloshing_for_long", pictures({
+    table = run(scree, "water/dam_break", "sloshing_for_long", pictures({
         "Mesh/Cell size": str(cell), "Mesh/Upper corner": "2, 1.3", "Time step/Maximum time step": "4e-3",
         "Water/Region": "y < 1 + 0.05*cos(pi/2*x)", "Water/Volume correction rate": "5", "End time": repr(n_periods * period),
         "Output/Interval": repr(period / 2), "Output/Statistics interval": repr(period / 40)}))
@@ -506,7 +506,7 @@ def dam_break_time(dimensionless):
 
 
 def dam_break_run(scree, name, entries, may_stop=False):
-    return run(scree, "dam_break", name, {"End time": "0.68", "Output/Statistics interval": "0.005", **entries}, may_stop)
+    return run(scree, "water/dam_break", name, {"End time": "0.68", "Output/Statistics interval": "0.005", **entries}, may_stop)
 
 
 def dam_break(scree):
@@ -537,7 +537,7 @@ def dam_break_baselines(scree):
           at(table, "Numerical dissipation (J)", time) / released, 0.3, 2)
     check("dam break, flux form: p oscillation (expanded form: 0.002)", at(table, "p oscillation (-)", time), 0.05, 10)
     cell = 0.1
-    run(scree, "hydrostatic", "empty_cell",
+    run(scree, "water/hydrostatic", "empty_cell",
         pictures({"Water/Region": "y < 1.025", "Water/Pressure/Free surface": "empty cell"}), may_stop=True)
     water = read_points("empty_cell", None, "water")
     error = np.max(np.abs(water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], 1.025)))
@@ -556,7 +556,7 @@ def saturated_slopes(scree):
         for sets in ("double", "single"):
             name = "%s slope, %s" % (kind, sets)
             # Single-point water is said to be unstable with Nor-Sand (Xie et al. 2024): it may stop, but not before 0.2 s (ours).
-            table = run(scree, "slope_saturated_" + kind, "slope_%s_%s" % (kind, sets),
+            table = run(scree, "slopes/slope_saturated_" + kind, "slope_%s_%s" % (kind, sets),
                         {"End time": "1", "Mesh/Cell size": "0.1", "Water/Point sets": sets}, may_stop=sets == "single")
             check(name + ": time reached, s", table["Time (s)"][-1], 0.2 if sets == "single" else 1, 1)
             check_water(name, table, sets == "single")
@@ -579,7 +579,7 @@ def saturated_column(scree):
     """
     for cell, front, whose in ("0.05", 1.91, "of the finest mesh"), ("0.1", 1.70, "ours"):
         name = f"saturated column, h = {cell} m"
-        table = run(scree, "column_saturated", "saturated_column_" + cell,
+        table = run(scree, "columns/column_saturated", "saturated_column_" + cell,
                     {"End time": "1", "Mesh/Cell size": cell, "Soil/Mohr-Coulomb/Friction angle": "43.85"})
         check(f"{name}: front 90 % at 1 s, m ({whose})", at(table, "Front 90 % (m)", 1), 0.95 * front, 1.05 * front)
         check_balances(name, table)
@@ -593,7 +593,7 @@ def low_stress(scree):
     """
     for conductivity in ("5e-3", "5e-5"):
         name = "saturated column at .01 g, k = %s m/s" % conductivity
-        table = run(scree, "column_saturated", "low_stress_" + conductivity,
+        table = run(scree, "columns/column_saturated", "low_stress_" + conductivity,
                     {"Gravity": "0, -0.0981", "End time": "9", "Mesh/Upper corner": "5, 2.5", "Mesh/Cell size": "0.25", "Time step/Maximum time step": "0.0225",
                      "Soil/Region": "x < 2 && y < 2", "Soil/Points per cell": "2", "Water/Points per cell": "2",
                      "Water/Hydraulic conductivity": conductivity, "Output/Statistics interval": "0.18"})
@@ -608,7 +608,7 @@ def wet_friction(scree):
     pressure and energy are ours: friction that acts after the pressure is solved, on the soil alone, gives 4 times the hydrostatic
     pressure, and over 100 times the wall's work goes to drag.
     """
-    table = run(scree, "column_saturated", "wet_friction",
+    table = run(scree, "columns/column_saturated", "wet_friction",
                 {"End time": "0.1", "Mesh/Upper corner": "6, 0.5", "Boundaries/Bottom": "friction 20",
                  "Soil/Region": "x > 1 && x < 5 && y < 0.3", "Soil/Material": "linear elastic", "Soil/Points per cell": "2",
                  "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.3",
@@ -631,7 +631,7 @@ def submerged(scree):
 
     Dense sand of k = 5e-3 m/s creeps (front 1.01 m at 1 s, suction holds it); ten times the conductivity lets it go.
     """
-    table = run(scree, "submerged_column", "submerged",
+    table = run(scree, "columns/submerged_column", "submerged",
                 {"End time": "1", "Mesh/Cell size": "0.1", "Water/Hydraulic conductivity": "5e-2"})
     check("submerged column: front at 1 s, m (ours)", at(table, "Front 99.5 % (m)", 1), 1.05, 2.1)
     check("submerged column: height at 1 s, m (ours)", at(table, "Height (m)", 1), 0.4, 1.1)
@@ -648,7 +648,7 @@ def seepage(scree):
              "Time step/Maximum time step": "4e-3"}
     for name, entries, tolerance in (("porous dam", {}, 0.05), ("rigid porous dam", rigid, 0.01)):
         folder = name.replace(" ", "_")
-        table = run(scree, "porous_dam", folder,
+        table = run(scree, "seepage/porous_dam", folder,
                     pictures({"End time": "4", "Mesh/Cell size": "0.1", "Output/Interval": "0.05", **entries}))
         measured, expected = [], []
         for time in read_times(folder, "water"):
@@ -681,7 +681,7 @@ def filter_layers(scree):
     conductivities = {"sand": 1e-3, "gravel": 3e-3}
     for cell, top, bound in ((0.05, 1., 0.01), (0.1, 1., 0.01), (0.1, 1.04, 0.02)):
         name = "filter to %g m, cells of %g m" % (top, cell)
-        table = run(scree, "filter", "filter", pictures({"End time": "4", "Output/Interval": "0.5", "Mesh/Cell size": str(cell),
+        table = run(scree, "seepage/filter", "filter", pictures({"End time": "4", "Output/Interval": "0.5", "Mesh/Cell size": str(cell),
                                                          "Sand/Region": "y >= 0.5 && y < %g" % top}))
         flows, slopes = {"sand": [], "gravel": []}, {"sand": [], "gravel": []}
         for time in read_times("filter", "water")[1:]:
@@ -707,7 +707,7 @@ def net(scree):
     """A net two cells thick, rigid soil of its own conductivity: elastic soil lies on it, and water seeps through both, as by Darcy; a saturated
     column that collapses against it stays before it, and its water goes on."""
     for cell in (0.05, 0.025):
-        run(scree, "filter", "net", pictures({
+        run(scree, "seepage/filter", "net", pictures({
             "Mesh/Cell size": str(cell), "End time": "0.4", "Sand/Region": "y >= 1 && y < 1.5", "Sand/Material": "linear elastic",
             "Sand/Grain density": "2650", "Sand/Linear elastic/Young's modulus": "1e7", "Sand/Linear elastic/Poisson's ratio": "0.3",
             "Sand/Initial state/Type": "K0", "Sand/Initial state/K0": "0.43", "Gravel/Region": "y >= 0.9 && y < 1",
@@ -718,7 +718,7 @@ def net(scree):
         check("net below soil, cells of %g m: discharge over Darcy's" % cell, discharge * (0.5 / 1e-3 + 0.1 / 2e-4), 0.99, 1.01)
         check("net below soil, cells of %g m: lowest point of the soil that moves, m" % cell,
               np.min(soil.positions[soil.arrays["body"].ravel() == 0, 1]), 1., 1.01)
-    table = run(scree, "net", "wall", pictures({"End time": "2", "Output/Interval": "2"}))
+    table = run(scree, "seepage/net", "wall", pictures({"End time": "2", "Output/Interval": "2"}))
     water, soil = read_points("wall", None, "water"), read_points("wall")
     x, mass = water.positions[:, 0], water.arrays["mass"].ravel()
     check("net before a saturated column: share of the water beyond", np.sum(mass[x > 1.6]) / np.sum(mass), 0.03, 0.1)
@@ -733,7 +733,7 @@ def porous_block(scree):
     Velocities of the nodes alone fill the first cell to 1.57 of its pores, the last free one to .87, and spend head in them.
     """
     conductivity, cell = 0.1, 0.1
-    table = run(scree, "porous_block", "porous_block", pictures({"End time": "2.5", "Mesh/Cell size": str(cell)}))
+    table = run(scree, "seepage/porous_block", "porous_block", pictures({"End time": "2.5", "Mesh/Cell size": str(cell)}))
     times = [time for time in read_times("porous_block", "water") if time > 0.49]
     fills, volume_errors, discharge, expected = [], [], 0, 0
     for time in times:
@@ -769,7 +769,7 @@ def packed_bed(scree):
     for viscosity, sets, kind, entries in ((0.3, "double", "elastic", {}), (1e-2, "double", "elastic", {}), (1e-3, "double", "elastic", {}),
                                            (1e-6, "double", "elastic", {}), (1e-3, "single", "elastic", {}), (1e-3, "double", "rigid", rigid)):
         name = "packed_bed_%g_%s_%s" % (viscosity, sets, kind)
-        table = run(scree, "packed_bed", name, pictures({"Water/Viscosity": repr(viscosity), "Water/Point sets": sets, **entries}))
+        table = run(scree, "seepage/packed_bed", name, pictures({"Water/Viscosity": repr(viscosity), "Water/Point sets": sets, **entries}))
         water = read_points(name, None, "water")
         inside = (water.positions[:, 1] > 0.2) & (water.positions[:, 1] < 0.8)
         exact = closed_forms.ergun_velocity(closed_forms.GRAVITY, 5e-3, 0.4, viscosity)
@@ -808,7 +808,7 @@ def poiseuille(scree):
     errors = {}
     for method, cell in (("AFLIP", 0.0125), ("AFLIP", 0.00625), ("TPIC", 0.0125), ("TPIC", 0.00625), ("APIC", 0.0125), ("FLIP", 0.0125)):
         name, label = "poiseuille_%s_%g" % (method, cell), "Poiseuille, %s, H/h = %g: " % (method, 0.1 / cell)
-        table = run(scree, "poiseuille", name, pictures({"Transfer/Method": method, "Mesh/Cell size": str(cell),
+        table = run(scree, "water/poiseuille", name, pictures({"Transfer/Method": method, "Mesh/Cell size": str(cell),
                                                          "Time step/Maximum time step": str(0.4 * cell)}))
         discharge, errors[method, cell] = poiseuille_flow(name, 10, 0.25)
         check(label + "discharge over the exact one", discharge, 0.99, 1.01)
@@ -818,7 +818,7 @@ def poiseuille(scree):
               max(table["Momentum residual (N s)"]) / (40 * 0.25 * table["Time (s)"][-1]), 0, 1e-11)
     check("Poiseuille, AFLIP: order of the distance", math.log2(errors["AFLIP", 0.0125] / errors["AFLIP", 0.00625]), 1, 4)
 
-    table = run(scree, "poiseuille", "poiseuille_explicit", pictures({"Transfer/Method": "AFLIP", "Time step/Maximum time step": "5e-4"}))
+    table = run(scree, "water/poiseuille", "poiseuille_explicit", pictures({"Transfer/Method": "AFLIP", "Time step/Maximum time step": "5e-4"}))
     check("Poiseuille, explicit: iterations of an implicit solve", max(table["Viscous iterations per step"]), 0, 0)
     discharge, _ = poiseuille_flow("poiseuille_explicit", 10, 0.25)
     implicit, _ = poiseuille_flow("poiseuille_AFLIP_0.0125", 10, 0.25)
@@ -827,7 +827,7 @@ def poiseuille(scree):
     # What viscosity shears does not come together: Fading must leave p alone (1.045 and .041 if it does not).
     for fading in ("0", "5"):
         name, label = "poiseuille_stiff_" + fading, "Poiseuille, 100 times the viscosity, Fading = %s: " % fading
-        run(scree, "poiseuille", name, pictures({"Transfer/Method": "AFLIP", "Water/Viscosity": "1000", "Gravity": "25, 0",
+        run(scree, "water/poiseuille", name, pictures({"Transfer/Method": "AFLIP", "Water/Viscosity": "1000", "Gravity": "25, 0",
                                                  "End time": "0.05", "Water/Pressure/Fading": fading}))
         discharge, error = poiseuille_flow(name, 1000, 25)
         check(label + "discharge over the exact one (ours)", discharge, 0.97, 1.03)
@@ -852,7 +852,7 @@ def shear_wave(scree):
         if method == "FLIP":
             entries["Transfer/PIC rate"] = "0"
         label = "vortices, %s, %g cells: " % (method, 1 / cell)
-        table = run(scree, "shear_wave", "shear_wave_%s_%g" % (method, cell), entries)
+        table = run(scree, "water/shear_wave", "shear_wave_%s_%g" % (method, cell), entries)
         errors[method, cell] = abs(decay(table) / rate - 1)
         check(label + "rate of decay, relative error", errors[method, cell], 0, error)
         check(label + "energy lost in no account over that of viscosity",
@@ -862,12 +862,12 @@ def shear_wave(scree):
         check("vortices, %s: order of the rate" % method, math.log2(errors[method, 0.0625] / errors[method, 0.03125]), 1.3, 3)
 
     # Both steps are short against the decay of the vortices.
-    explicit, implicit = (run(scree, "shear_wave", "shear_wave_%g" % step,
+    explicit, implicit = (run(scree, "water/shear_wave", "shear_wave_%g" % step,
                               {"Time step/Maximum time step": str(step), "Output/Statistics interval": "1"}) for step in (1e-3, 0.03))
     check("vortices, short steps: iterations of an implicit solve", explicit["Viscous iterations per step"][-1], 0, 0)
     check("vortices, long steps: the same", implicit["Viscous iterations per step"][-1], 1, 100)
     check("vortices: rate of implicit over that of explicit steps", decay(implicit) / decay(explicit), 0.99, 1.01)
-    table = run(scree, "shear_wave", "shear_wave_stiff", {"Transfer/Method": "AFLIP", "Water/Viscosity": "4000", "End time": "0.02"})
+    table = run(scree, "water/shear_wave", "shear_wave_stiff", {"Transfer/Method": "AFLIP", "Water/Viscosity": "4000", "End time": "0.02"})
     euler = math.log(1 + 0.005 * closed_forms.vortex_decay(4000, 1000, 1)) / 0.005
     check("vortices, 400 times the viscosity: rate of decay over that of backward Euler", decay(table) / euler, 0.98, 1.02)
 
@@ -878,16 +878,16 @@ def suspension(scree):
     rate = closed_forms.vortex_decay(closed_forms.krieger_dougherty(5, 0.4), 1660, 1)
     for name, entries, error in (("suspension_16", {}, 0.02), ("suspension_32", {"Mesh/Cell size": "0.03125"}, 0.01),
                                  ("suspension_single", {"Water/Point sets": "single", "Water/Initial velocity": ""}, 0.02)):
-        table = run(scree, "suspension", name, entries)
+        table = run(scree, "water/suspension", name, entries)
         check(name + ": rate of decay, relative error", abs(decay(table) / rate - 1), 0, error)
         check(name + ": energy lost in no account over that of viscosity",
               table["Numerical dissipation (J)"][-1] / table["Viscous dissipation (J)"][-1], -0.02, 0.02)
     none = {"Water/Suspension/Law": "none", "Water/Suspension/Contact pressure": "100"}
-    table = run(scree, "suspension", "suspension_none", none)
+    table = run(scree, "water/suspension", "suspension_none", none)
     check("suspension, no law: rate of decay over that of the water's share", decay(table) / closed_forms.vortex_decay(0.6 * 5, 1660, 1), 0.98, 1.02)
 
     sinks = {"Gravity": "0, -9.81", "Soil/Initial velocity": "", "Water/Initial velocity": "", "Water/Hydraulic conductivity": "1e-2"}
-    run(scree, "suspension", "suspension_sinks", pictures({**sinks, "Output/Interval": "0.5"}))
+    run(scree, "water/suspension", "suspension_sinks", pictures({**sinks, "Output/Interval": "0.5"}))
     soil = read_points("suspension_sinks", None, "points")
     middle = np.abs(soil.positions[:, 1] - 0.5) < 1 / 6
     speed_of_grains = -soil.arrays["velocity"][middle, 1] / closed_forms.settling_velocity(1e-2, 0.6, 2650)
@@ -899,8 +899,8 @@ def dam_break_wet(scree):
     """A bore runs into water at rest: Stoker's discharge through the gate within 3 %. Wanted as much of the bore's depth and speed: missed,
     a bed two cells deep does not take the energy that a bore loses (doc/verification.md)."""
     upstream, downstream, gate, cell, name = 1., 0.2, 10., 0.1, "dam_break_wet"
-    table = run(scree, name, name, pictures({"Mesh/Cell size": str(cell), "Time step/Maximum time step": "4e-3",
-                                             "Water/Volume correction rate": "5"}))
+    table = run(scree, "water/" + name, name, pictures({"Mesh/Cell size": str(cell), "Time step/Maximum time step": "4e-3",
+                                                        "Water/Volume correction rate": "5"}))
     bore = closed_forms.stoker_bore(upstream, downstream)
     times = [time for time in read_times(name, "water") if time > 0.99]
     passed, fronts, depths = [], [], []
@@ -933,7 +933,7 @@ def water_on_soil(scree):
     dry = {"Water/Region": "x < 0.8 && y > 0.4 && y < 1.2", "Water/Pressure/Fading": "0"}
     for state, changes, step in (("saturated", {}, "1e-3"), ("saturated", {}, "2e-3"), ("dry", dry, "2e-3")):
         folder = "%s_%s" % (state, step)
-        table = run(scree, "water_on_soil", folder, pictures({
+        table = run(scree, "water/water_on_soil", folder, pictures({
             "Mesh/Cell size": "0.1", "Time step/Maximum time step": step, "Water/Volume correction rate": "5", "End time": "2", **changes}))
         check_soil_and_water("water on a %s bed, step %s s" % (state, step), folder, table, (40, 16))
 
@@ -949,7 +949,7 @@ def closing_gap(scree):
         name = "%s, gap of %g m, %g m/s, fading %g" % (what, gap, speed, fading)
         both, velocity = "y < 0.4 || (y > %g && y < %g)" % (0.4 + gap, 0.8 + gap), "0; if(y > %g, %g, 0)" % (0.4 + gap / 2, -speed)
         soil = {"Soil/Region": both, "Soil/Initial velocity": velocity} if what == "soil" else {"Soil/Region": "y < 0.4"}
-        table = run(scree, "column_saturated", name.replace(",", "").replace(" ", "_").replace("/", "_"), pictures({
+        table = run(scree, "columns/column_saturated", name.replace(",", "").replace(" ", "_").replace("/", "_"), pictures({
             "Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": "0.05", **soil, "Soil/Initial state/Type": "none",
             "Soil/Points per cell": "3", "Water/Region": both,
             "Water/Points per cell": "3", "Water/Initial pressure": "none", "Water/Hydraulic conductivity": "1e-3",
@@ -970,7 +970,7 @@ def impact(scree):
     """
     for step in ("1e-3", "1e-4"):
         name = "impact, steps of %s s" % step
-        table = run(scree, "column_saturated", "impact_" + step, {
+        table = run(scree, "columns/column_saturated", "impact_" + step, {
             "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6",
             "Soil/Initial state/Type": "none", "Soil/Points per cell": "3", "Water/Points per cell": "3", "Water/Initial pressure": "none",
             "Water/Hydraulic conductivity": "1e-5", "Soil/Initial velocity": "0; -2", "Water/Initial velocity": "0; -2",
@@ -989,7 +989,7 @@ def impact(scree):
 def drawdown(scree):
     """A slope that stands under water slides when the reservoir runs off: tan(phi)/tan(slope) is 1.40, then .70."""
     for name, entries in (("closed", {"Boundaries/Water/Right": "impermeable", "End time": "1.5"}), ("drawdown", {"End time": "3"})):
-        table = run(scree, "drawdown", name, pictures({"Mesh/Cell size": "0.1", "Time step/Maximum time step": "2e-3",
+        table = run(scree, "slopes/drawdown", name, pictures({"Mesh/Cell size": "0.1", "Time step/Maximum time step": "2e-3",
                                                        "Water/Volume correction rate": "5", **entries}))
         first, last = (read_points(name, read_times(name, "points")[i]) for i in (0, -1))
         order = [np.argsort(points.arrays["id"]) for points in (first, last)]
@@ -1006,7 +1006,7 @@ def drawdown(scree):
 def dam(scree):
     """The downstream shell of a dam stands if its friction is above its slope of 26.6 degrees, and slides below; the reservoir stays."""
     for angle, lowest, highest in ((24, 0.3, 1), (29, -1e-3, 0.01)):  # amounts: ours
-        table = run(scree, "dam", "dam", {"End time": "3", "Downstream shell/Mohr-Coulomb/Friction angle": "%d" % angle,
+        table = run(scree, "slopes/dam", "dam", {"End time": "3", "Downstream shell/Mohr-Coulomb/Friction angle": "%d" % angle,
                                           "Downstream shell/Initial state/K0": "%.3f" % (1 - math.sin(math.radians(angle)))})
         name = "dam, downstream shell of %d degrees" % angle
         front = table["Front 90 % (m)"]
@@ -1017,7 +1017,7 @@ def dam(scree):
 
 def column_3d(scree):
     """A saturated column in 3D on a coarse mesh: balances, and x and y are alike."""
-    table = run(scree, "column_saturated_3d", "column_3d",
+    table = run(scree, "columns/column_saturated_3d", "column_3d",
                 {"End time": "0.4", "Mesh/Cell size": "0.1", "Water/Pressure/Relative tolerance": "1e-10"})
     x, y = table["Momentum x (N s)"], table["Momentum y (N s)"]
     check("saturated column in 3D: difference of momentum along x and y",

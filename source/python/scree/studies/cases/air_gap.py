@@ -29,7 +29,7 @@ def with_case(variants):
                             "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": 1e-3})
         else:
             entries.update({"Water/Volume correction rate": 0, "Time step/Maximum time step": 1e-3})
-        result.append(variants[0]._replace(labels=labels, entries=entries, base=None if soil else "prm/dam_break.prm"))
+        result.append(variants[0]._replace(labels=labels, entries=entries, base=None if soil else "prm/water/dam_break.prm"))
     return result
 
 
@@ -74,7 +74,7 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Closure of an air gap", base="prm/column_saturated.prm", needs_end=False,
+STUDY = Study(title="Closure of an air gap", base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": CELL, "Water/Initial pressure": "none", "Water/Points per cell": 3,
                        "End time": 0.5, "Output/Interval": 0.25, "Output/Statistics interval": 0.005},
               variants=with_case(product(axis("old p", PRESSURES.get, list(PRESSURES)),

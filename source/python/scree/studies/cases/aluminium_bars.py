@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The collapse of a column of aluminium bars (Bui, Fukagawa, Sako & Ohno 2008: 0.2 m x 0.1 m, friction 19.8 degrees, bulk modulus 0.7 MPa, Poisson's ratio 0.3, no cohesion, no
-dilation), of `prm/aluminium_bars.prm`, on two bases: one that bars do not slip on, and one with the friction of the bars among themselves. Nothing is fitted.
+dilation), of `prm/columns/aluminium_bars.prm`, on two bases: one that bars do not slip on, and one with the friction of the bars among themselves. Nothing is fitted.
 
 - Surface: depth of the deposit (volume over a width of 0.01 m) against the digitised line, rms and largest difference of its 23 places.
 - Front: where the deposit is 1.5 mm deep, the thicker of the two kinds of bars and the depth of the last digitised place, at 0.442 m; beside it the front of 99.5 % of the mass.
@@ -99,7 +99,7 @@ def draw(figure, runs):
 
 
 CHART = RunCurves(draw, size=(9, 4))
-STUDY = Study(title="Collapse of a column of aluminium bars", base="prm/aluminium_bars.prm", measure=measure, verdict=verdict, chart=CHART,
+STUDY = Study(title="Collapse of a column of aluminium bars", base="prm/columns/aluminium_bars.prm", measure=measure, verdict=verdict, chart=CHART,
               entries={"Output/Graphics": "points", "Output/Interval": "1"},
               variants=product(axis("h", "Mesh/Cell size", [0.01, 0.005, 0.0025]),
                                axis("base", lambda base: {"Boundaries/Bottom": "friction 19.8" if base == FRICTION else "fixed"}, [FIXED, FRICTION])),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """An elastic bar between two walls swings in its first mode at small strain: v = V sin(pi x) cos(pi c t). No point crosses a cell. Error: rms over
 velocity and stress of their relative L2 errors over the points at 2.125 periods, where both are far from 0; velocities are those of half a step
-before, as symplectic Euler has them. Runs whose error is above 1 have blown up and are not drawn. Methods differ from `prm/vibrating_bar.prm`
+before, as symplectic Euler has them. Runs whose error is above 1 have blown up and are not drawn. Methods differ from `prm/dynamics/vibrating_bar.prm`
 (splines, FLIP without PIC rate, 4 x 4 points a cell, Courant number 0.6, no F-bar) in one thing."""
 
 import math
@@ -72,7 +72,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Vibrating bar: error over cost", base="prm/vibrating_bar.prm",
+    title="Vibrating bar: error over cost", base="prm/dynamics/vibrating_bar.prm",
     entries={"Soil/Initial velocity": f"{AMPLITUDE:g}*sin(pi*x); 0", "Time step/Maximum time step": 1, "End time": TIME,
              "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points"},
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", mesh, [1 / 16, 1 / 32, 1 / 64, 1 / 128, 1 / 256])),

@@ -104,7 +104,7 @@ def slopes(cell_size, soils, end):
 
 
 CHART = RunCurves(draw, size=(13, 8.5))
-STUDY = Study(title="Stress in the dry slopes", base="prm/slope_dense.prm", needs_end=False,
+STUDY = Study(title="Stress in the dry slopes", base="prm/slopes/slope_dense.prm", needs_end=False,
               entries={"Output/Graphics": "points", "Output/Interval": 0.1, "Output/Statistics interval": 0.02},
               variants=slopes(0.1, ["dense"], SHOWN) + slopes(0.05, ["dense"], 1) + slopes(0.05, ["loose"], SHOWN) + slopes(0.025, ["dense"], SHOWN),
               quick=lambda labels: labels["h"] == 0.1, measure=measure, verdict=verdict, chart=CHART)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Dam break on a smooth floor (`prm/dam_break.prm`, to T = 3 of t sqrt(2 g/a)). The reference is the case's own method with h = 1/60 m. Error, in table
+"""Dam break on a smooth floor (`prm/water/dam_break.prm`, to T = 3 of t sqrt(2 g/a)). The reference is the case's own method with h = 1/60 m. Error, in table
 and chart: rms over time (each 0.04 s from 0.2 s on) and over three lengths, the fronts that hold 90 and 99 % of the water and the height of its centre
 of mass, of their distance to the reference, over what each has moved in it by the end. The verdict adds what the reference itself lacks of the limit, by
 the fit error = A (h^p - (1/60 m)^p) to the case's three meshes: A (1/60 m)^p, for all methods. Methods differ from the case (TPIC, splines, 4 x 4 points a cell,
@@ -98,7 +98,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Dam break: error over cost", base="prm/dam_break.prm",
+    title="Dam break: error over cost", base="prm/water/dam_break.prm",
     entries={"End time": 0.68, "Output/Interval": 0.68, "Output/Statistics interval": 0.04, "Output/Graphics": "none"},
     variants=variants(METHODS, [1 / 10, 1 / 20]) + variants((DEFAULTS, "2 x 2 points", "3 x 3 points"), [1 / 30]),
     reference=mesh(REFERENCE), quick_reference={**mesh(1 / 30), "Water/Points per cell": 3}, default={"method": DEFAULTS},

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A slope of dense dry sand fails and runs out (`prm/slope_dense.prm`, its first 1.5 s). There is no exact solution: the reference is the defaults'
+"""A slope of dense dry sand fails and runs out (`prm/slopes/slope_dense.prm`, its first 1.5 s). There is no exact solution: the reference is the defaults'
 run on a finer mesh, h = 0.04 m, so that what all meshes have in common, the base above all, does not show. Error, in table and chart: rms over time
 (each 0.1 s from 0.5 s on) and over three lengths, the fronts that hold 90 and 99 % of the mass and the height of the centre of mass, of their distance
 to the reference, over what each has moved in it by the end. The reference itself has not converged: the verdict adds to each error what the reference
@@ -99,7 +99,7 @@ def _at(rows, method, h):
 
 
 STUDY = Study(
-    title="Dry slope of dense sand: error over cost", base="prm/slope_dense.prm",
+    title="Dry slope of dense sand: error over cost", base="prm/slopes/slope_dense.prm",
     entries={"Transfer/PIC rate": "auto", "End time": 1.5, "Mesh/Upper corner": "8, 2.4", "Output/Interval": 1.5, "Output/Statistics interval": 0.1, "Output/Graphics": "none"},
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15, 1 / 10]))
     + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 15])),

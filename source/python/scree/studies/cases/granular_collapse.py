@@ -128,7 +128,7 @@ def draw(figure, rows):
 
 CELLS = axis("cells", in_cells, [8, 16])
 ANGLES = axis("friction", "Soil/Mohr-Coulomb/Friction angle", [22, 31])
-STUDY = Study(title="Collapse of granular columns", base="prm/mohr_coulomb_collapse.prm", entries={"Output/Graphics": "none"},
+STUDY = Study(title="Collapse of granular columns", base="prm/columns/mohr_coulomb_collapse.prm", entries={"Output/Graphics": "none"},
               variants=product(CELLS, ANGLES, axis("a", column, [0.5, 1, 3, 6]))
               + product(axis("cells", in_cells, [32]), ANGLES, axis("a", column, [1])),
               quick=lambda labels: labels["cells"] == 8 and labels["a"] <= 3,

@@ -68,7 +68,7 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Impact of a saturated block", base="prm/column_saturated.prm", needs_end=False,
+STUDY = Study(title="Impact of a saturated block", base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6", "Soil/Initial state/Type": "none", "Water/Initial pressure": "none",
                        "Mesh/Upper corner": "2, 1.5", "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Interval": 0.1,
                        "Output/Statistics interval": 0.002},

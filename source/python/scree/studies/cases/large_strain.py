@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Soft mud settles under its own weight below water (`prm/large_strain_consolidation.prm`, to T_v = 1): strain 24 % at the base, points cross cells,
+"""Soft mud settles under its own weight below water (`prm/consolidation/large_strain_consolidation.prm`, to T_v = 1): strain 24 % at the base, points cross cells,
 and water leaves the soil. Error: rms over T_v = 0.25, 0.5, 1 of the L2 errors of the excess pressure inside the soil, over its buoyant weight,
 and of the heights of the points' rows, over the final settlement; against finite differences in the material height (`source/python/scree/closed_forms.py`).
 Methods differ from the case (double-point, splines, TPIC, 4 x 4 points a cell and phase, Courant number 0.6, no F-bar) in one thing."""
@@ -94,7 +94,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Consolidation at large strain: error over cost", base="prm/large_strain_consolidation.prm",
+    title="Consolidation at large strain: error over cost", base="prm/consolidation/large_strain_consolidation.prm",
     entries={"End time": TIMES[-1], "Output/Interval": TIMES[0], "Output/Graphics": "points"},
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", mesh, [1 / 10, 1 / 20, 1 / 40])),
     default={"method": DEFAULTS},

@@ -12,8 +12,8 @@ from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify, mean_oscillation
 from scree.studies.study import Claim, Study, axis, product
 
-CASES = {("Nor-Sand", "dry"): "column_loose", ("Mohr-Coulomb", "dry"): "mohr_coulomb_collapse", ("Nor-Sand", "saturated"): "slope_saturated_loose",
-         ("Mohr-Coulomb", "saturated"): "column_saturated"}
+CASES = {("Nor-Sand", "dry"): "columns/column_loose", ("Mohr-Coulomb", "dry"): "columns/mohr_coulomb_collapse", ("Nor-Sand", "saturated"): "slopes/slope_saturated_loose",
+         ("Mohr-Coulomb", "saturated"): "columns/column_saturated"}
 
 
 def with_case(variants):
@@ -58,7 +58,7 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Low stress", base="prm/column_loose.prm", needs_end=False, entries={"Soil/Points per cell": 2},
+STUDY = Study(title="Low stress", base="prm/columns/column_loose.prm", needs_end=False, entries={"Soil/Points per cell": 2},
               variants=with_case(product(axis("soil", lambda _: {}, [", ".join(case) for case in CASES]), axis("gravity", lambda _: {}, [0.01, 1.]),
                                          axis("height", lambda _: {}, [0.02, 0.1, 0.5, 2.]))),
               quick=lambda labels: labels["gravity"] == 1. and labels["height"] in (0.1, 2.),

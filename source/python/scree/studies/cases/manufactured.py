@@ -92,7 +92,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Manufactured solution with points that cross cells: error over cost", base="prm/vibrating_bar.prm",
+    title="Manufactured solution with points that cross cells: error over cost", base="prm/dynamics/vibrating_bar.prm",
     entries={"End time": TIME, "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points",
              "Mesh/Upper corner": "1, 1", "Body force": f"{body_force('x')}; {body_force('y')}",
              "Soil/Initial velocity": "0.1*pi*sin(pi*x); 0.1*pi*sin(pi*y)",

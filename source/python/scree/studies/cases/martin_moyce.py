@@ -110,7 +110,7 @@ def draw(figure, runs):
 
 
 CHART = RunCurves(draw, size=(10, 4.5))
-STUDY = Study(title="Dam break against the experiment of Martin & Moyce", base="prm/dam_break.prm",
+STUDY = Study(title="Dam break against the experiment of Martin & Moyce", base="prm/water/dam_break.prm",
               entries={"End time": 1.35, "Mesh/Upper corner": "10, 2.4", "Output/Graphics": "points"},
               variants=axis("h", lambda h: {"Mesh/Cell size": h, "Time step/Maximum time step": 0.04 * h}, [0.1, 0.05, 0.025]),
               quick=lambda labels: labels["h"] >= 0.05, measure=measure, verdict=verdict, chart=CHART)

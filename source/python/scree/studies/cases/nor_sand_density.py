@@ -49,7 +49,7 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Density of Nor-Sand", base="prm/column_loose.prm", needs_end=False,
+STUDY = Study(title="Density of Nor-Sand", base="prm/columns/column_loose.prm", needs_end=False,
               entries={"Mesh/Upper corner": "2.5, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "End time": 1., "Output/Interval": 0.25,
                        "Output/Statistics interval": 0.02},
               variants=product(axis("pores", water, ["dry", "saturated"]), axis("F-bar", "Stabilisation/F-bar", ["none", "standard", "modified"]),

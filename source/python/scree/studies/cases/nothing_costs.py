@@ -20,14 +20,14 @@ BLOCK = {"Mesh/Cell size": 0.02, "End time": 1.}
 STIFF = {**BLOCK, "End time": 0.1, "Soil/Linear elastic/Young's modulus": 5e6}  # ten times the wave speed
 BOXES = {"stiff block": ("prm/benchmarks/elastic_2d.prm", 1.28, 1.28, STIFF),
          "soft block": ("prm/benchmarks/elastic_2d.prm", 1.28, 1.28, BLOCK),
-         "dry column": ("prm/column_dense.prm", 3., 1.5, COLUMN),
-         "dam break": ("prm/dam_break.prm", 9., 3., {"Mesh/Cell size": 0.1, "End time": 1.2, "Output/Interval": 2.})}
+         "dry column": ("prm/columns/column_dense.prm", 3., 1.5, COLUMN),
+         "dam break": ("prm/water/dam_break.prm", 9., 3., {"Mesh/Cell size": 0.1, "End time": 1.2, "Output/Interval": 2.})}
 PHASES = {**COLUMN, **transfer("TPIC"), "Time step/Maximum time step": 5e-4, "End time": 0.2}
 SOIL = {**PHASES, "Soil/Initial porosity": 0.4}
-WATER = {"dry": ("prm/column_dense.prm", SOIL),
-         "single": ("prm/column_dense.prm", {**SOIL, "Water/Region": "same", "Water/Point sets": "single"}),
-         "double": ("prm/column_dense.prm", {**SOIL, "Water/Region": "same"}),
-         "water alone": ("prm/dam_break.prm", {**PHASES, "Water/Region": "x < 1 && y < 1", "Water/Volume correction rate": 0})}
+WATER = {"dry": ("prm/columns/column_dense.prm", SOIL),
+         "single": ("prm/columns/column_dense.prm", {**SOIL, "Water/Region": "same", "Water/Point sets": "single"}),
+         "double": ("prm/columns/column_dense.prm", {**SOIL, "Water/Region": "same"}),
+         "water alone": ("prm/water/dam_break.prm", {**PHASES, "Water/Region": "x < 1 && y < 1", "Water/Volume correction rate": 0})}
 PICTURES = ["none", "points", "points and grid"]
 OF_WATER, OF_SOIL = "pressure: [a-z]+|grid to water points", "grid to points, stress"  # parts of a step, as the log names them
 
@@ -43,7 +43,7 @@ def variants():
         found.append(Variant({"question": "phases", "scene": "column", "choice": name}, {**entries, "Output/Graphics": "none"}, base))
     for name in PICTURES:
         found.append(Variant({"question": "pictures", "scene": "dry column", "choice": name},
-                             {**COLUMN, "Output/Interval": 0.02, "Output/Graphics": name}, "prm/column_dense.prm"))
+                             {**COLUMN, "Output/Interval": 0.02, "Output/Graphics": name}, "prm/columns/column_dense.prm"))
     return found
 
 
@@ -107,5 +107,5 @@ def draw(figure, rows):
     axes[0].set_ylabel("ms per step")
 
 
-STUDY = Study(title="What nobody asked for", base="prm/column_dense.prm", variants=variants(), measure=measure, verdict=verdict,
+STUDY = Study(title="What nobody asked for", base="prm/columns/column_dense.prm", variants=variants(), measure=measure, verdict=verdict,
               quick=lambda labels: labels["scene"] == "stiff block", chart=Curves(draw, size=(11, 5.5), timed=True))

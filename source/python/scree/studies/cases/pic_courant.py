@@ -3,7 +3,7 @@
 Three scenes: an elastic bar that swings (rows a half period apart, since the energy of an explicit step swings within one), and columns of Mohr-
 Coulomb soil and of Nor-Sand, 1 m x 1 m in cells of 0.1 m, that collapse for a second. The number is the part of the released energy that is in
 no physical account at the end (numerical dissipation). State: `measures.BOUNDS`; the oscillation of p' is the time mean of `Stress oscillation`, of
-the columns only, as the mean p' of a bar that swings vanishes. Default: FLIP at 1/s; `prm/column_dense.prm` has 5/s.
+the columns only, as the mean p' of a bar that swings vanishes. Default: FLIP at 1/s; `prm/columns/column_dense.prm` has 5/s.
 """
 
 import math
@@ -20,11 +20,11 @@ SCATTER = "oscillation of p'"
 
 SCENES = [Variant({"scene": "vibrating bar"}, {"Mesh/Cell size": 0.0625, "Mesh/Upper corner": "1, 0.0625", "End time": 1.26491,
                                                "Output/Interval": 0.31623, "Output/Statistics interval": 0.31623,
-                                               "Time step/Maximum time step": 1}, "prm/vibrating_bar.prm"),
+                                               "Time step/Maximum time step": 1}, "prm/dynamics/vibrating_bar.prm"),
           Variant({"scene": "Mohr-Coulomb column"}, {"Mesh/Cell size": 0.1, "Soil/Region": "x < 1 && y < 1", "End time": 1., "Output/Interval": 0.25,
-                                                     "Output/Statistics interval": 0.05}, "prm/mohr_coulomb_collapse.prm"),
+                                                     "Output/Statistics interval": 0.05}, "prm/columns/mohr_coulomb_collapse.prm"),
           Variant({"scene": "Nor-Sand column"}, {"Mesh/Cell size": 0.1, "End time": 1., "Output/Interval": 0.25,
-                                                 "Output/Statistics interval": 0.05}, "prm/column_dense.prm")]
+                                                 "Output/Statistics interval": 0.05}, "prm/columns/column_dense.prm")]
 
 
 def measure(run):
@@ -76,7 +76,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Transfer and step", base="prm/column_dense.prm", entries={"Output/Graphics": "points"},
+    title="Transfer and step", base="prm/columns/column_dense.prm", entries={"Output/Graphics": "points"},
     variants=product(SCENES, [Variant({"transfer": name}, entries) for name, entries in TRANSFERS.items()],
                      axis("step/limit", "Time step/Courant number", [0.2, 0.4, 0.6, 0.8, 1., 1.2, 1.5, 2.])),
     measure=measure, verdict=verdict, needs_end=False,

@@ -16,7 +16,7 @@ from scree import render, results
 from scree.studies.charts import RunCurves
 from scree.studies.study import Claim, Study, Variant, axis, product
 
-SOILS = {"dense": "slope_saturated_dense", "loose": "slope_saturated_loose", "Mohr-Coulomb": "slope_saturated_mohr_coulomb"}
+SOILS = {"dense": "slopes/slope_saturated_dense", "loose": "slopes/slope_saturated_loose", "Mohr-Coulomb": "slopes/slope_saturated_mohr_coulomb"}
 SHOWN = (1., 4., 12.)  # s
 CELL, POROSITY = 0.05, 0.4  # m, -; of the cases
 
@@ -130,7 +130,7 @@ def draw(figure, runs):
 
 CHART = RunCurves(draw, size=(12, 11), timed=True)
 POINTS = axis("points", "Water/Point sets", ["double", "single"])
-STUDY = Study(title="Water on its own points or on the soil's", base="prm/slope_saturated_dense.prm", needs_end=False,
+STUDY = Study(title="Water on its own points or on the soil's", base="prm/slopes/slope_saturated_dense.prm", needs_end=False,
               entries={"Output/Checkpoint interval": 1},
               variants=product([soil(name) for name in SOILS], POINTS, axis("end", "End time", [12]))
               + product([soil(name) for name in ("dense", "loose")], POINTS,

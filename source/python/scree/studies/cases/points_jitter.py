@@ -53,12 +53,12 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Water at rest: number of points and jitter", base="prm/hydrostatic.prm",
+    title="Water at rest: number of points and jitter", base="prm/water/hydrostatic.prm",
     entries={"Mesh/Cell size": CELL, "Mesh/Upper corner": "0.4, 1.5", "Time step/Maximum time step": 2e-3, "End time": 0.2,
              "Output/Interval": 0.1, "Output/Statistics interval": 0.02, "Output/Graphics": "points"},
-    variants=scene("water", "prm/hydrostatic.prm", "Water/Region", ["Water"], 1, {})
-    + scene("water, surface at 1/4", "prm/hydrostatic.prm", "Water/Region", ["Water"], 1.025, {})
-    + scene("saturated soil", "prm/saturated_rest.prm", "Soil/Region", ["Soil", "Water"], 1, {}),
+    variants=scene("water", "prm/water/hydrostatic.prm", "Water/Region", ["Water"], 1, {})
+    + scene("water, surface at 1/4", "prm/water/hydrostatic.prm", "Water/Region", ["Water"], 1.025, {})
+    + scene("saturated soil", "prm/seepage/saturated_rest.prm", "Soil/Region", ["Soil", "Water"], 1, {}),
     measure=measure, verdict=verdict, needs_end=False, default={"points": 4},
     quick=lambda labels: labels["points"] in (1, 2, 4) and labels["jitter"] in (0., 0.3) and labels["scene"] != "saturated soil",
     chart=StabilityMap("jitter", "points", panels=["scene"], number="error", xlabel="jitter (spacings)", ylabel="points a cell and axis"))

@@ -89,7 +89,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Options of the pressure over conductivity and step", base="prm/terzaghi.prm",
+    title="Options of the pressure over conductivity and step", base="prm/consolidation/terzaghi.prm",
     entries={"Mesh/Cell size": CELL, "Mesh/Upper corner": "0.1, 1.2", "End time": END, "Output/Interval": END / 4,
              "Output/Statistics interval": END / 4, "Output/Graphics": "points"},
     variants=product([Variant({"pressure": name}, {f"Water/Pressure/{entry}": value for entry, value in entries.items()})

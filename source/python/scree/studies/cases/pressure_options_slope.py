@@ -47,7 +47,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Options of the pressure in a saturated slide", base="prm/slope_saturated_mohr_coulomb.prm",
+    title="Options of the pressure in a saturated slide", base="prm/slopes/slope_saturated_mohr_coulomb.prm",
     entries={"Mesh/Cell size": 0.1, "Mesh/Upper corner": "4, 1.2", "Soil/Region": "if(x < 0.6, y < 0.8, y < 1.4 - x)", "End time": 1.,
              "Soil/Mohr-Coulomb/Young's modulus": 1e6, "Time step/Maximum time step": 0.01, "Output/Interval": 0.1,
              "Output/Graphics": "points"},

@@ -2,9 +2,9 @@
 """How far columns (1 m x 1 m) and slopes (crest 2 m, height 2 m, 45 degrees) of Nor-Sand run out, over the size of the cells. The front is the x below which
 90 % of the mass lies (column `Front 90 %` of a run; the rest thins out to a tongue below a cell), when the soil has come to rest:
 columns after 1.5 s, dry slopes after 3 s, saturated slopes after 5 s (loose) and 6 s (dense, permeable:
-k = 5e-2 m/s); the dense slope with k = 5e-3 m/s slides on slowly, it is measured after 9 s. Three treatments: the fixed base of `prm/slope_*.prm` and
-`prm/column_*.prm`; a base with friction of the soil's own angle at critical state in simple shear, tan(22.3 degrees) = M/sqrt(3) = .41; the same with FLIP's PIC
-rate of 1/s instead of 5 (`prm/slope_*_friction.prm`). Slopes with water travel by TPIC, which has no such rate. Columns have 3 x 3 points in a cell, slopes 2 x 2, for
+k = 5e-2 m/s); the dense slope with k = 5e-3 m/s slides on slowly, it is measured after 9 s. Three treatments: the fixed base of `prm/slopes/slope_*.prm` and
+`prm/columns/column_*.prm`; a base with friction of the soil's own angle at critical state in simple shear, tan(22.3 degrees) = M/sqrt(3) = .41; the same with FLIP's PIC
+rate of 1/s instead of 5 (`prm/slopes/slope_*_friction.prm`). Slopes with water travel by TPIC, which has no such rate. Columns have 3 x 3 points in a cell, slopes 2 x 2, for
 the time they take, but the dry dense one of the third treatment, which scatters more, 3 x 3.
 
 What was chosen after results were there:
@@ -32,7 +32,7 @@ FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
 TREATMENTS = {FIXED: {"Boundaries/Bottom": "fixed"}, FRICTION: {"Boundaries/Bottom": "friction 22.3"},
               LOW_PIC: {"Boundaries/Bottom": "friction 22.3", "Transfer/PIC rate": 1}}
 COLUMN, SLOPE, SATURATED, PERMEABLE = "column", "slope", "saturated slope", "permeable saturated slope"
-FILES = {COLUMN: "column", SLOPE: "slope", SATURATED: "slope_saturated", PERMEABLE: "slope_saturated"}
+FILES = {COLUMN: "columns/column", SLOPE: "slopes/slope", SATURATED: "slopes/slope_saturated", PERMEABLE: "slopes/slope_saturated"}
 BOXES = {COLUMN: (4.5, 1.5), SLOPE: (10., 2.5), SATURATED: (12., 2.5), PERMEABLE: (12., 2.5)}  # m
 TIMES = {COLUMN: {"dense": 1.5, "loose": 1.5}, SLOPE: {"dense": 3., "loose": 3.}, SATURATED: {"dense": 9., "loose": 5.}, PERMEABLE: {"dense": 6.}}  # s
 CELLS_PER_METRE = {(COLUMN, "dense", FIXED): (10, 14, 20, 28), (COLUMN, "loose", FIXED): (10, 14, 20, 28),
@@ -170,7 +170,7 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    title="Run-out and mesh", base="prm/slope_dense.prm",
+    title="Run-out and mesh", base="prm/slopes/slope_dense.prm",
     variants=[variant(scene, soil, treatment, n) for (scene, soil, treatment), sizes in CELLS_PER_METRE.items() for n in sizes],
     quick=lambda labels: labels["scene"] == COLUMN and labels["soil"] == "dense" and labels["treatment"] != FRICTION and labels["h"] > 0.06,
     measure=measure, verdict=verdict, chart=Curves(draw, size=(15, 4.5)))

@@ -104,6 +104,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    title="What makes the run-out depend on the mesh", base="prm/column_dense.prm", variants=VARIANTS,
+    title="What makes the run-out depend on the mesh", base="prm/columns/column_dense.prm", variants=VARIANTS,
     quick=lambda labels: labels["scene"] == run_out.COLUMN and labels["changed"] == "as it is" and labels["h"] > 0.06,
     measure=run_out.measure, verdict=verdict, chart=Curves(draw, size=(13, 4.2)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A saturated slope of loose sand slides (`prm/slope_saturated_loose.prm`, its first 1.5 s). There is no exact solution, and no mesh that has converged:
+"""A saturated slope of loose sand slides (`prm/slopes/slope_saturated_loose.prm`, its first 1.5 s). There is no exact solution, and no mesh that has converged:
 all fronts grow as the mesh is refined. The reference is FLIP with h = 0.05 m and 3 x 3 points a cell, taken after the first runs as FLIP's fronts are the
 farthest on every mesh. (The case's TPIC on that mesh gets hardly farther than FLIP with h = 0.1 m.) It is one of the methods compared, so that "error"
 here means the distance to that method's own run, not to the truth, and FLIP is the nearest to it in part by construction. Error: as in the study of the dry slope, of the fronts that hold 90 and 99 % of
@@ -100,7 +100,7 @@ def _largest(rows, method):
 
 
 STUDY = Study(
-    title="Saturated slope of loose sand: error over cost", base="prm/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
+    title="Saturated slope of loose sand: error over cost", base="prm/slopes/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15]))
     + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 10])),
     reference={"Mesh/Cell size": REFERENCE, **METHODS["FLIP, 3 x 3 points"]}, quick_reference={"Mesh/Cell size": 2 / 15, **points(3)}, default={"method": DEFAULTS},

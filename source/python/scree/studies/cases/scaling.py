@@ -17,12 +17,12 @@ from scree.studies.charts import Curves
 from scree.studies.study import Claim, Study, Variant, compiled, transfer
 
 QUIET = {"Output/Interval": 100, "Output/Graphics": "none", "Output/Statistics interval": 100}
-SCENES = {"dry slope": ("prm/slope_dense.prm", (0.004, 0.012), {}),
-          "saturated slope": ("prm/slope_saturated_dense.prm", (0.005, 0.015), {}),
-          "3D column": ("prm/column_3d.prm", (0.01, 0.03), {}),
-          "dam break": ("prm/dam_break.prm", (0.04, 0.12), {})}
+SCENES = {"dry slope": ("prm/slopes/slope_dense.prm", (0.004, 0.012), {}),
+          "saturated slope": ("prm/slopes/slope_saturated_dense.prm", (0.005, 0.015), {}),
+          "3D column": ("prm/columns/column_3d.prm", (0.01, 0.03), {}),
+          "dam break": ("prm/water/dam_break.prm", (0.04, 0.12), {})}
 RANKS = (1, 2, 4, 8, 16, 32, 64)
-TIMED = {**SCENES, "dam break, 205000 points": ("prm/dam_break.prm", (), {"Mesh/Cell size": 0.0125})}
+TIMED = {**SCENES, "dam break, 205000 points": ("prm/water/dam_break.prm", (), {"Mesh/Cell size": 0.0125})}
 LONG = dict(zip(TIMED, (0.1, 0.1, 0.15, 0.6, 0.35)))  # s of motion for times
 CELLS = (0.02, 0.01, 0.005, 0.002)  # m, of the dam break's 2 m^2: up to 5e5 unknowns
 COUNTS = ("messages", "messages of busiest", "bytes", "bytes of busiest", "collectives")
@@ -47,7 +47,7 @@ def variants():
         for ranks in (1, 2, 8):
             found.append(Variant({"question": "unknowns", "scene": f"h = {cell:g} m", "ranks": ranks, "end": 20 * cell * 0.02},
                                  {**QUIET, **transfer("TPIC"), "Mesh/Cell size": cell, "Water/Points per cell": 2, "Time step/Maximum time step": cell * 0.02,
-                                  "Water/Volume correction rate": 0, "End time": 20 * cell * 0.02}, "prm/dam_break.prm", ranks))
+                                  "Water/Volume correction rate": 0, "End time": 20 * cell * 0.02}, "prm/water/dam_break.prm", ranks))
     return found
 
 
@@ -146,6 +146,6 @@ def draw(figure, rows):
         plot.legend(fontsize="xx-small")
 
 
-STUDY = Study(title="Ranks: what they exchange", base="prm/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
+STUDY = Study(title="Ranks: what they exchange", base="prm/slopes/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
               quick=lambda labels: labels["question"] == "counts" and labels["ranks"] <= 2 and labels["scene"] in ("dry slope", "dam break"),
               chart=Curves(draw, size=(15, 5), timed=True))

@@ -51,7 +51,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Saturated soil thrown at a wall: water on its own points, and on the soil's", base="prm/slope_saturated_mohr_coulomb.prm",
+    title="Saturated soil thrown at a wall: water on its own points, and on the soil's", base="prm/slopes/slope_saturated_mohr_coulomb.prm",
     entries={"Mesh/Cell size": 0.1, "Mesh/Upper corner": "3, 5", "Soil/Region": "x < 1 && y < 0.6", "End time": 2.,
              "Soil/Mohr-Coulomb/Young's modulus": 1e6, "Time step/Maximum time step": 0.01, "Output/Interval": 0.1,
              "Output/Graphics": "points"},

@@ -51,7 +51,7 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Slope under still water", base="prm/column_saturated.prm", needs_end=False,
+STUDY = Study(title="Slope under still water", base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "Water/Points per cell": 3, "End time": 1.,
                        "Settling/Maximum time": 1., "Time step/Maximum time step": 2e-3, "Output/Interval": 0.5, "Output/Statistics interval": 0.05},
               variants=product(axis("surface", lambda y: {"Water/Region": f"y < {y:g}"}, [0.45, 0.65, 1.]),

@@ -10,8 +10,8 @@ from scree.studies.charts import StabilityMap
 from scree.studies.study import Claim, Study, Variant, axis, product
 
 CELL = 0.1
-SCENES = {"water": ("prm/hydrostatic.prm", "Water/Region", {"Mesh/Upper corner": "0.4, 1.5"}),
-          "saturated soil": ("prm/saturated_rest.prm", "Soil/Region", {"Mesh/Upper corner": "0.4, 1.5", "Time step/Maximum time step": 2e-3})}
+SCENES = {"water": ("prm/water/hydrostatic.prm", "Water/Region", {"Mesh/Upper corner": "0.4, 1.5"}),
+          "saturated soil": ("prm/seepage/saturated_rest.prm", "Soil/Region", {"Mesh/Upper corner": "0.4, 1.5", "Time step/Maximum time step": 2e-3})}
 
 
 
@@ -49,7 +49,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Water at rest: place of the surface in its cell", base="prm/hydrostatic.prm",
+    title="Water at rest: place of the surface in its cell", base="prm/water/hydrostatic.prm",
     entries={"Mesh/Cell size": CELL, "End time": 0.2, "Output/Interval": 0.1, "Output/Statistics interval": 0.02, "Output/Graphics": "points"},
     variants=product([variant for name in SCENES for variant in scene(name)],
                      axis("rule", "Water/Pressure/Free surface", ["half full", "empty cell", "distance"])),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Terzaghi's consolidation (`prm/terzaghi.prm`) with a tenth of the case's load: strain is small, and a settlement of 9e-4 of the height alone would
+"""Terzaghi's consolidation (`prm/consolidation/terzaghi.prm`) with a tenth of the case's load: strain is small, and a settlement of 9e-4 of the height alone would
 change p/q by 5e-4. Error: rms of the L2 errors of p/q over the water's points at T_v = 0.1, 0.5 and 1, against the series; the table also has
 that against the solution with inertia (`source/python/scree/closed_forms.py`), which Terzaghi's leaves out, so that orders of convergence are not hidden by it,
 and the largest error of the degree of consolidation U. Methods differ from the case (double-point, splines, TPIC, 4 x 4 points a cell and phase,
@@ -15,7 +15,7 @@ from scree.studies.precision import DEFAULTS, costs, listed, order, ratio
 from scree.studies.study import ROOT, Claim, Study, axis, prm_files, product
 
 FACTORS = (0.1, 0.5, 1.)
-BASE = "prm/terzaghi.prm"
+BASE = "prm/consolidation/terzaghi.prm"
 ENTRIES = prm_files.read_entries(ROOT / BASE)
 COLUMN = closed_forms.Terzaghi(1., 100., closed_forms.oedometric_modulus(float(ENTRIES["Soil/Linear elastic/Young's modulus"]),
                                                                         float(ENTRIES["Soil/Linear elastic/Poisson's ratio"])),

@@ -31,19 +31,19 @@ def scene(name, base, end, cells, entries=lambda h: {}):
 
 
 def column(name, modulus, size=1):
-    return scene(name, "mohr_coulomb_collapse", math.sqrt(size), [0.1 * size], lambda h: {
+    return scene(name, "columns/mohr_coulomb_collapse", math.sqrt(size), [0.1 * size], lambda h: {
         "Mesh/Upper corner": f"{5 * size}, {1.5 * size}", "Soil/Region": f"x < {size} && y < {size}", "Soil/Mohr-Coulomb/Young's modulus": modulus * size,
         "Time step/Maximum time step": 0.01 * math.sqrt(size)})
 
 
 SCENES = [
-    *scene("dry slope", "slope_dense", 2, [0.1, 0.05], lambda h: {"Soil/Points per cell": 3}),
-    *scene("dry column", "column_dense", 1.5, [0.1, 0.05], lambda h: {"Soil/Points per cell": 3}),
-    *scene("loose saturated slope", "slope_saturated_loose", 3, [1 / 7, 1 / 14], lambda h: {"Mesh/Upper corner": f"10, {18 / 7}"}),
-    *scene("dense saturated slope", "slope_saturated_dense", 2, [1 / 7, 1 / 14], lambda h: {"Mesh/Upper corner": f"10, {18 / 7}"}),
-    *scene("dam break", "dam_break", 0.68, [0.1, 0.05], lambda h: {
+    *scene("dry slope", "slopes/slope_dense", 2, [0.1, 0.05], lambda h: {"Soil/Points per cell": 3}),
+    *scene("dry column", "columns/column_dense", 1.5, [0.1, 0.05], lambda h: {"Soil/Points per cell": 3}),
+    *scene("loose saturated slope", "slopes/slope_saturated_loose", 3, [1 / 7, 1 / 14], lambda h: {"Mesh/Upper corner": f"10, {18 / 7}"}),
+    *scene("dense saturated slope", "slopes/slope_saturated_dense", 2, [1 / 7, 1 / 14], lambda h: {"Mesh/Upper corner": f"10, {18 / 7}"}),
+    *scene("dam break", "water/dam_break", 0.68, [0.1, 0.05], lambda h: {
         "Time step/Maximum time step": 0.04 * h, "Water/Volume correction rate": 0.5 * math.sqrt(GRAVITY / h)}),
-    *scene("sloshing", "dam_break", 5 * PERIOD, [0.1, 0.05], lambda h: {
+    *scene("sloshing", "water/dam_break", 5 * PERIOD, [0.1, 0.05], lambda h: {
         "Mesh/Upper corner": "1, 1.3", "Time step/Maximum time step": 0.04 * h, "Water/Volume correction rate": 0.5 * math.sqrt(GRAVITY / h),
         "Water/Region": "y < 1 + 0.05*cos(pi*x)", "Output/Statistics interval": PERIOD / 40}),
     *column(COLUMN, 1e6), *column(STIFF, 1e7), *column(LARGE, 1e6, 100)]
@@ -152,6 +152,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    title="Rate of AFLIP", base="prm/mohr_coulomb_collapse.prm", variants=variants(), measure=measure, verdict=verdict,
+    title="Rate of AFLIP", base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(), measure=measure, verdict=verdict,
     quick=lambda labels: labels["scene"] in (COLUMN, LARGE) and labels["transfer"] in (FLIP, TPIC, CHOSEN),
     default={"transfer": FLIP}, chart=Curves(draw, size=(9, 10)))

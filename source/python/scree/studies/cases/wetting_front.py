@@ -156,7 +156,7 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Infiltration into dry soil", base="prm/saturated_rest.prm", needs_end=False,
+STUDY = Study(title="Infiltration into dry soil", base="prm/seepage/saturated_rest.prm", needs_end=False,
               entries={"Mesh/Upper corner": "0.2, 0.8", "Soil/Region": f"y < {TOP}", "Soil/Linear elastic/Young's modulus": MODULUS,
                        "Water/Region": f"y > {TOP} && y < {TOP + POND}", "Water/Initial pressure": "none"},
               variants=product(axis("points", METHODS.get, list(METHODS)[:2]), axis("h", "Mesh/Cell size", [0.1, 0.05, 0.025, 0.0125]),
