@@ -2,6 +2,10 @@
 set(SCREE_PYTHON /usr/bin/python3 CACHE FILEPATH "Python 3.10 or later with numpy, matplotlib and VTK")
 
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/source/python/pyproject.toml)
+file(STRINGS ${CMAKE_SOURCE_DIR}/source/python/pyproject.toml version REGEX "^version = ")
+if(NOT version STREQUAL "version = \"${PROJECT_VERSION}\"")
+  message(FATAL_ERROR "source/python/pyproject.toml says ${version}, CMakeLists.txt ${PROJECT_VERSION}.")
+endif()
 file(STRINGS ${CMAKE_SOURCE_DIR}/source/python/pyproject.toml commands REGEX "^scree-.*:main")
 foreach(command ${commands})
   string(REGEX REPLACE "^(scree-[a-z-]*) = \"scree[.](.*):main\"$" "\\1;\\2" command ${command})

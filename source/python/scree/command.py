@@ -31,7 +31,11 @@ class Command(argparse.ArgumentParser):
         """Ends with what work(arguments) returns, 1 if it throws OSError, KeyError, ValueError or a program that it calls fails."""
         arguments = self.parse_args()
         try:
-            sys.exit(work(arguments))
+            code = work(arguments)
+            sys.stdout.flush()
+            sys.exit(code)
+        except BrokenPipeError:  # of `| head`: nobody reads on
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         except (OSError, KeyError, ValueError, subprocess.CalledProcessError) as error:
             sys.exit(f"{self.prog}: {_text(error)}")
 
