@@ -42,5 +42,5 @@ class Command(argparse.ArgumentParser):
 
 def _text(error):
     if isinstance(error, OSError) and error.filename and error.strerror:
-        return f"{error.filename}: {error.strerror}"
+        return f"{error.filename}: {error.strerror}" + (". Is the path right?" if isinstance(error, FileNotFoundError) else "")
     return error.args[0] if isinstance(error, KeyError) else error
