@@ -13,9 +13,9 @@ ROOT = next((folder for folder in pathlib.Path(__file__).resolve().parents if (f
 
 
 def program(name):
-    """The path of scree or scree-element: built or installed beside the cases, or on the PATH; else None."""
-    beside = [ROOT / "build" / name, ROOT.parent.parent / "bin" / name]
-    return next((str(path) for path in beside if os.access(path, os.X_OK)), shutil.which(name))
+    """The path of scree or scree-element: beside the launcher, which tells its folder, or in build/, or on the PATH; else None."""
+    beside = pathlib.Path(os.environ.get("SCREE_PROGRAMS", ROOT / "build"), name)
+    return str(beside) if os.access(beside, os.X_OK) else shutil.which(name)
 
 
 class Command(argparse.ArgumentParser):
