@@ -7,7 +7,7 @@
 cd "$root" || exit 1
 
 mpirun -np 2 build/scree prm/quickstart.prm || exit 1
-/usr/bin/python3 doc/render.py results/quickstart || exit 1
+build/scree-render results/quickstart || exit 1
 
 echo
 echo "Pictures:     $root/results/quickstart/points.png"

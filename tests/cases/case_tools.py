@@ -7,7 +7,6 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "doc"))
 
 SCREE, LAUNCHER = sys.argv[1], sys.argv[2].split()
 

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """compare_statistics.py FILE FILE TOLERANCE [THICKNESS]: are all rows of two files `statistics` equal?
 
@@ -9,27 +8,18 @@ thick: what is per metre in 2D is divided by it, its axis z is y there, and its 
 """
 import sys
 
+from scree.results import read_table
+
 SOLVER = ("CG iterations per step", "Viscous iterations per step", "Preconditioners built")
 COUNTS = ("Points", "Water points", "Separated points", "Fallbacks", "Vertices", "Unresolved", "Points lost")
 
 
-def read(name):
-    """Column names and rows of numbers."""
-    columns, rows = [], []
-    for line in open(name):
-        words = line.split(":", 1)
-        if line.startswith("#"):
-            columns.append(words[1].strip())
-        elif line.strip():
-            rows.append([float(word) for word in line.split()])
-    if not rows or any(len(row) != len(columns) for row in rows):
-        sys.exit(name + ": not a table of statistics")
-    return columns, rows
-
-
 def series(name):
-    columns, rows = read(name)
-    return {column: [row[i] for row in rows] for i, column in enumerate(columns)}
+    """Columns as lists."""
+    table = {column: values.tolist() for column, values in read_table(name).items()}
+    if not table.get("Step"):
+        sys.exit(name + ": not a table of statistics")
+    return table
 
 
 def per_metre(table, thickness):

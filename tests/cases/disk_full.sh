@@ -43,14 +43,14 @@ grep -q "bytes are needed" error
 grep -q "Still whole: results/checkpoint/step-[0-9]* and results/checkpoint/step-[0-9]*.$" error
 [ "$(echo results/checkpoint/*)" = "$newest" ]
 "$scree" case.prm --resume >screen
-/usr/bin/python3 "$cases/compare_statistics.py" whole results/statistics 1e-12
+"$PYTHON" "$cases/compare_statistics.py" whole results/statistics 1e-12
 
 begin
 full go_on.prm 200 --resume
 [ "$(cat code)" -eq 0 ]
 [ "$(grep -c "^No checkpoint at t = .* s: .*Still whole" results/log.txt)" -eq 2 ] # at 0.09 and 0.12 s
 [ "$(echo results/checkpoint/*)" = "$newest" ]
-/usr/bin/python3 "$cases/compare_statistics.py" whole results/statistics 1e-12
+"$PYTHON" "$cases/compare_statistics.py" whole results/statistics 1e-12
 
 printf '%s\n' "$(cat case.prm)" 'subsection Output' '  set Graphics = points' 'end' >pictures.prm
 rm -rf results

@@ -20,7 +20,7 @@ run()
 compare()
 {
   echo "$1 and $2:"
-  /usr/bin/python3 "$cases/compare_statistics.py" $1/results/statistics $2/results/statistics $3
+  "$PYTHON" "$cases/compare_statistics.py" $1/results/statistics $2/results/statistics $3
 }
 
 sed 's/set Cell size/set Fine cells = everywhere\n  set Cell size/' "$case" >everywhere.prm
@@ -34,7 +34,7 @@ for ranks in 2 3; do
   compare around $ranks "$5"
 done
 
-/usr/bin/python3 - "$case" >wide.prm <<END
+"$PYTHON" - "$case" >wide.prm <<END
 import re, sys
 def twice(found):
     return found.group(1) + ", ".join(str(2 * float(x)) for x in found.group(2).split(","))

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """maps.py SCREE LAUNCHER TEST: the maps of a run: values of a block in flight, on one rank and two, and after a resume.
 
@@ -11,11 +10,9 @@ import sys
 
 import numpy as np
 
-from case_tools import HERE, check, run
+from scree.results import read_raster, read_table
 
-# case_tools has put doc/ on the path.
-import relief
-import render
+from case_tools import HERE, check, run
 
 NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "largest_impact_pressure", "scour_depth", "arrival_time"]
 MAPS = """
@@ -48,7 +45,7 @@ end
 
 def read_map(results, name):
     """Values of a map, rows from the south; nan where there is none."""
-    return relief.read_raster(results / "maps" / f"{name}.asc").values[::-1]
+    return read_raster(results / "maps" / f"{name}.asc").values[::-1]
 
 
 def close(values, wanted, what):
@@ -59,7 +56,7 @@ def close(values, wanted, what):
 def block():
     """A block that flies with 3 m/s along x, and rises: 0.3 m in the run, to ground that it had not covered."""
     results = run("block", BLOCK + MAPS)
-    raster = relief.read_raster(results / "maps" / "thickness.asc")
+    raster = read_raster(results / "maps" / "thickness.asc")
     head = [*raster.values.shape[::-1], raster.x, raster.y, raster.width]
     check(head == [12, 8, 600000, 5100000, 0.1], f"head: {head}")
     # The half of a rim's column that is nearer to the neighbour gives it a quarter of its soil: an eighth in all.
@@ -93,7 +90,7 @@ def slide():
     text += SCOUR
     one = run("one", text)
     first = {name: read_map(one, name) for name in NAMES}
-    statistics = render.read_table(one / "statistics")
+    statistics = read_table(one / "statistics")
     mass = next(values for name, values in statistics.items() if name.startswith("Mass (kg)"))[-1]
     check(abs(np.sum(first["mass"]) * 0.1**2 / mass - 1) <= 1e-7, "mass of the map and of the points")
     check(np.all(first["largest_thickness"] >= first["thickness"]), "largest thickness below the last one")

@@ -1,6 +1,5 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""probes.py SCREE LAUNCHER TEST: what probes write, on one rank and two, and after a resume; drawn by render.py.
+"""probes.py SCREE LAUNCHER TEST: what probes write, on one rank and two, and after a resume; drawn by scree.render.
 
 Each test is a function below (case_tools.py).
 """
@@ -10,9 +9,10 @@ import sys
 
 import numpy as np
 
-from case_tools import HERE, check, run
+from scree.render import render_probe
+from scree.results import read_points, read_statistics, read_table, read_times
 
-import render  # of doc/, which case_tools has put on the path
+from case_tools import HERE, check, run
 
 DRY = (HERE / "probes.prm").read_text(encoding="utf-8")
 WATER = """
@@ -30,7 +30,7 @@ FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "fro
 def compare(first, second, tolerance):
     """All tables of two run folders agree, to `tolerance` times the largest number of a column; nan stands in the same places."""
     for name in FILES:
-        one, other = (render.read_table(folder / name) for folder in (first, second))
+        one, other = (read_table(folder / name) for folder in (first, second))
         check(list(one) == list(other), f"{name}: other columns")
         for column in one:
             a, b = one[column], other[column]
@@ -46,18 +46,18 @@ def dry():
     same on two ranks, and after a resume."""
     one = run("one", DRY)
     balance_of_momentum(one)
-    toe, far = render.read_table(one / "probe_toe"), render.read_table(one / "probe_far")
+    toe, far = read_table(one / "probe_toe"), read_table(one / "probe_far")
     check(np.all(toe["Mean effective stress (Pa)"] > 0) and toe["Velocity x (m/s)"][-1] > 0.005, "the toe bears and slides")
     check(np.all(np.isnan(far["Velocity x (m/s)"])), "nothing is far off")
-    crest, front = render.read_table(one / "probe_crest"), render.read_table(one / "probe_front")
+    crest, front = read_table(one / "probe_crest"), read_table(one / "probe_front")
     check(abs(crest["Surface height (m)"][0] - 0.5) < 1e-9 and crest["Surface height (m)"][-1] < 0.5, "the crest sinks")
     check(abs(crest["Thickness (m)"][0] - 0.5) < 1e-9, "thickness at the start")
     check(np.all(front["Rear (m)"] == 0) and front["Front (m)"][-1] > front["Front (m)"][0], "the front advances")
-    base = render.read_table(one / "probe_base")
+    base = read_table(one / "probe_base")
     check(len(base["x (m)"]) == 3 * 17 and len(set(base["Time (s)"])) == 3, "17 places in three pictures")
 
     for name in ("toe", "base", "walls"):
-        render.render_probe(one, name, f"{name}.png")
+        render_probe(one, name, f"{name}.png")
         check(pathlib.Path(f"{name}.png").stat().st_size > 10000, f"a picture of {name}")
     stale = pathlib.Path("two", "results", "probe_stale")
     stale.parent.mkdir(parents=True, exist_ok=True)
@@ -75,7 +75,7 @@ def dry():
 
 def balance_of_momentum(results, axes="xy"):
     """Change of momentum = weight minus force on the walls, row by row. Nothing else acts in a dry run."""
-    rows, walls = render.read_statistics(results), render.read_table(results / "probe_walls")
+    rows, walls = read_statistics(results), read_table(results / "probe_walls")
     time, weight = rows["Time (s)"], 9.81 * rows["Mass (kg)"][0]
     for axis, pull in zip(axes, [0.] * (len(axes) - 1) + [-weight]):
         force = sum(walls[column] for column in walls if column.endswith(f"soil {axis} (N)"))
@@ -129,18 +129,18 @@ end
 """
     results = run("edges", text)
     balance_of_momentum(results, "xyz")
-    crest = render.read_table(results / "probe_crest")
+    crest = read_table(results / "probe_crest")
     check(abs(crest["Surface height (m)"][0] - 0.4) < 1e-9 and abs(crest["Thickness (m)"][0] - 0.4) < 1e-9, "height in 3D")
-    check(abs(render.read_table(results / "probe_toe")["Velocity x (m/s)"][0] + 0.2) < 1e-9, "velocity at the start")
+    check(abs(read_table(results / "probe_toe")["Velocity x (m/s)"][0] + 0.2) < 1e-9, "velocity at the start")
 
 
 def displacements(results):
     """Of each number in each picture, the place now minus the place at the start."""
-    first = render.read_points(results, 0.)
+    first = read_points(results, 0.)
     start = {number: place for number, place in zip(first.arrays["id"], first.positions)}
     check(len(start) == len(first.positions), "each point has its own number")
-    for time in render.read_times(results):
-        points = render.read_points(results, time)
+    for time in read_times(results):
+        points = read_points(results, time)
         moved = points.positions - np.array([start[number] for number in points.arrays["id"]])
         worst = np.max(np.abs(moved - points.arrays["displacement"]))
         check(worst < 1e-6, f"displacement at {time} s: wrong by {worst} m")  # pictures have single precision
@@ -182,12 +182,12 @@ subsection Probes
 end
 """)
     weight = 1000 * 9.81
-    gauge, base, walls = (render.read_table(still / ("probe_" + name)) for name in ("gauge", "base", "walls"))
+    gauge, base, walls = (read_table(still / ("probe_" + name)) for name in ("gauge", "base", "walls"))
     check(np.allclose(gauge["Pore pressure (Pa)"], 0.3 * weight, rtol=1e-6), "p in still water")
     check(np.allclose(base["Pore pressure (Pa)"], (0.5 - base["y (m)"]) * weight, atol=1e-6 * weight), "p along the wall")
-    crest = render.read_table(still / "probe_crest")["Water level (m)"]
+    crest = read_table(still / "probe_crest")["Water level (m)"]
     check(np.allclose(crest, 0.5, atol=1e-6), f"water level {crest}")
-    mid = render.read_table(still / "probe_mid")
+    mid = read_table(still / "probe_mid")
     check(np.array_equal(np.isnan(mid["Pore pressure (Pa)"]), mid["y (m)"] > 0.54), "nan above the water")
     for wall, sign, wanted in (("Left", -1, 0.125), ("Right", 1, 0.125), ("Bottom", -1, 0.2)):
         axis = "y" if wall == "Bottom" else "x"

@@ -11,5 +11,5 @@ for ranks in 1 ${5:-2}; do
   (cd $ranks && $launcher $ranks "$scree" "$cases/$3.prm" >screen)
 done
 for ranks in ${5:-2}; do
-  /usr/bin/python3 "$cases/compare_statistics.py" 1/results/statistics $ranks/results/statistics "$4"
+  "$PYTHON" "$cases/compare_statistics.py" 1/results/statistics $ranks/results/statistics "$4"
 done

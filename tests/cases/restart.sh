@@ -21,7 +21,7 @@ stop_and_go()
   $launcher $2 "$scree" "$case" --resume >screen
   grep -q Resumed results/log.txt
   echo "$1 to $2 ranks:"
-  /usr/bin/python3 "$cases/compare_statistics.py" whole results/statistics $3
+  "$PYTHON" "$cases/compare_statistics.py" whole results/statistics $3
   cd ..
 }
 

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """solids.py SCREE LAUNCHER TEST: bed, obstacle and bodies of triangles (STL) against the same by expressions and closed forms.
 
@@ -11,10 +10,9 @@ import sys
 
 import numpy as np
 
-from case_tools import HERE, check, run
+from scree.results import read_statistics
 
-# case_tools has put doc/ on the path.
-import render
+from case_tools import HERE, check, run
 
 FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]  # of a box, outwards
 
@@ -42,7 +40,7 @@ def write_binary(name, triangles):
 
 def compare(one, other, bound):
     """The last rows of statistics, column by column; what is less than 1 (N, J, ...) as if it were 1."""
-    first, second = (render.read_statistics(results) for results in (one, other))
+    first, second = (read_statistics(results) for results in (one, other))
     worst = 0.
     for name in first:
         a, b = first[name][-1], second[name][-1]
@@ -67,8 +65,8 @@ def plane():
     by_expressions = run("expressions", text % "  set Level set expression = 0.90625 - x\n")
     by_solids = run("solids", solids)
     compare(by_expressions, by_solids, 1e-9)
-    statistics = render.read_statistics(by_solids)
-    check(render.column(statistics, "Obstacle Wall impulse x (N s)")[-1] > 0, "nothing hits the wall")
+    statistics = read_statistics(by_solids)
+    check(statistics["Obstacle Wall impulse x (N s)"][-1] > 0, "nothing hits the wall")
     compare(by_solids, run("two_ranks", solids, ranks=2), 1e-9)
 
 
@@ -135,7 +133,7 @@ def body():
         write_binary("body.stl", triangles)
         exact = 1500 * part * volume_of(triangles)
         for ranks in (1, 2) if name == "brick" else (1,):
-            mass = render.column(render.read_statistics(run(f"{name}_{ranks}", text, ranks=ranks)), "Mass (kg)")[0]
+            mass = read_statistics(run(f"{name}_{ranks}", text, ranks=ranks))["Mass (kg)"][0]
             print(f"{name}, {ranks} rank(s): mass over the exact one - 1: {mass / exact - 1:.2e}")
             check(abs(mass / exact - 1) <= 0.01, f"{name}: {mass / exact - 1}")
 

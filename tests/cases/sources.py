@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """sources.py SCREE LAUNCHER TEST: bodies by maps: what they weigh, and where they are.
 
@@ -10,11 +9,9 @@ import sys
 
 import numpy as np
 
-from case_tools import check, run
+from scree.results import read_raster, read_statistics
 
-# case_tools has put doc/ on the path.
-import relief
-import render
+from case_tools import check, run
 
 SPACING, CORNER, COLUMNS, ROWS = 5., (1000., 2000.), 41, 33
 DENSITY = 1500.
@@ -71,7 +68,7 @@ def mountain():
 
 
 def mass_of(results):
-    return render.column(render.read_statistics(results), "Mass (kg)")[0]
+    return read_statistics(results)["Mass (kg)"][0]
 
 
 def thickness():
@@ -84,7 +81,7 @@ def thickness():
     print(f"mass over that of the map - 1: {relative:.2e}")
     check(abs(relative) <= 0.01, f"mass: {relative}")
     # The maps' columns are those of the mesh, whose middles lie between the raster's.
-    seeded = relief.read_raster(results / "maps" / "thickness_0s.asc").values[::-1]
+    seeded = read_raster(results / "maps" / "thickness_0s.asc").values[::-1]
     full = np.nan_to_num(values)
     there = 0.25 * (full[2:30, 2:38] + full[3:31, 2:38] + full[2:30, 3:39] + full[3:31, 3:39])
     difference = np.max(np.abs(seeded - there))
@@ -127,7 +124,7 @@ def friction():
     for name, entry in (("angle", "Friction angle = 20"), ("same", "Friction angles = ../same.asc"), ("halves", "Friction angles = ../halves.asc"),
                         ("steep", "Friction angle = 30")):
         results = run(name, text.replace("set Type   = fixed", "set Type   = friction\n  set " + entry))
-        impulse[name] = render.column(render.read_statistics(results), "Bed impulse x (N s)")[-1]
+        impulse[name] = read_statistics(results)["Bed impulse x (N s)"][-1]
     print(impulse)
     check(abs(impulse["same"] / impulse["angle"] - 1) <= 1e-9, "the same angles in a map")
     steps = sorted([impulse["angle"], impulse["steep"]])
@@ -154,12 +151,12 @@ def shifted():
     write_all(far)
     pathlib.Path("bed.prj").write_text(system, encoding="utf-8")
     moved = run("far", "set Local origin = %.17g, %.17g\n" % far + text)
-    rows = [render.read_statistics(results) for results in (near, moved)]
+    rows = [read_statistics(results) for results in (near, moved)]
     for name, values in rows[0].items():
         difference = np.max(np.abs(values - rows[1][name])) / max(np.max(np.abs(values)), 1e-9)
         check(difference <= 1e-9, f"{name}: {difference}")
     check(rows[0]["Mass (kg)"][0] > 0 and np.max(np.abs(rows[0]["Momentum x (N s)"])) > 0, "nothing moves")
-    maps = [relief.read_raster(results / "maps" / "largest_thickness.asc") for results in (near, moved)]
+    maps = [read_raster(results / "maps" / "largest_thickness.asc") for results in (near, moved)]
     check(maps[0].x == 10 and maps[1].x == 10 + far[0] and maps[1].y == 10 + far[1], f"maps: {maps[1].x}, {maps[1].y}")
     check(np.array_equal(maps[0].values, maps[1].values), "values of the map")
     check((moved / "maps" / "largest_thickness.prj").read_text(encoding="utf-8") == system, "system of coordinates")

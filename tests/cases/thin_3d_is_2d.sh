@@ -10,4 +10,4 @@ for dimension in 2 3; do
   mkdir -p $dimension
   (cd $dimension && $launcher $((dimension - 1)) "$scree" "$cases/$3_${dimension}d.prm" >screen)
 done
-/usr/bin/python3 "$cases/compare_statistics.py" 2/results/statistics 3/results/statistics "$4" 0.1
+"$PYTHON" "$cases/compare_statistics.py" 2/results/statistics 3/results/statistics "$4" 0.1

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """refusals.py SCREE: faults that show in a step or depend on the machine, and questions in the log.
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """runs.py FUZZ SCREE COUNT: starts the program with random wrong cases, for a step at most.
 

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """run_folder.py SCREE LAUNCHER TEST: what becomes of a run folder when runs are killed, stopped or in each other's way.
 
@@ -153,7 +152,7 @@ def kill_two_ranks():
         check(end(process)[0] != 0, "the run came to its end although a rank was killed")
     run("case.prm", "--resume", ranks=2)
     compare = pathlib.Path(__file__).parent.parent / "cases" / "compare_statistics.py"
-    check(subprocess.call(["/usr/bin/python3", compare, "whole", STATISTICS, "1e-9"]) == 0, "the rows differ")
+    check(subprocess.call([sys.executable, compare, "whole", STATISTICS, "1e-9"]) == 0, "the rows differ")
 
 
 def stop_and_go_on(case, wanted, ask, reason, ranks=1):

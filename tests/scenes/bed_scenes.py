@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """bed_scenes.py SCREE SCENE: scenes on a bed that is oblique to the mesh, as scenes.py.
 
@@ -10,11 +9,10 @@ import math
 
 import numpy as np
 
-from scene_tools import check, largest_fall, main, run
+from scree import closed_forms
+from scree.results import read_points
 
-# scene_tools has put doc/ on the path.
-import closed_forms
-import render
+from scene_tools import check, largest_fall, main, run
 
 GRAVITY = closed_forms.GRAVITY
 ANGLES = (0, 10, 27, 45)
@@ -138,7 +136,7 @@ def bed_frictionless(scree):
 
 def mean_displacement(name, plane):
     """Of the points in the last picture of a run, along the plane and into it, m."""
-    points = render.read_points(name)
+    points = read_points(name)
     mass = points.arrays["mass"].ravel()
     mean = mass @ points.arrays["displacement"][:, :2] / mass.sum()
     return mean @ plane.down, -(mean @ plane.normal)
@@ -272,11 +270,11 @@ def bed_kink(scree):
 def bed_settled(scree):
     """A layer on a slope against a wall: after settling it rests when it is released."""
     table = run(scree, "bed/settled_layer", "settled", {"Output/Graphics": "points", "Output/Interval": "0.5"})
-    moved = np.linalg.norm(render.read_points("settled").arrays["displacement"], axis=1)
+    moved = np.linalg.norm(read_points("settled").arrays["displacement"], axis=1)
     check("settled layer: largest displacement in .5 s over the cell size", max(moved) / 0.05, 0, 1e-3)
     check("settled layer: kinetic energy at the end over elastic", table["Kinetic energy (J)"][-1] / table["Elastic energy (J)"][-1], 0, 1e-6)
     loose = run(scree, "bed/settled_layer", "loose", {"Settling/Maximum time": "0", "Output/Graphics": "points", "Output/Interval": "0.5"})
-    fall = np.linalg.norm(render.read_points("loose").arrays["displacement"], axis=1)
+    fall = np.linalg.norm(read_points("loose").arrays["displacement"], axis=1)
     check("the same from a K0 start: largest displacement over that of the settled one", max(fall) / max(moved), 10, 1e9)
     check("settled layer: momentum residual over weight times time",
           max(table["Momentum residual (N s)"]) / (table["Mass (kg)"][0] * GRAVITY * 0.5), 0, 1e-11)
@@ -284,7 +282,7 @@ def bed_settled(scree):
 
 def spread(name, plane):
     """Of the points in the last picture: the distance from the middle within which 90 % of the mass are, and height of the centroid, m."""
-    points = render.read_points(name)
+    points = read_points(name)
     mass, place = points.arrays["mass"].ravel(), points.positions[:, :2] - plane.origin
     along, height = np.abs(place @ plane.down), place @ plane.normal
     order = np.argsort(along)

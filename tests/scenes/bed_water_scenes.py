@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """bed_water_scenes.py SCREE SCENE: water and saturated soil on a bed that is oblique to the mesh, as scenes.py.
 
@@ -10,11 +9,10 @@ import math
 
 import numpy as np
 
-from scene_tools import check, largest_fall, main, run
+from scree import closed_forms
+from scree.results import read_points
 
-# scene_tools has put doc/ on the path.
-import closed_forms
-import render
+from scene_tools import check, largest_fall, main, run
 from bed_scenes import ANGLES, GRAVITY, Plane, slope_of
 
 WEIGHT = 1000 * GRAVITY  # of water, N/m^3
@@ -46,7 +44,7 @@ def check_balance(name, table):
 
 def pressure_error(name, surface, cell, up):
     """Of the water's points, over the weight of a cell: root mean square and largest."""
-    water = render.read_points(name, None, "water")
+    water = read_points(name, None, "water")
     error = (water.arrays["pressure"].ravel() - WEIGHT * (surface - water.positions[:, up])) / (WEIGHT * cell)
     return math.sqrt(np.mean(error**2)), np.max(np.abs(error))
 
@@ -81,7 +79,7 @@ def bed_tank(scree):
     """Water at rest over an inclined floor: hydrostatic, also if it starts without pressure."""
     for theta in (0, 10, 27):
         for start in ("hydrostatic", "none"):
-            table = run(scree, "hydrostatic", "tank",
+            table = run(scree, "water/hydrostatic", "tank",
                         {"End time": "1", "Mesh/Upper corner": "1, 1.2", "Time step/Maximum time step": "4e-3", "Water/Region": "y < 0.8",
                          "Water/Initial pressure": start, "Bed/Type": "free slip", "Bed/Level set expression": floor(theta),
                          "Output/Graphics": "points", "Output/Interval": "1"})
@@ -96,7 +94,7 @@ def bed_saturated_rest(scree):
     """Saturated elastic soil at rest on a rough floor."""
     for conductivity, bound in (("1e-3", 0.002), ("1e-8", 0.007)):
         for theta in (0, 10, 27):
-            table = run(scree, "saturated_rest", "saturated",
+            table = run(scree, "seepage/saturated_rest", "saturated",
                         {"End time": "0.5", "Mesh/Upper corner": "1, 1.2", "Mesh/Cell size": "0.1", "Soil/Region": "y < 0.8",
                          "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.25",
                          "Soil/Initial state/K0": "%.15g" % (1 / 3), "Water/Hydraulic conductivity": conductivity,
@@ -104,7 +102,7 @@ def bed_saturated_rest(scree):
                          "Output/Graphics": "points", "Output/Interval": "0.5", "Probes/Displacement": "true"})
             name = "saturated soil at rest, %d degrees, k = %s m/s" % (theta, conductivity)
             check(name + ": rms error of p over that of a cell", pressure_error("saturated", 0.8, 0.1, 1)[0], 0, bound)
-            moved = np.linalg.norm(render.read_points("saturated").arrays["displacement"], axis=1)
+            moved = np.linalg.norm(read_points("saturated").arrays["displacement"], axis=1)
             check(name + ": largest displacement over a cell", np.max(moved) / 0.1, 0, 2e-4)
             check_balance(name, table)
 
@@ -113,7 +111,7 @@ def dam_break(scree, name, entries, plane):
     """Place behind which 99 % of the water are, m, and the gain of energy."""
     table = run(scree, "bed/dam_break_on_slope", name,
                 {"Water/Volume correction rate": "0", **entries, "Output/Graphics": "points", "Output/Interval": "0.6"})
-    water = render.read_points(name, None, "water")
+    water = read_points(name, None, "water")
     place, mass = (water.positions[:, :2] - plane.origin) @ plane.down, water.arrays["mass"].ravel()
     order = np.argsort(place)
     check_balance(name, table)
@@ -145,7 +143,7 @@ def slab(scree, case, plane, entries):
     """Acceleration of 1 x 0.3 m along the plane over g, from 0.1 s on."""
     along = plane.along(plane.down)
     region = "%s > 0.6 && %s < 1.6 && %s < 0.3" % (along, along, plane.along(plane.normal))
-    body = {"Water/Region": region} if case == "hydrostatic" else {"Soil/Region": region, "Soil/Initial state/Type": "none"}
+    body = {"Water/Region": region} if case == "water/hydrostatic" else {"Soil/Region": region, "Soil/Initial state/Type": "none"}
     table = run(scree, case, "slab",
                 {**body, "End time": "0.4", "Mesh/Cell size": "%g" % CELL, "Water/Initial pressure": "none",
                  "Time step/Maximum time step": "2e-3", "Bed/Type": "free slip", "Bed/Level set expression": plane.along(plane.normal),
@@ -160,9 +158,9 @@ def bed_slab(scree):
     soil = {"Soil/Initial state/K0": "0.5", "Soil/Linear elastic/Young's modulus": "1e6"}
     for theta in ANGLES:
         plane, entries = frame(theta, 27)
-        acceleration, _ = slab(scree, "hydrostatic", plane, entries)
+        acceleration, _ = slab(scree, "water/hydrostatic", plane, entries)
         check("slab of water, %d degrees: error of acceleration over g" % theta, abs(acceleration - math.sin(plane.slope)), 0, 1e-3)
-        acceleration, table = slab(scree, "saturated_rest", plane, {**entries, **soil})
+        acceleration, table = slab(scree, "seepage/saturated_rest", plane, {**entries, **soil})
         check("saturated slab, %d degrees: error of acceleration over g" % theta, abs(acceleration - math.sin(plane.slope)), 0, 5e-3)
         check("saturated slab, %d degrees: gain of energy over released" % theta, gain(table), 0, 1e-3)
 
@@ -176,12 +174,12 @@ def bed_wet_friction(scree):
     for conductivity, bound in (("1e-2", 0.005), ("1e-3", 0.012)):
         water = {"Water/Hydraulic conductivity": conductivity}
         level = Plane((0, 0), (0, 1), (1, 0), 27)
-        reference, _ = slab(scree, "saturated_rest", level,
+        reference, _ = slab(scree, "seepage/saturated_rest", level,
                             {**entries(level), **water, "Mesh/Upper corner": "4, 1.1", "Bed/Type": "none", "Bed/Level set expression": "",
                              "Gravity": "%.15g, %.15g" % tuple(level.gravity), "Boundaries/Bottom": "friction 16.69924423"})
         for theta in ANGLES:
             plane, box = frame(theta, 27)
-            acceleration, table = slab(scree, "saturated_rest", plane,
+            acceleration, table = slab(scree, "seepage/saturated_rest", plane,
                                        {**box, **entries(plane), **water, "Bed/Type": "friction", "Bed/Friction angle": "16.69924423"})
             name = "saturated slab with friction, %d degrees, k = %s m/s" % (theta, conductivity)
             check(name + ": acceleration over g beyond that on a wall (ours)", acceleration - reference, -bound, bound)
@@ -193,7 +191,7 @@ def bed_water_3d(scree):
     box = {"Dimension": "3", "Mesh/Lower corner": "0, 0, 0", "Bed/Type": "free slip", "Water/Points per cell": "2",
            "Water/Initial pressure": "none"}
     plane = Plane((0, 0.1, 0.13), (-0.45, 0.2, 0.9), (1, 0, 0), 0)
-    table = run(scree, "hydrostatic", "tank_3d",
+    table = run(scree, "water/hydrostatic", "tank_3d",
                 {**box, "End time": "0.4", "Mesh/Upper corner": "1, 0.6, 1.2", "Gravity": "0, 0, %g" % -GRAVITY, "Water/Region": "z < 0.8",
                  "Time step/Maximum time step": "4e-3", "Bed/Level set expression": plane.along(plane.normal),
                  "Output/Graphics": "points", "Output/Interval": "0.4"})
@@ -204,7 +202,7 @@ def bed_water_3d(scree):
     along, beside = plane.along(plane.down), plane.along(side)
     for cell, bound, whose in ((0.05, 1e-3, ""), (0.1, 3e-3, " (ours, three cells thick)")):
         name = "slab in 3D, cells of %g m" % cell
-        table = run(scree, "hydrostatic", "slab_3d",
+        table = run(scree, "water/hydrostatic", "slab_3d",
                     {**box, "End time": "0.3", "Mesh/Upper corner": "2.4, 2, 1.6", "Mesh/Cell size": "%g" % cell,
                      "Gravity": ", ".join("%.15g" % g for g in plane.gravity), "Time step/Maximum time step": "%g" % (cell / 25),
                      "Water/Region": "%s > 0 && %s < 0.6 && %s > 0 && %s < 0.6 && %s < 0.3" % (along, along, beside, beside,
@@ -223,7 +221,7 @@ def bed_film(scree):
     pull, viscosity, length = GRAVITY * math.sin(angle), 1e4, 10
     table = run(scree, "bed/film", "film", {"Output/Graphics": "points", "Output/Statistics interval": "0.003"})
     for time in (0.03, 0.06, 0.24):
-        water = render.read_points("film", time, "water")
+        water = read_points("film", time, "water")
         place = water.positions[:, :2] - [0.13, 5.57]
         along, height = place @ down, place @ [-down[1], down[0]]
         volumes, speeds = water.arrays["volume"].ravel(), water.arrays["velocity"][:, :2] @ down

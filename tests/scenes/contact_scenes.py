@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """contact_scenes.py SCREE SCENE: bodies that slide on each other, as scenes.py.
 
@@ -9,11 +8,10 @@ import math
 
 import numpy as np
 
+from scree.results import read_points
+
 from bed_scenes import GRAVITY, Plane, slope_of
 from scene_tools import check, largest_fall, main, run
-
-# scene_tools has put doc/ on the path.
-import render
 
 OFFSETS = (0, 0.3, 0.8)  # of the interface in its cells
 LENGTH, HEIGHT = 1., 0.3  # of the block, m
@@ -88,7 +86,7 @@ def contact_rest(scree):
 
 def mean_velocity(name, time, axis, inside):
     """Of the points of a picture that a function of their places chooses, m/s."""
-    points = render.read_points(name, time)
+    points = read_points(name, time)
     mass = points.arrays["mass"].ravel() * inside(points.positions)
     return mass @ points.arrays["velocity"][:, axis] / mass.sum()
 

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """inflow_scenes.py SCREE SCENE: points that enter during the run, as scenes.py.
 
@@ -9,16 +8,15 @@ import os
 
 import numpy as np
 
-from scene_tools import ROOT, check, largest_fall, main, run
+from scree.results import read_table
 
-# scene_tools has put doc/ on the path.
-import render
+from scene_tools import ROOT, check, largest_fall, main, run
 
 
 def check_books(name, table, scale):
     """What is there is what was there and what has entered, less what has left; momentum to rounding."""
     for phase, entered, lost in (("Mass (kg)", "Mass entered (kg)", "Mass lost (kg)"), ("Water mass (kg)", "Water entered (kg)", "Water lost (kg)")):
-        if phase in table and table[phase]:
+        if phase in table:
             book = np.array(table[phase]) - table[phase][0] - np.array(table[entered]) + np.array(table[lost])
             check("%s: %s beside its book, over what has entered" % (name, phase), max(abs(book)) / max(table[entered][-1], 1e-300), 0, 1e-12)
     check(name + ": momentum residual over that entered", max(table["Momentum residual (N s)"]) / scale, 0, 1e-11)
@@ -58,7 +56,7 @@ def inflow_channel(scree):
         out = np.polyfit(time[late], np.array(table["Water lost (kg)"])[late], 1)[0]
         check("channel, %s: discharge out over that in" % name, out / 1600, 1 - bound, 1 + bound)
         for place in "abc":
-            level = render.column(render.read_table("channel_%s/probe_%s" % (name, place)), "Water level (m)")[-1]
+            level = read_table("channel_%s/probe_%s" % (name, place))["Water level (m)"][-1]
             check("channel, %s: depth at %s over that at the inflow" % (name, place), level / 0.4, 1 - bound, 1 + bound)
         check_books("channel, " + name, table, table["Momentum entered x (N s)"][-1])
         missing = np.array(table["Numerical dissipation (J)"])
@@ -70,9 +68,9 @@ def inflow_saturated(scree):
     """A saturated layer on a smooth floor, twice as fast as its waves: it keeps its thickness where the front has passed, and its water."""
     table = run(scree, "inflow/saturated_layer", "saturated", {})
     for place in "ab":
-        probe = render.read_table("saturated/probe_" + place)
+        probe = read_table("saturated/probe_" + place)
         for what in ("Thickness (m)", "Water level (m)"):
-            check("saturated layer: %s at %s over that at the inflow" % (what.lower(), place), render.column(probe, what)[-1] / 0.4, 0.98, 1.02)
+            check("saturated layer: %s at %s over that at the inflow" % (what.lower(), place), probe[what][-1] / 0.4, 0.98, 1.02)
     check("saturated layer: water over soil that entered", table["Water entered (kg)"][-1] / table["Mass entered (kg)"][-1] * 1590 / 400, 0.98, 1.02)
     check("saturated layer: water outside soil over that entered", max(table["Water outside soil (kg)"]) / table["Water entered (kg)"][-1], 0, 0.01)
     check("saturated layer: volume error", max(table["Volume error (-)"]), 0, 0.05)

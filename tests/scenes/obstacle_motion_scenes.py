@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """obstacle_motion_scenes.py SCREE SCENE: obstacles that move in water and in saturated soil, as scenes.py.
 
@@ -9,16 +8,11 @@ import math
 
 import numpy as np
 
+from scree.results import read_points, read_times
+
 from bed_water_scenes import GRAVITY, WEIGHT, gain
 from obstacle_water_scenes import check_balance_of_water
 from scene_tools import at, check, largest_fall, main, nudged_gravity, run
-
-# scene_tools has put doc/ on the path.
-import render
-
-
-def numbers(table):
-    return {column: np.array(values) for column, values in table.items()}
 
 
 def obstacle_bore(scree):
@@ -38,8 +32,8 @@ def obstacle_bore(scree):
                    "Water/Volume correction rate": "%g" % (0.5 * math.sqrt(GRAVITY / cell))}
         errors = []
         for nudge in reversed(range(5)):  # The others are looked at in the one with the gravity of the case.
-            table = numbers(run(scree, "bed/bore", folder,
-                                {**entries, "Gravity": nudged_gravity(nudge), "Output/Graphics": "none" if nudge else "points"}))
+            table = run(scree, "bed/bore", folder,
+                        {**entries, "Gravity": nudged_gravity(nudge), "Output/Graphics": "none" if nudge else "points"})
             momentum = table["Momentum x (N s)"]
             given = -table["Obstacle Piston impulse x (N s)"] - WEIGHT * still**2 / 2 * table["Time (s)"]
             errors.append(np.max(np.abs(momentum - given)) / momentum[-1])
@@ -53,10 +47,10 @@ def obstacle_bore(scree):
         dissipation = table["Numerical dissipation (J)"]
         check(name + ": energy made over work of the piston", largest_fall(dissipation) / work[-1], 0, most_gain)
         times, fronts, depths = [], [], []
-        for moment in render.read_times(folder, "water"):
+        for moment in read_times(folder, "water"):
             if moment < 1.99:
                 continue
-            water = render.read_points(folder, moment, "water")
+            water = read_points(folder, moment, "water")
             column, faces = np.histogram(water.positions[:, 0], 408, (0, 20.4), weights=water.arrays["volume"].ravel() / 0.05)
             column = np.convolve(column, np.full(20, 1 / 20), "valid")  # in a window of 1 m: the front breaks, and a depth at one place flickers
             middle = faces[10:-10]
@@ -72,7 +66,7 @@ def obstacle_bore(scree):
 def obstacle_lifted_gate(scree):
     """A gate that holds water, and lets go of it: nothing gets past it before, and the faster it is, the less it changes of the dam break."""
     moments = (0.3, 0.5, 0.8)
-    reference = run(scree, "dam_break", "reference", {"Output/Statistics interval": "0.01"})
+    reference = run(scree, "water/dam_break", "reference", {"Output/Statistics interval": "0.01"})
     errors = []
     for speed in (20, 40):
         name = "gate at %d m/s" % speed
@@ -82,7 +76,7 @@ def obstacle_lifted_gate(scree):
         check(name + ": force while it is closed over that of still water",
               np.mean([table["Obstacle Gate force x (N)"][i] for i in closed]) / (WEIGHT * 2), 0.99, 1.01)
         check(name + ": gain of energy over released", gain(table), 0, 1e-3)
-        check_balance_of_water(name, numbers(table))
+        check_balance_of_water(name, table)
         errors.append(max(abs(at(table, column, 0.1 + moment) / at(reference, column, moment) - 1) for moment in moments
                           for column in ("Water front 90 % (m)", "Water front 99 % (m)")))
     check("gate at 20 m/s: largest difference of a front from the dam break", errors[0], 0, 0.05)
@@ -96,26 +90,26 @@ def obstacle_moving_tank(scree):
     volume = math.pi * 0.25**2
     for velocity, bound in (("0.5; 0", 0.01), ("0; 0.3", 0.01), ("0.4; 0.3", 0.015)):  # the last is ours
         name = "tank at %s m/s" % velocity
-        table = numbers(run(scree, "hydrostatic", "tank",
-                            {"End time": "0.6", "Mesh/Upper corner": "2, 1.6", "Mesh/Cell size": "0.05", "Water/Region": "x > 0.2 && x < 1.4 && y < 1.113",
-                             "Water/Initial velocity": velocity,
-                             "Obstacle Tank/Type": "free slip", "Obstacle Tank/Velocity": velocity,
-                             "Obstacle Tank/Level set expression": "min(min(x - 0.313, 1.313 - x), y - 0.213)",
-                             "Obstacle Body/Type": "free slip", "Obstacle Body/Velocity": velocity,
-                             "Obstacle Body/Level set expression": "sqrt((x - 0.813)^2 + (y - 0.613)^2) - 0.25"}))
+        table = run(scree, "water/hydrostatic", "tank",
+                    {"End time": "0.6", "Mesh/Upper corner": "2, 1.6", "Mesh/Cell size": "0.05", "Water/Region": "x > 0.2 && x < 1.4 && y < 1.113",
+                     "Water/Initial velocity": velocity,
+                     "Obstacle Tank/Type": "free slip", "Obstacle Tank/Velocity": velocity,
+                     "Obstacle Tank/Level set expression": "min(min(x - 0.313, 1.313 - x), y - 0.213)",
+                     "Obstacle Body/Type": "free slip", "Obstacle Body/Velocity": velocity,
+                     "Obstacle Body/Level set expression": "sqrt((x - 0.813)^2 + (y - 0.613)^2) - 0.25"})
         up, weight = table["Obstacle Body force y (N)"], GRAVITY * table["Water mass (kg)"][0]
         check(name + ": mean force upwards on the cylinder over the weight of its water", np.mean(up[1:]) / (WEIGHT * volume), 1 - bound, 1 + bound)
         check(name + ": mean force to the side over it", abs(np.mean(table["Obstacle Body force x (N)"][1:])) / (WEIGHT * volume), 0, bound)
         check(name + ": force of cylinder and tank downwards over the weight", -np.mean((up + table["Obstacle Tank force y (N)"])[1:]) / weight,
               0.99, 1.01)
         check_balance_of_water(name, table)
-    table = numbers(run(scree, "saturated_rest", "wet_tank",
-                        {"End time": "0.3", "Mesh/Upper corner": "1.8, 1.2", "Mesh/Cell size": "0.05", "Soil/Region": "x > 0.213 && x < 1.213 && y < 0.83",
-                         "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.25",
-                         "Soil/Initial velocity": "0.5; 0", "Water/Initial velocity": "0.5; 0", "Boundaries/Bottom": "free slip",
-                         "Soil/Initial state/K0": "%.15g" % (1 / 3), "Obstacle Tank/Type": "free slip",
-                         "Obstacle Tank/Level set expression": "x - 0.213", "Obstacle Tank/Velocity": "0.5; 0",
-                         "Obstacle Wall/Type": "free slip", "Obstacle Wall/Level set expression": "1.213 - x", "Obstacle Wall/Velocity": "0.5; 0"}))
+    table = run(scree, "seepage/saturated_rest", "wet_tank",
+                {"End time": "0.3", "Mesh/Upper corner": "1.8, 1.2", "Mesh/Cell size": "0.05", "Soil/Region": "x > 0.213 && x < 1.213 && y < 0.83",
+                 "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.25",
+                 "Soil/Initial velocity": "0.5; 0", "Water/Initial velocity": "0.5; 0", "Boundaries/Bottom": "free slip",
+                 "Soil/Initial state/K0": "%.15g" % (1 / 3), "Obstacle Tank/Type": "free slip",
+                 "Obstacle Tank/Level set expression": "x - 0.213", "Obstacle Tank/Velocity": "0.5; 0",
+                 "Obstacle Wall/Type": "free slip", "Obstacle Wall/Level set expression": "1.213 - x", "Obstacle Wall/Velocity": "0.5; 0"})
     soil = table["Mass (kg)"][0] / 0.83 * GRAVITY
     pores = table["Water mass (kg)"][0] / (1000 * 0.83)
     exact = 0.5 * 0.83**2 * (WEIGHT + (soil - (1 - pores) * WEIGHT) / 3)
@@ -127,7 +121,7 @@ def obstacle_moving_tank(scree):
 def obstacle_suction(scree):
     """A piston that recedes faster than water follows: what p < 0 pulls is in the piston's force and work, so that no energy is made. Without it the
     piston's work lacks 242 of 456 J."""
-    table = run(scree, "hydrostatic", "suction", {
+    table = run(scree, "water/hydrostatic", "suction", {
         "End time": "0.6", "Mesh/Upper corner": "3, 1", "Mesh/Cell size": "0.05", "Water/Region": "y < 0.5 && x < 1.5", "Obstacle Piston/Type": "free slip",
         "Obstacle Piston/Level set expression": "1.5 - x", "Obstacle Piston/Velocity": "2*min(1, t/0.02); 0"})
     check("receding piston: largest suction, Pa", min(table["Smallest p (Pa)"]), -1e5, -5000)
@@ -140,19 +134,19 @@ def obstacle_at_wall(scree):
     entries = {"End time": "0.4", "Mesh/Upper corner": "2, 1", "Mesh/Cell size": "0.05", "Water/Region": "y < 0.5", "Obstacle Piston/Type": "free slip",
                "Obstacle Piston/Velocity": "0.2; 0"}
     for name, at_wall, elsewhere in (("piston that leaves through a wall", "1.9 - x", "1.7 - x"), ("piston that starts at a wall", "x - 0.01", "x - 0.21")):
-        table, reference = (numbers(run(scree, "hydrostatic", "piston", {**entries, "Obstacle Piston/Level set expression": place}))
+        table, reference = (run(scree, "water/hydrostatic", "piston", {**entries, "Obstacle Piston/Level set expression": place})
                             for place in (at_wall, elsewhere))
         for column in ("Obstacle Piston impulse x (N s)", "Kinetic energy (J)"):  # no wave comes back within this time
             check(name + ": " + column + " over that of a piston elsewhere", table[column][-1] / reference[column][-1], 0.95, 1.05)
         check_balance_of_water(name, table)
-    table = run(scree, "hydrostatic", "outside", {**entries, "End time": "0.6", "Obstacle Piston/Level set expression": "x + 0.05"})
+    table = run(scree, "water/hydrostatic", "outside", {**entries, "End time": "0.6", "Obstacle Piston/Level set expression": "x + 0.05"})
     check("piston that comes in: force before, N", table["Obstacle Piston force x (N)"][5], 0, 0)
     check("piston that comes in: force later over that of still water", -table["Obstacle Piston force x (N)"][-1] / (WEIGHT * 0.5**2 / 2), 1, 1.3)
-    table = run(scree, "hydrostatic", "gate",
+    table = run(scree, "water/hydrostatic", "gate",
                 {**entries, "End time": "0.8", "Water/Region": "x < 0.5 && y < 0.6 || y < 0.4", "Obstacle Piston/Velocity": "0; if(t < 0.5, -0.4, 0)",
                  "Obstacle Piston/Level set expression": "max(abs(x - 1) - 0.1, 0.2 - y)"})
     check("gate that closes: water that is left over that of the start", table["Water mass (kg)"][-1] / table["Water mass (kg)"][0], 1, 1)
-    table = run(scree, "hydrostatic", "plate",
+    table = run(scree, "water/hydrostatic", "plate",
                 {"End time": "0.6", "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.05", "Water/Region": "x < 0.5 && y > 1.2 - x && y < 1.3",
                  "Obstacle Plate/Type": "free slip", "Obstacle Plate/Level set expression": "(y - 0.5 - x)/sqrt(2)"})
     check("oblique plate at a wall: water that is left over that of the start", table["Water mass (kg)"][-1] / table["Water mass (kg)"][0], 1, 1)

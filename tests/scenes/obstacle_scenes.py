@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """obstacle_scenes.py SCREE SCENE: scenes with obstacles, at rest and moving, as scenes.py.
 

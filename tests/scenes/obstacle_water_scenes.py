@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """obstacle_water_scenes.py SCREE SCENE: obstacles at rest in water and in saturated soil, as scenes.py.
 
@@ -28,7 +27,7 @@ def obstacle_buoyancy(scree):
                                    ("block on the cells' faces", "max(abs(x - 0.75), abs(y - 0.65)) - 0.3", 0.36),
                                    ("block at 27 degrees", "max(abs(%s), abs(%s)) - 0.3" % (along, across), 0.36),
                                    ("cylinder", "sqrt((x - 0.761)^2 + (y - 0.633)^2) - 0.3", math.pi * 0.09)):
-        table = run(scree, "hydrostatic", "buoyancy", {**TANK, "Obstacle Body/Type": "free slip", "Obstacle Body/Level set expression": expression,
+        table = run(scree, "water/hydrostatic", "buoyancy", {**TANK, "Obstacle Body/Type": "free slip", "Obstacle Body/Level set expression": expression,
                                                        "Obstacle Body/Moment about": "0.761, 0"})
         weight = WEIGHT * area
         check(name + ": force upwards over the weight of the water", force(table, "Body", "y") / weight, 0.99, 1.01)
@@ -36,7 +35,7 @@ def obstacle_buoyancy(scree):
         if "on the cells' faces" not in name:  # its axis is elsewhere
             check(name + ": moment about its axis over weight times 1 m", abs(table["Obstacle Body moment z (N m)"][-1]) / weight, 0, 0.01)
         check_balance_of_water(name, table)
-    table = run(scree, "hydrostatic", "sphere",
+    table = run(scree, "water/hydrostatic", "sphere",
                 {"Dimension": "3", "Gravity": "0, 0, -9.81", "End time": "0.02", "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "1.2, 1.2, 1.2",
                  "Mesh/Cell size": "0.05", "Water/Region": "z < 1.13", "Water/Points per cell": "2", "Obstacle Body/Type": "free slip",
                  "Obstacle Body/Level set expression": "sqrt((x - 0.611)^2 + (y - 0.593)^2 + (z - 0.577)^2) - 0.45",
@@ -58,7 +57,7 @@ def obstacle_water_wall(scree):
         angle = math.radians(degrees)
         # A wall that leans over the water by the angle, its foot at x = 1.213 m.
         expression = "(1.213 - x)*%.15g - y*%.15g" % (math.cos(angle), math.sin(angle))
-        table = run(scree, "hydrostatic", "wall", {**TANK, "Obstacle Wall/Type": "free slip", "Obstacle Wall/Level set expression": expression,
+        table = run(scree, "water/hydrostatic", "wall", {**TANK, "Obstacle Wall/Type": "free slip", "Obstacle Wall/Level set expression": expression,
                                                    "Obstacle Wall/Moment about": "1.213, 0"})
         name = "wall, %d degrees" % degrees
         exact = 0.5 * WEIGHT * 1.33**2
@@ -72,7 +71,7 @@ def obstacle_water_wall(scree):
 
 def obstacle_wet_wall(scree):
     """Saturated soil at rest against a wall: water pressure and earth pressure at rest."""
-    table = run(scree, "saturated_rest", "wet_wall",
+    table = run(scree, "seepage/saturated_rest", "wet_wall",
                 {"End time": "0.2", "Mesh/Upper corner": "1.2, 1.2", "Mesh/Cell size": "0.05", "Soil/Region": "x < 1.013 && y < 0.83",
                  "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.25",
                  "Soil/Initial state/K0": "%.15g" % (1 / 3), "Obstacle Wall/Type": "free slip", "Obstacle Wall/Level set expression": "1.013 - x"})
@@ -95,7 +94,7 @@ def obstacle_dam_break(scree):
     errors, gains = [], []
     for nudge in range(5):
         name = "dam break %d" % nudge
-        table = run(scree, "dam_break", "dam",
+        table = run(scree, "water/dam_break", "dam",
                     {"End time": "1.2", "Mesh/Upper corner": "2.4, 9", "Mesh/Cell size": "0.025", "Water/Region": "x < 0.713 && y < 1.03",
                      "Gravity": nudged_gravity(nudge),
                      "Obstacle Left/Type": "free slip", "Obstacle Left/Level set expression": "x - 0.113",

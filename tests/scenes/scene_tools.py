@@ -7,21 +7,11 @@ import sys
 
 import numpy as np
 
+from scree.results import read_statistics
+from scree.variants import write_variant
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "doc"))
-from variants import write_variant  # noqa: E402
-
 failures = []
-
-
-def read_statistics(file):
-    columns, rows = [], []
-    for line in open(file, encoding="utf-8"):
-        if line.startswith("#"):
-            columns.append(line.split(":", 1)[1].strip())
-        elif line.strip():
-            rows.append([float(word) for word in line.split()])
-    return {column: [row[i] for row in rows] for i, column in enumerate(columns)}
 
 
 def run(scree, case, name, entries, may_stop=False):
@@ -34,7 +24,7 @@ def run(scree, case, name, entries, may_stop=False):
     result = subprocess.run([scree, target], capture_output=True, text=True)
     if result.returncode != 0 and not may_stop:
         sys.exit(name + " stopped: " + result.stderr)
-    return read_statistics(os.path.join(name, "statistics"))
+    return read_statistics(name)
 
 
 def nudged_gravity(nudge):

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """scenes.py SCREE SCENE: runs whole scenes from variants of the cases in prm/ and checks what they must show.
 
@@ -11,7 +10,10 @@ import os
 
 import numpy as np
 
-from scene_tools import ROOT, at, check, check_balances, largest_fall, main, mean_oscillation, read_statistics, run
+from scree.results import read_table
+from scree.variants import read_case
+
+from scene_tools import ROOT, at, check, check_balances, largest_fall, main, mean_oscillation, run
 
 
 def columns(scree):
@@ -19,7 +21,7 @@ def columns(scree):
     fronts = {"dense": {0.2: 1.080, 0.4: 1.412, 0.6: 1.885, 0.8: 2.268, 1.0: 2.513, 1.5: 2.666},
               "loose": {0.2: 1.101, 0.4: 1.464, 0.6: 1.936, 0.8: 2.302, 1.0: 2.553, 1.5: 2.706}}
     for kind, expected in fronts.items():
-        table = run(scree, "column_" + kind, "column_" + kind, {"End time": "1.5"})
+        table = run(scree, "columns/column_" + kind, "column_" + kind, {"End time": "1.5"})
         for time, front in expected.items():
             check("%s column: front at %.1f s, m" % (kind, time), at(table, "Front 99.5 % (m)", time), 0.97 * front, 1.03 * front)
         check(kind + " column: mean stress oscillation, modified F-bar", mean_oscillation(table), 0.03, 0.16)
@@ -29,9 +31,9 @@ def columns(scree):
 def stabilisation(scree):
     """What the modified F-bar is for: without it the stress oscillates, with the standard F-bar the run gains energy."""
     for kind in ("dense", "loose"):
-        none = run(scree, "column_" + kind, kind + "_none", {"End time": "1", "Stabilisation/F-bar": "none"})
+        none = run(scree, "columns/column_" + kind, kind + "_none", {"End time": "1", "Stabilisation/F-bar": "none"})
         check(kind + " column: mean stress oscillation, no F-bar", mean_oscillation(none), 0.5, 2)
-        standard = run(scree, "column_" + kind, kind + "_standard", {"End time": "0.8", "Stabilisation/F-bar": "standard"},
+        standard = run(scree, "columns/column_" + kind, kind + "_standard", {"End time": "0.8", "Stabilisation/F-bar": "standard"},
                        may_stop=True)
         released = standard["Potential energy (J)"][0] - min(standard["Potential energy (J)"])
         check(kind + " column: energy gained over released, standard F-bar",
@@ -41,7 +43,7 @@ def stabilisation(scree):
 def slopes(scree):
     """The slopes on a coarse mesh (h = 0.1 m) to rest: fronts, balances and the angle of the deposit."""
     for kind, expected in (("dense", {1: 4.133, 2: 5.333, 3: 5.461}), ("loose", {1: 4.559, 2: 5.699, 3: 5.771})):
-        table = run(scree, "slope_" + kind, "slope_" + kind, {"End time": "3", "Mesh/Cell size": "0.1"})
+        table = run(scree, "slopes/slope_" + kind, "slope_" + kind, {"End time": "3", "Mesh/Cell size": "0.1"})
         for time, front in expected.items():
             check("%s slope: front at %.1f s, m" % (kind, time), at(table, "Front 99.5 % (m)", time), 0.97 * front, 1.03 * front)
         check_balances(kind + " slope", table)
@@ -49,7 +51,7 @@ def slopes(scree):
 
 def collapse(scree):
     """Mohr-Coulomb column, aspect ratio 1: run-out between the laws of Lube et al. 2005 (1.2 a) and Lajeunesse et al. 2005 (1.8 a)."""
-    table = run(scree, "mohr_coulomb_collapse", "collapse", {"End time": "2"})
+    table = run(scree, "columns/mohr_coulomb_collapse", "collapse", {"End time": "2"})
     check("Mohr-Coulomb collapse: (L - L0)/L0", at(table, "Front 99.5 % (m)", 2) - 1, 1.2, 1.8)
     check("Mohr-Coulomb collapse: height of the deposit, m", at(table, "Height (m)", 2), 0.7, 1.0)
     check_balances("Mohr-Coulomb collapse", table)
@@ -59,7 +61,7 @@ def transfer_step(scree):
     """Default transfer of dry soil: the 99 % front at 1.5 s changes by less than 2 % between Courant numbers of 0.2 and 0.9. TPIC, which filters once a
     step, shows that the column would tell: its front changes by 11 %."""
     for transfer, least, most in (("FLIP", 0, 0.02), ("TPIC", 0.05, 1)):
-        small, large = [at(run(scree, "mohr_coulomb_collapse", f"{transfer}_{courant}", {
+        small, large = [at(run(scree, "columns/mohr_coulomb_collapse", f"{transfer}_{courant}", {
             "Mesh/Cell size": "0.0625", "Mesh/Upper corner": "4, 1.5", "Soil/Points per cell": "3", "End time": "1.5",
             "Time step/Maximum time step": "0.01", "Time step/Courant number": courant, "Transfer/Method": transfer,
             "Transfer/PIC rate": "auto"}), "Front 99 % (m)", 1.5)
@@ -75,7 +77,7 @@ def drop(scree):
              "Soil/Region": "x > 0.5 && x < 1.5 && y > %g && y < %g" % (height, height + 0.5), "Soil/Initial velocity": "0; %g" % -speed,
              "Transfer/PIC rate": "0", "Time step/Maximum time step": "1e-4", "End time": "0.2", "Output/Statistics interval": "0.002"}
     for wall in ("fixed", "free slip", "friction 20"):
-        table = run(scree, "mohr_coulomb_collapse", "drop", {**block, "Boundaries/Bottom": wall})
+        table = run(scree, "columns/mohr_coulomb_collapse", "drop", {**block, "Boundaries/Bottom": wall})
         name, mass, potential = "drop, " + wall, table["Mass (kg)"][0], table["Potential energy (J)"]
         before = (math.sqrt(speed ** 2 + 2 * gravity * 0.9 * height) - speed) / gravity  # the gap is a tenth of a cell then
         before = max(time for time in table["Time (s)"] if time <= before)
@@ -85,20 +87,20 @@ def drop(scree):
               largest_fall(table["Numerical dissipation (J)"]) / (potential[0] - min(potential) + table["Kinetic energy (J)"][0]), 0, 0.005)
     slide = {**block, "Soil/Region": "x > 0.5 && x < 1.5 && y < 0.5", "Soil/Initial velocity": "1; 0", "Soil/Initial state/Type": "K0",
              "Soil/Mohr-Coulomb/Cohesion": "1e6", "Boundaries/Bottom": "friction 20"}
-    table = run(scree, "mohr_coulomb_collapse", "slide", slide)
+    table = run(scree, "columns/mohr_coulomb_collapse", "slide", slide)
     friction = math.tan(math.radians(20))
     check("slide: momentum over that of a rigid block", at(table, "Momentum x (N s)", 0.2) / mass / (1 - friction * gravity * 0.2), 0.99, 1.01)
-    run(scree, "mohr_coulomb_collapse", "rest", {**slide, "Soil/Initial velocity": "0; 0", "Probes/Wall forces": "true"})
-    force = np.mean(read_statistics(os.path.join("rest", "probe_walls"))["Bottom soil y (N)"][1:])
+    run(scree, "columns/mohr_coulomb_collapse", "rest", {**slide, "Soil/Initial velocity": "0; 0", "Probes/Wall forces": "true"})
+    force = np.mean(read_table("rest/probe_walls")["Bottom soil y (N)"][1:])
     check("rest: force on the floor over weight", force / (mass * gravity), -1.01, -0.99)
 
 
 def obstacle(scree):
     """A dry column runs against a rigid block and comes to rest behind it; by FLIP, whose points take the nodes' change of velocity:
     momentum tells whether soil feels the block's mass beside its own (residual .0045 if it does)."""
-    text = open(os.path.join(ROOT, "prm", "column_dense.prm"), encoding="utf-8").read()
+    text = read_case(os.path.join(ROOT, "prm", "columns", "column_dense.prm"))
     with open("obstacle.prm", "w", encoding="utf-8") as file:
-        file.write("set Bodies = Soil, Block\n" + text + "subsection Block\n  set Region   = x > 1.5 && x < 2 && y < 0.5\n"
+        file.write("set Bodies = Soil, Block\n" + text + "\nsubsection Block\n  set Region   = x > 1.5 && x < 2 && y < 0.5\n"
                    "  set Material = rigid\nend\n")
     table = run(scree, os.path.abspath("obstacle"), "obstacle_run", {"Mesh/Cell size": "0.1", "End time": "1"})
     check("obstacle: front 99 % of the soil that moves, m (without block 2.17)", at(table, "Front 99 % (m)", 1), 1.2, 1.6)
@@ -119,12 +121,11 @@ def shaken_block(scree):
         later = 0. if velocity < 0. < later else later
         shift += end / n * (velocity + later) / 2
         velocity = later
-    record = {"Base motion/Acceleration record": os.path.join(ROOT, "prm", "records", "half_sine.csv")}
-    table = run(scree, "shaken_block", "shaken_block", record)
+    table = run(scree, "dynamics/shaken_block", "shaken_block", {})
     moved = table["Front 99 % (m)"][-1] - table["Front 99 % (m)"][0]
     check("shaken block: shift over that of a rigid block (%.4f m)" % shift, moved / shift, 0.99, 1.01)
     check("shaken block: speed at the end, m/s", abs(table["Momentum x (N s)"][-1]) / table["Mass (kg)"][-1], 0., 1e-3)
-    free = run(scree, "shaken_block", "shaken_free", {**record, "End time": "0.3", "Boundaries/Bottom": "free slip"})
+    free = run(scree, "dynamics/shaken_block", "shaken_free", {"End time": "0.3", "Boundaries/Bottom": "free slip"})
     for time, relative in ((0.12, -0.447485), (0.26, -0.954930)):
         check("shaken block without friction: velocity at %.3f s over that of the base" % time,
               at(free, "Momentum x (N s)", time) / at(free, "Mass (kg)", time) / relative, 0.9998, 1.0002)

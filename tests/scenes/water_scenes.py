@@ -1,8 +1,7 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """water_scenes.py SCREE SCENE: scenes with water, as scenes.py.
 
-Bounds are from closed forms (doc/closed_forms.py), from the reference numbers of the prototype (an independent 2D code with the
+Bounds are from closed forms (scree.closed_forms), from the reference numbers of the prototype (an independent 2D code with the
 same equations), or, where it says "ours", a generous frame around what must not happen.
 """
 
@@ -11,11 +10,11 @@ import os
 
 import numpy as np
 
-from scene_tools import ROOT, at, check, check_balances, largest_fall, main, run
+from scree import closed_forms
+from scree.results import read_points, read_times
+from scree.variants import read_case
 
-# scene_tools has put doc/ on the path.
-import closed_forms
-import render
+from scene_tools import ROOT, at, check, check_balances, largest_fall, main, run
 
 WATER = 1000 * closed_forms.GRAVITY  # N/m^3
 
@@ -78,9 +77,9 @@ def volume_error(cells, cell_size, water, soil=None, grain_density=2650):
 
 def largest_volume_error(run_folder, cells, cell_size, with_soil=True):
     """The largest of a run's pictures."""
-    return max(volume_error(cells, cell_size, render.read_points(run_folder, time, "water"),
-                            render.read_points(run_folder, time) if with_soil else None)
-               for time in render.read_times(run_folder, "water"))
+    return max(volume_error(cells, cell_size, read_points(run_folder, time, "water"),
+                            read_points(run_folder, time) if with_soil else None)
+               for time in read_times(run_folder, "water"))
 
 
 # At rest --------------------------------------------------------------------------------------------------------------
@@ -91,10 +90,10 @@ def hydrostatic(scree):
     cell = 0.1
     for part in (0, 0.25, 0.5, 0.75):
         name, surface = "hydrostatic_%d" % (100 * part), 1 + part * cell
-        table = run(scree, "hydrostatic", name,
+        table = run(scree, "water/hydrostatic", name,
                     pictures({"Water/Region": "y < %.10g" % surface, "Water/Pressure/Relative tolerance": "1e-12"}))
         unit = WATER * cell
-        water = render.read_points(name, None, "water")
+        water = read_points(name, None, "water")
         exact = closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
         label = "surface at %.2f of a cell: " % part
         # Pictures hold single precision: 1e-6 of the pressure at the base.
@@ -116,10 +115,10 @@ def hydrostatic_jittered(scree):
     cell = 0.1
     for part in (0, 0.25, 0.5, 0.75):
         name, surface = "jittered_%d" % (100 * part), 1 + part * cell
-        table = run(scree, "hydrostatic", name,
+        table = run(scree, "water/hydrostatic", name,
                     pictures({"Water/Region": "y < %.10g" % surface, "Water/Jitter": "0.25",
                               "Water/Pressure/Relative tolerance": "1e-12"}))
-        water = render.read_points(name, None, "water")
+        water = read_points(name, None, "water")
         error = water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
         label = "jittered points, surface at %.2f of a cell: " % part
         check(label + "rms error of p over rho g h", math.sqrt(np.mean(error**2)) / (WATER * cell), 0, 0.01)
@@ -130,9 +129,9 @@ def rest(scree):
     """A saturated column stays at rest for any conductivity: prototype 7e-8 m/s after 1 s, k = 1e-2 to 1e-8 m/s."""
     for conductivity in ("1e-2", "1e-5", "1e-8", "1e-12"):
         name = "rest_" + conductivity
-        table = run(scree, "saturated_rest", name,
+        table = run(scree, "seepage/saturated_rest", name,
                     pictures({"Water/Hydraulic conductivity": conductivity, "Output/Interval": "1"}))
-        water = render.read_points(name, None, "water")
+        water = read_points(name, None, "water")
         error = np.max(np.abs(water.arrays["pressure"] - closed_forms.hydrostatic_pressure(water.positions[:, 1], 1)))
         label = "saturated column, k = %s m/s: " % conductivity
         check(label + "speed after 1 s, m/s", speed(table), 0, 1e-6)
@@ -143,8 +142,8 @@ def rest(scree):
 # Consolidation --------------------------------------------------------------------------------------------------------
 
 
-def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base="terzaghi"):
-    """Runs prm/terzaghi.prm with the column's values; {T_v: (L2 error of p/q, U)} and the statistics."""
+def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base="consolidation/terzaghi"):
+    """Runs prm/consolidation/terzaghi.prm with the column's values; {T_v: (L2 error of p/q, U)} and the statistics."""
     interval = column.time(min(factors))
     table = run(scree, base, name, pictures({
         "Water/Hydraulic conductivity": repr(column.conductivity),
@@ -156,8 +155,8 @@ def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base
         **entries}))
     results = {}
     for factor in factors:
-        water = render.read_points(name, column.time(factor), "water")
-        soil = render.read_points(name, column.time(factor))
+        water = read_points(name, column.time(factor), "water")
+        soil = read_points(name, column.time(factor))
         exact = closed_forms.terzaghi_pressure(column.height - water.positions[:, 1], factor)
         error = math.sqrt(np.mean((water.arrays["pressure"] / column.load - exact)**2))
         # The mean effective vertical stress over the load is U: exact for a strain as small as this one.
@@ -201,10 +200,10 @@ def terzaghi(scree):
         check("Terzaghi, jittered points, %d^2 a cell: L2 error of p/q at T_v = 0.1" % points, results[0.1][0], 0, bound)
 
     # Nothing can leave: p = q, but for the cells next to the surface, where p = 0.
-    run(scree, "terzaghi", "undrained",
+    run(scree, "consolidation/terzaghi", "undrained",
         pictures({"Water/Hydraulic conductivity": "1e-12", "End time": "0.1", "Output/Interval": "0.1",
                   "Output/Statistics interval": "0.1"}))
-    water = render.read_points("undrained", None, "water")
+    water = read_points("undrained", None, "water")
     deep = water.positions[:, 1] < 0.85
     check("Terzaghi, k = 1e-12 m/s: largest |p/q - 1| below three cells (ours)",
           np.max(np.abs(water.arrays["pressure"][deep] / 1e3 - 1)), 0, 0.02)
@@ -215,10 +214,10 @@ def terzaghi_slow(scree):
     bounds = {0.1: 0.00105, 0.3: 0.00145, 0.5: 0.00145, 1: 0.0015}
     stiff = column_of(1e-5, 1e9, 1e6)
     results, _ = consolidation(scree, "slow_stiff", stiff, (0.1, 0.3, 0.5, 1), {"Time step/Courant number": "0.9"}, 1e9,
-                               "terzaghi_slow")
+                               "consolidation/terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.9", results, bounds)
     results, _ = consolidation(scree, "slow_stiff_small_step", stiff, (0.1,), {"Time step/Courant number": "0.1"}, 1e9,
-                               "terzaghi_slow")
+                               "consolidation/terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.1", results, bounds)
     results, _ = consolidation(scree, "slow_soft", column_of(1e-5, 1e7, 1e4), (0.1,), {"Time step/Courant number": "0.9"}, 1e7)
     check_consolidation("Terzaghi, k = 1e-5 m/s, C = 0.9", results, bounds)
@@ -230,12 +229,12 @@ def large_strain(scree):
     factors = (0.25, 0.5, 1, 2.5)
     interval = repr(mud.time(0.25))
     name = "large_strain"
-    table = run(scree, "large_strain_consolidation", name,
+    table = run(scree, "consolidation/large_strain_consolidation", name,
                 pictures({"End time": repr(mud.time(2.5)), "Output/Interval": interval, "Output/Statistics interval": interval}))
     pressure_scale = mud.buoyant_weight * mud.height
     across = None
     for state, factor in zip(closed_forms.consolidate(mud, [mud.time(factor) for factor in factors]), factors):
-        soil, water = (render.read_points(name, state.time, collection) for collection in ("points", "water"))
+        soil, water = (read_points(name, state.time, collection) for collection in ("points", "water"))
         order = np.argsort(soil.positions[:, 1], kind="stable")
         # Points of a row stay side by side: 80 rows (20 cells of 4), from the base to the top.
         across = across or len(order) // 80
@@ -268,22 +267,22 @@ def large_strain(scree):
 
 def top_cell(name, time, cells):
     """Points of the highest cell that holds soil: vertical stress, compression positive; and the surface of all soil, m."""
-    soil = render.read_points(name, time)
+    soil = read_points(name, time)
     layer = np.floor(soil.positions[:, 1] * cells)
     rows = np.unique(np.round(soil.positions[:, 1], 7))
     return -soil.arrays["stress"][layer == np.max(layer), 4], rows[-1] + (rows[-1] - rows[-2]) / 2
 
 
 def loaded_column(scree, name, cells, load, f_bar, entries, wet=True):
-    """prm/terzaghi.prm, a cell wide, with a load of this part of M = E_oed. Dry: of the same soil, loaded slowly."""
+    """prm/consolidation/terzaghi.prm, a cell wide, with a load of this part of M = E_oed. Dry: of the same soil, loaded slowly."""
     traction = load * closed_forms.oedometric_modulus(1e6, 0.2)
     values = {"Mesh/Cell size": repr(1 / cells), "Mesh/Upper corner": "%r, %r" % (1 / cells, 1 + 2 / cells),
               "Surface load/Upper corner": "%r, 1" % (1 / cells), "Surface load/Traction": "0; %r" % -traction,
               "Stabilisation/F-bar": f_bar, **entries}
     if wet:
-        return run(scree, "terzaghi", name, pictures(values)), traction
+        return run(scree, "consolidation/terzaghi", name, pictures(values)), traction
     # A column of the same soil without the water, in a case of its own.
-    lines = open(ROOT + "/prm/terzaghi.prm", encoding="utf-8").read()
+    lines = read_case(ROOT + "/prm/consolidation/terzaghi.prm")
     begin = lines.index("subsection Water")
     with open("dry_column.prm", "w", encoding="utf-8") as file:
         file.write(lines[:begin] + lines[lines.index("subsection Surface load"):])
@@ -303,7 +302,7 @@ def surface_load(scree):
         _, traction = loaded_column(scree, name, cells, load, f_bar, {
             "End time": "2", "Output/Interval": "0.25", "Time step/Courant number": repr(courant)}, wet=False)
         ratios = []
-        for time in render.read_times(name, "points")[2:]:
+        for time in read_times(name, "points")[2:]:
             part = 1 if time >= 1.5 else (1 - math.cos(math.pi * time / 1.5)) / 2
             stress, surface = top_cell(name, time, cells)
             ratios += list(stress / (part * traction))
@@ -343,12 +342,12 @@ def load_in_time(scree):
     modulus, period = closed_forms.oedometric_modulus(1e6, 0.2), 0.5
     for courant in (0.9, 0.6):
         name = "cyclic_%g" % courant
-        run(scree, "terzaghi", name, pictures({
+        run(scree, "consolidation/terzaghi", name, pictures({
             "Water/Hydraulic conductivity": "1e-6", "End time": "0.4", "Output/Interval": "0.05", "Time step/Courant number": repr(courant),
             "Surface load/Traction": "0; %r * (1 - cos(2*pi*t/%g))/2" % (-1e-3 * modulus, period)}))
         errors = []
-        for time in render.read_times(name, "water")[1:]:
-            water = render.read_points(name, time, "water")
+        for time in read_times(name, "water")[1:]:
+            water = read_points(name, time, "water")
             deep = water.positions[:, 1] < 0.5
             exact = (1 - math.cos(2 * math.pi * time / period)) / 2
             errors.append(np.max(np.abs(water.arrays["pressure"][deep] / (1e-3 * modulus) - exact)))
@@ -369,10 +368,10 @@ def pulled_columns(scree):
                 "Soil/Region": "z < 1", "Surface load/Lower corner": "0, 0, 1", "Surface load/Upper corner": "0.05, 0.05, 1",
                 "Surface load/Traction": "0; 0; %r*t" % rate}
     for name, bound, entries, columns in (("pulled", 1e5, in_plane, 3), ("pulled_3d", 1e5, in_space, 4), ("unbound", 1e12, in_plane, 3)):
-        table = run(scree, "terzaghi", name, pictures({**entries, "Water/Pressure/Cavitation pressure": repr(-bound)}))
+        table = run(scree, "consolidation/terzaghi", name, pictures({**entries, "Water/Pressure/Cavitation pressure": repr(-bound)}))
         before, after = [], []
-        for time in render.read_times(name, "water")[1:]:
-            water = render.read_points(name, time, "water")
+        for time in read_times(name, "water")[1:]:
+            water = read_points(name, time, "water")
             deep, load = water.positions[:, 2 if name == "pulled_3d" else 1] < 0.5, rate * time
             if not 0.95e5 < load < 1.05e5:
                 error = np.max(np.abs(water.arrays["pressure"][deep] + min(load, bound))) / load
@@ -396,7 +395,7 @@ def cavitation(scree):
              "Surface load/Traction": "120e3*t; 0"}
     tables = {}
     for name, bound in (("sheared", "-1e5"), ("sheared_unbound", "-1e12")):
-        table = tables[name] = run(scree, "slope_saturated_dense", name, {**layer, "Water/Pressure/Cavitation pressure": bound})
+        table = tables[name] = run(scree, "slopes/slope_saturated_dense", name, {**layer, "Water/Pressure/Cavitation pressure": bound})
         check_water(name, table)
         check(name + ": unresolved returns", table["Unresolved"][-1], 0, 0)
     held, free = tables["sheared"], tables["sheared_unbound"]
@@ -422,7 +421,7 @@ def still_water(scree):
     """
     for part in (0, 0.1, 0.25, 0.5, 0.6, 0.75):
         surface = 1 + 0.1 * part
-        tables = [run(scree, "hydrostatic", "still_%g_%s" % (part, rate), {
+        tables = [run(scree, "water/hydrostatic", "still_%g_%s" % (part, rate), {
             "Water/Region": "y < %.10g" % surface, "Water/Volume correction rate": rate, "Water/Pressure/Relative tolerance": "1e-12"})
             for rate in ("20", "0")]
         corrected, free = (table["Potential energy (J)"] for table in tables)
@@ -441,14 +440,14 @@ def sloshing(scree):
     entries = {"Mesh/Cell size": "0.1", "Mesh/Upper corner": "1, 1.3", "Time step/Maximum time step": "4e-3",
                "Water/Region": "y < 1 + 0.05*cos(pi*x)", "End time": repr(5 * period),
                "Output/Statistics interval": repr(period / 40), "Water/Volume correction rate": "5"}
-    table = run(scree, "dam_break", "sloshing", entries)
+    table = run(scree, "water/dam_break", "sloshing", entries)
     kinetic, wave = table["Kinetic energy (J)"], 1000 * closed_forms.GRAVITY * 0.05**2 / 4
     of_amplitude = wave * (1 - max(kinetic[-41:]) / max(kinetic[:41]))
     lost = table["Numerical dissipation (J)"][-1] - table["Volume correction work (J)"][-1]
     check("sloshing: energy lost beyond what the amplitude tells, over the wave's", (lost - of_amplitude) / wave, -0.05, 0.05)
     lifts = []
     for step in ("4e-3", "1e-3"):
-        crowded, free = (run(scree, "hydrostatic", "crowded_%s_%s" % (step, rate), {
+        crowded, free = (run(scree, "water/hydrostatic", "crowded_%s_%s" % (step, rate), {
             "Water/Jitter": "0.4", "Time step/Maximum time step": step, "Water/Volume correction rate": rate,
             "Water/Pressure/Relative tolerance": "1e-8"}) for rate in ("10", "0"))
         lifts.append(crowded["Potential energy (J)"][-1] - free["Potential energy (J)"][-1])
@@ -460,7 +459,7 @@ def sloshing_for_long(scree):
     """First mode, 20 periods in a tank twice as wide: volume does not drift, points do not crowd."""
     cell, n_periods = 0.1, 20
     period = 2 * math.pi / math.sqrt(closed_forms.GRAVITY * math.pi / 2 * math.tanh(math.pi / 2))
-    table = run(scree, "dam_break", "sloshing_for_long", pictures({
+    table = run(scree, "water/dam_break", "sloshing_for_long", pictures({
         "Mesh/Cell size": str(cell), "Mesh/Upper corner": "2, 1.3", "Time step/Maximum time step": "4e-3",
         "Water/Region": "y < 1 + 0.05*cos(pi/2*x)", "Water/Volume correction rate": "5", "End time": repr(n_periods * period),
         "Output/Interval": repr(period / 2), "Output/Statistics interval": repr(period / 40)}))
@@ -470,8 +469,8 @@ def sloshing_for_long(scree):
     check("sloshing, 2 m wide: energy lost a period beyond what the amplitude tells, five periods, over the wave's",
           (lost[200] - of_amplitude) / wave / 5, -0.002, 0.002)
     errors, fills = [], []
-    for time in render.read_times("sloshing_for_long", "water"):
-        water = render.read_points("sloshing_for_long", time, "water")
+    for time in read_times("sloshing_for_long", "water"):
+        water = read_points("sloshing_for_long", time, "water")
         errors.append(volume_error((20, 13), cell, water))
         fills.append(np.max(np.histogram2d(*water.positions[:, :2].T, (20, 13), ((0, 2), (0, 1.3)), weights=water.arrays["volume"])[0]) / cell**2)
     check("sloshing, 2 m wide: volume error by corners, largest in 20 periods", max(errors), 0, 0.005)
@@ -489,7 +488,7 @@ def dam_break_time(dimensionless):
 
 
 def dam_break_run(scree, name, entries, may_stop=False):
-    return run(scree, "dam_break", name, {"End time": "0.68", "Output/Statistics interval": "0.005", **entries}, may_stop)
+    return run(scree, "water/dam_break", name, {"End time": "0.68", "Output/Statistics interval": "0.005", **entries}, may_stop)
 
 
 def dam_break(scree):
@@ -521,7 +520,7 @@ def saturated_slopes(scree):
         for sets in ("double", "single"):
             name = "%s slope, %s" % (kind, sets)
             # Single-point water is said to be unstable with Nor-Sand (Xie et al. 2024): it may stop, but not before 0.2 s (ours).
-            table = run(scree, "slope_saturated_" + kind, "slope_%s_%s" % (kind, sets),
+            table = run(scree, "slopes/slope_saturated_" + kind, "slope_%s_%s" % (kind, sets),
                         {"End time": "1", "Mesh/Cell size": "0.1", "Water/Point sets": sets}, may_stop=sets == "single")
             check(name + ": time reached, s", table["Time (s)"][-1], 0.2 if sets == "single" else 1, 1)
             check_water(name, table, sets == "single")
@@ -544,7 +543,7 @@ def saturated_column(scree):
     """
     for cell, front, whose in ("0.05", 1.91, "of the finest mesh"), ("0.1", 1.70, "ours"):
         name = f"saturated column, h = {cell} m"
-        table = run(scree, "column_saturated", "saturated_column_" + cell,
+        table = run(scree, "columns/column_saturated", "saturated_column_" + cell,
                     {"End time": "1", "Mesh/Cell size": cell, "Soil/Mohr-Coulomb/Friction angle": "43.85"})
         check(f"{name}: front 90 % at 1 s, m ({whose})", at(table, "Front 90 % (m)", 1), 0.95 * front, 1.05 * front)
         check_balances(name, table)
@@ -558,7 +557,7 @@ def low_stress(scree):
     """
     for conductivity in ("5e-3", "5e-5"):
         name = "saturated column at .01 g, k = %s m/s" % conductivity
-        table = run(scree, "column_saturated", "low_stress_" + conductivity,
+        table = run(scree, "columns/column_saturated", "low_stress_" + conductivity,
                     {"Gravity": "0, -0.0981", "End time": "9", "Mesh/Upper corner": "5, 2.5", "Mesh/Cell size": "0.25", "Time step/Maximum time step": "0.0225",
                      "Soil/Region": "x < 2 && y < 2", "Soil/Points per cell": "2", "Water/Points per cell": "2",
                      "Water/Hydraulic conductivity": conductivity, "Output/Statistics interval": "0.18"})
@@ -573,7 +572,7 @@ def wet_friction(scree):
     pressure and energy are ours: friction that acts after the pressure is solved, on the soil alone, gives 4 times the hydrostatic
     pressure, and over 100 times the wall's work goes to drag.
     """
-    table = run(scree, "column_saturated", "wet_friction",
+    table = run(scree, "columns/column_saturated", "wet_friction",
                 {"End time": "0.1", "Mesh/Upper corner": "6, 0.5", "Boundaries/Bottom": "friction 20",
                  "Soil/Region": "x > 1 && x < 5 && y < 0.3", "Soil/Material": "linear elastic", "Soil/Points per cell": "2",
                  "Soil/Linear elastic/Young's modulus": "1e6", "Soil/Linear elastic/Poisson's ratio": "0.3",
@@ -596,7 +595,7 @@ def submerged(scree):
 
     Dense sand of k = 5e-3 m/s creeps (front 1.01 m at 1 s, suction holds it); ten times the conductivity lets it go.
     """
-    table = run(scree, "submerged_column", "submerged",
+    table = run(scree, "columns/submerged_column", "submerged",
                 {"End time": "1", "Mesh/Cell size": "0.1", "Water/Hydraulic conductivity": "5e-2"})
     check("submerged column: front at 1 s, m (ours)", at(table, "Front 99.5 % (m)", 1), 1.05, 2.1)
     check("submerged column: height at 1 s, m (ours)", at(table, "Height (m)", 1), 0.4, 1.1)
@@ -613,13 +612,13 @@ def seepage(scree):
              "Time step/Maximum time step": "4e-3"}
     for name, entries, tolerance in (("porous dam", {}, 0.05), ("rigid porous dam", rigid, 0.01)):
         folder = name.replace(" ", "_")
-        table = run(scree, "porous_dam", folder,
+        table = run(scree, "seepage/porous_dam", folder,
                     pictures({"End time": "4", "Mesh/Cell size": "0.1", "Output/Interval": "0.05", **entries}))
         measured, expected = [], []
-        for time in render.read_times(folder, "water"):
+        for time in read_times(folder, "water"):
             if time < 2:
                 continue
-            water = render.read_points(folder, time, "water")
+            water = read_points(folder, time, "water")
             (x, y), volume = water.positions[:, :2].T, water.arrays["volume"]
             head = y + water.arrays["pressure"] / WATER
             upstream, downstream = (np.average(head[tank], weights=volume[tank]) for tank in ((x < 0.8) & (y < 0.8), (x > 2.3) & (y < 0.3)))
@@ -633,7 +632,7 @@ def seepage(scree):
 
 def check_rigid(name, folder, table):
     """A rigid body stays where it is, to the last digit, and takes up what pushes it."""
-    first, last = (render.read_points(folder, render.read_times(folder, "points")[i]) for i in (0, -1))
+    first, last = (read_points(folder, read_times(folder, "points")[i]) for i in (0, -1))
     check(name + ": largest move of a rigid point, m", np.max(np.abs(first.positions - last.positions)), 0, 0)
     weight = (table["Mass (kg)"][0] + table["Water mass (kg)"][0]) * closed_forms.GRAVITY
     check(name + ": momentum residual over weight times time",
@@ -646,11 +645,11 @@ def filter_layers(scree):
     conductivities = {"sand": 1e-3, "gravel": 3e-3}
     for cell, top, bound in ((0.05, 1., 0.01), (0.1, 1., 0.01), (0.1, 1.04, 0.02)):
         name = "filter to %g m, cells of %g m" % (top, cell)
-        table = run(scree, "filter", "filter", pictures({"End time": "4", "Output/Interval": "0.5", "Mesh/Cell size": str(cell),
+        table = run(scree, "seepage/filter", "filter", pictures({"End time": "4", "Output/Interval": "0.5", "Mesh/Cell size": str(cell),
                                                          "Sand/Region": "y >= 0.5 && y < %g" % top}))
         flows, slopes = {"sand": [], "gravel": []}, {"sand": [], "gravel": []}
-        for time in render.read_times("filter", "water")[1:]:
-            water = render.read_points("filter", time, "water")
+        for time in read_times("filter", "water")[1:]:
+            water = read_points("filter", time, "water")
             y = water.positions[:, 1]
             # The pond is 2 m deep at first and falls with what seeps.
             darcy = (2 - 3e-3 * time) / ((top - 0.5) / conductivities["sand"] + 0.5 / conductivities["gravel"])
@@ -672,19 +671,19 @@ def net(scree):
     """A net two cells thick, rigid soil of its own conductivity: elastic soil lies on it, and water seeps through both, as by Darcy; a saturated
     column that collapses against it stays before it, and its water goes on."""
     for cell in (0.05, 0.025):
-        run(scree, "filter", "net", pictures({
+        run(scree, "seepage/filter", "net", pictures({
             "Mesh/Cell size": str(cell), "End time": "0.4", "Sand/Region": "y >= 1 && y < 1.5", "Sand/Material": "linear elastic",
             "Sand/Grain density": "2650", "Sand/Linear elastic/Young's modulus": "1e7", "Sand/Linear elastic/Poisson's ratio": "0.3",
             "Sand/Initial state/Type": "K0", "Sand/Initial state/K0": "0.43", "Gravel/Region": "y >= 0.9 && y < 1",
             "Gravel/Initial porosity": "0.4", "Gravel/Hydraulic conductivity": "2e-4", "Boundaries/Water/Bottom": "drained 9810"}))
-        water, soil = render.read_points("net", None, "water"), render.read_points("net")
+        water, soil = read_points("net", None, "water"), read_points("net")
         y = water.positions[:, 1]
         discharge = -np.mean(water.arrays["velocity"][(y > 0.2) & (y < 0.6), 1])
         check("net below soil, cells of %g m: discharge over Darcy's" % cell, discharge * (0.5 / 1e-3 + 0.1 / 2e-4), 0.99, 1.01)
         check("net below soil, cells of %g m: lowest point of the soil that moves, m" % cell,
               np.min(soil.positions[soil.arrays["body"].ravel() == 0, 1]), 1., 1.01)
-    table = run(scree, "net", "wall", pictures({"End time": "2", "Output/Interval": "2"}))
-    water, soil = render.read_points("wall", None, "water"), render.read_points("wall")
+    table = run(scree, "seepage/net", "wall", pictures({"End time": "2", "Output/Interval": "2"}))
+    water, soil = read_points("wall", None, "water"), read_points("wall")
     x, mass = water.positions[:, 0], water.arrays["mass"].ravel()
     check("net before a saturated column: share of the water beyond", np.sum(mass[x > 1.6]) / np.sum(mass), 0.03, 0.1)
     moves = soil.arrays["body"].ravel() == 0
@@ -698,12 +697,12 @@ def porous_block(scree):
     Velocities of the nodes alone fill the first cell to 1.57 of its pores, the last free one to .87, and spend head in them.
     """
     conductivity, cell = 0.1, 0.1
-    table = run(scree, "porous_block", "porous_block", pictures({"End time": "2.5", "Mesh/Cell size": str(cell)}))
-    times = [time for time in render.read_times("porous_block", "water") if time > 0.49]
+    table = run(scree, "seepage/porous_block", "porous_block", pictures({"End time": "2.5", "Mesh/Cell size": str(cell)}))
+    times = [time for time in read_times("porous_block", "water") if time > 0.49]
     fills, volume_errors, discharge, expected = [], [], 0, 0
     for time in times:
-        water = render.read_points("porous_block", time, "water")
-        soil = render.read_points("porous_block", time)
+        water = read_points("porous_block", time, "water")
+        soil = read_points("porous_block", time)
         (x, y), volume = water.positions[:, :2].T, water.arrays["volume"]
         columns = np.histogram(x[y < 0.8], 30, (0, 3), weights=volume[y < 0.8])[0] / (0.8 * cell)
         fills.append(columns / np.where(np.arange(30) // 10 == 1, 0.4, 1))
@@ -734,8 +733,8 @@ def packed_bed(scree):
     for viscosity, sets, kind, entries in ((0.3, "double", "elastic", {}), (1e-2, "double", "elastic", {}), (1e-3, "double", "elastic", {}),
                                            (1e-6, "double", "elastic", {}), (1e-3, "single", "elastic", {}), (1e-3, "double", "rigid", rigid)):
         name = "packed_bed_%g_%s_%s" % (viscosity, sets, kind)
-        table = run(scree, "packed_bed", name, pictures({"Water/Viscosity": repr(viscosity), "Water/Point sets": sets, **entries}))
-        water = render.read_points(name, None, "water")
+        table = run(scree, "seepage/packed_bed", name, pictures({"Water/Viscosity": repr(viscosity), "Water/Point sets": sets, **entries}))
+        water = read_points(name, None, "water")
         inside = (water.positions[:, 1] > 0.2) & (water.positions[:, 1] < 0.8)
         exact = closed_forms.ergun_velocity(closed_forms.GRAVITY, 5e-3, 0.4, viscosity)
         flow = -water.arrays["seepage_velocity"][inside, 1] / exact
@@ -755,7 +754,7 @@ def poiseuille_flow(name, viscosity, gravity):
     """Mean velocity in the middle of the slug over the exact one for what drives it there, and the distance of the points' velocities
     from the parabola, over its root mean square. The open ends take up to .05 of gravity (about 3 mu U/H of pressure each), which
     the fit of the pressure tells."""
-    water, width = render.read_points(name, None, "water"), 0.1
+    water, width = read_points(name, None, "water"), 0.1
     x, y = water.positions[:, 0], water.positions[:, 1]
     middle = np.abs(x - np.mean(x)) < width / 2
     driving = 1000 * gravity - np.polyfit(x[middle], water.arrays["pressure"][middle], 1)[0]
@@ -773,7 +772,7 @@ def poiseuille(scree):
     errors = {}
     for method, cell in (("AFLIP", 0.0125), ("AFLIP", 0.00625), ("TPIC", 0.0125), ("TPIC", 0.00625), ("APIC", 0.0125), ("FLIP", 0.0125)):
         name, label = "poiseuille_%s_%g" % (method, cell), "Poiseuille, %s, H/h = %g: " % (method, 0.1 / cell)
-        table = run(scree, "poiseuille", name, pictures({"Transfer/Method": method, "Mesh/Cell size": str(cell),
+        table = run(scree, "water/poiseuille", name, pictures({"Transfer/Method": method, "Mesh/Cell size": str(cell),
                                                          "Time step/Maximum time step": str(0.4 * cell)}))
         discharge, errors[method, cell] = poiseuille_flow(name, 10, 0.25)
         check(label + "discharge over the exact one", discharge, 0.99, 1.01)
@@ -783,7 +782,7 @@ def poiseuille(scree):
               max(table["Momentum residual (N s)"]) / (40 * 0.25 * table["Time (s)"][-1]), 0, 1e-11)
     check("Poiseuille, AFLIP: order of the distance", math.log2(errors["AFLIP", 0.0125] / errors["AFLIP", 0.00625]), 1, 4)
 
-    table = run(scree, "poiseuille", "poiseuille_explicit", pictures({"Transfer/Method": "AFLIP", "Time step/Maximum time step": "5e-4"}))
+    table = run(scree, "water/poiseuille", "poiseuille_explicit", pictures({"Transfer/Method": "AFLIP", "Time step/Maximum time step": "5e-4"}))
     check("Poiseuille, explicit: iterations of an implicit solve", max(table["Viscous iterations per step"]), 0, 0)
     discharge, _ = poiseuille_flow("poiseuille_explicit", 10, 0.25)
     implicit, _ = poiseuille_flow("poiseuille_AFLIP_0.0125", 10, 0.25)
@@ -792,7 +791,7 @@ def poiseuille(scree):
     # What viscosity shears does not come together: Fading must leave p alone (1.045 and .041 if it does not).
     for fading in ("0", "5"):
         name, label = "poiseuille_stiff_" + fading, "Poiseuille, 100 times the viscosity, Fading = %s: " % fading
-        run(scree, "poiseuille", name, pictures({"Transfer/Method": "AFLIP", "Water/Viscosity": "1000", "Gravity": "25, 0",
+        run(scree, "water/poiseuille", name, pictures({"Transfer/Method": "AFLIP", "Water/Viscosity": "1000", "Gravity": "25, 0",
                                                  "End time": "0.05", "Water/Pressure/Fading": fading}))
         discharge, error = poiseuille_flow(name, 1000, 25)
         check(label + "discharge over the exact one (ours)", discharge, 0.97, 1.03)
@@ -817,7 +816,7 @@ def shear_wave(scree):
         if method == "FLIP":
             entries["Transfer/PIC rate"] = "0"
         label = "vortices, %s, %g cells: " % (method, 1 / cell)
-        table = run(scree, "shear_wave", "shear_wave_%s_%g" % (method, cell), entries)
+        table = run(scree, "water/shear_wave", "shear_wave_%s_%g" % (method, cell), entries)
         errors[method, cell] = abs(decay(table) / rate - 1)
         check(label + "rate of decay, relative error", errors[method, cell], 0, error)
         check(label + "energy lost in no account over that of viscosity",
@@ -827,12 +826,12 @@ def shear_wave(scree):
         check("vortices, %s: order of the rate" % method, math.log2(errors[method, 0.0625] / errors[method, 0.03125]), 1.3, 3)
 
     # Both steps are short against the decay of the vortices.
-    explicit, implicit = (run(scree, "shear_wave", "shear_wave_%g" % step,
+    explicit, implicit = (run(scree, "water/shear_wave", "shear_wave_%g" % step,
                               {"Time step/Maximum time step": str(step), "Output/Statistics interval": "1"}) for step in (1e-3, 0.03))
     check("vortices, short steps: iterations of an implicit solve", explicit["Viscous iterations per step"][-1], 0, 0)
     check("vortices, long steps: the same", implicit["Viscous iterations per step"][-1], 1, 100)
     check("vortices: rate of implicit over that of explicit steps", decay(implicit) / decay(explicit), 0.99, 1.01)
-    table = run(scree, "shear_wave", "shear_wave_stiff", {"Transfer/Method": "AFLIP", "Water/Viscosity": "4000", "End time": "0.02"})
+    table = run(scree, "water/shear_wave", "shear_wave_stiff", {"Transfer/Method": "AFLIP", "Water/Viscosity": "4000", "End time": "0.02"})
     euler = math.log(1 + 0.005 * closed_forms.vortex_decay(4000, 1000, 1)) / 0.005
     check("vortices, 400 times the viscosity: rate of decay over that of backward Euler", decay(table) / euler, 0.98, 1.02)
 
@@ -843,17 +842,17 @@ def suspension(scree):
     rate = closed_forms.vortex_decay(closed_forms.krieger_dougherty(5, 0.4), 1660, 1)
     for name, entries, error in (("suspension_16", {}, 0.02), ("suspension_32", {"Mesh/Cell size": "0.03125"}, 0.01),
                                  ("suspension_single", {"Water/Point sets": "single", "Water/Initial velocity": ""}, 0.02)):
-        table = run(scree, "suspension", name, entries)
+        table = run(scree, "water/suspension", name, entries)
         check(name + ": rate of decay, relative error", abs(decay(table) / rate - 1), 0, error)
         check(name + ": energy lost in no account over that of viscosity",
               table["Numerical dissipation (J)"][-1] / table["Viscous dissipation (J)"][-1], -0.02, 0.02)
     none = {"Water/Suspension/Law": "none", "Water/Suspension/Contact pressure": "100"}
-    table = run(scree, "suspension", "suspension_none", none)
+    table = run(scree, "water/suspension", "suspension_none", none)
     check("suspension, no law: rate of decay over that of the water's share", decay(table) / closed_forms.vortex_decay(0.6 * 5, 1660, 1), 0.98, 1.02)
 
     sinks = {"Gravity": "0, -9.81", "Soil/Initial velocity": "", "Water/Initial velocity": "", "Water/Hydraulic conductivity": "1e-2"}
-    run(scree, "suspension", "suspension_sinks", pictures({**sinks, "Output/Interval": "0.5"}))
-    soil = render.read_points("suspension_sinks", None, "points")
+    run(scree, "water/suspension", "suspension_sinks", pictures({**sinks, "Output/Interval": "0.5"}))
+    soil = read_points("suspension_sinks", None, "points")
     middle = np.abs(soil.positions[:, 1] - 0.5) < 1 / 6
     speed_of_grains = -soil.arrays["velocity"][middle, 1] / closed_forms.settling_velocity(1e-2, 0.6, 2650)
     check("suspension: speed of sinking grains over the exact one, mean", np.mean(speed_of_grains), 0.99, 1.01)
@@ -864,13 +863,13 @@ def dam_break_wet(scree):
     """A bore runs into water at rest: Stoker's discharge through the gate within 3 %. Wanted as much of the bore's depth and speed: missed,
     a bed two cells deep does not take the energy that a bore loses (doc/verification.md)."""
     upstream, downstream, gate, cell, name = 1., 0.2, 10., 0.1, "dam_break_wet"
-    table = run(scree, name, name, pictures({"Mesh/Cell size": str(cell), "Time step/Maximum time step": "4e-3",
-                                             "Water/Volume correction rate": "5"}))
+    table = run(scree, "water/" + name, name, pictures({"Mesh/Cell size": str(cell), "Time step/Maximum time step": "4e-3",
+                                                        "Water/Volume correction rate": "5"}))
     bore = closed_forms.stoker_bore(upstream, downstream)
-    times = [time for time in render.read_times(name, "water") if time > 0.99]
+    times = [time for time in read_times(name, "water") if time > 0.99]
     passed, fronts, depths = [], [], []
     for time in times:
-        water = render.read_points(name, time, "water")
+        water = read_points(name, time, "water")
         x, volume = water.positions[:, 0], water.arrays["volume"]
         passed.append(np.sum(volume[x > gate]))
         depth, faces = np.histogram(x, 200, (0, 20), weights=volume / cell)
@@ -898,7 +897,7 @@ def water_on_soil(scree):
     dry = {"Water/Region": "x < 0.8 && y > 0.4 && y < 1.2", "Water/Pressure/Fading": "0"}
     for state, changes, step in (("saturated", {}, "1e-3"), ("saturated", {}, "2e-3"), ("dry", dry, "2e-3")):
         folder = "%s_%s" % (state, step)
-        table = run(scree, "water_on_soil", folder, pictures({
+        table = run(scree, "water/water_on_soil", folder, pictures({
             "Mesh/Cell size": "0.1", "Time step/Maximum time step": step, "Water/Volume correction rate": "5", "End time": "2", **changes}))
         check_soil_and_water("water on a %s bed, step %s s" % (state, step), folder, table, (40, 16))
 
@@ -914,7 +913,7 @@ def closing_gap(scree):
         name = "%s, gap of %g m, %g m/s, fading %g" % (what, gap, speed, fading)
         both, velocity = "y < 0.4 || (y > %g && y < %g)" % (0.4 + gap, 0.8 + gap), "0; if(y > %g, %g, 0)" % (0.4 + gap / 2, -speed)
         soil = {"Soil/Region": both, "Soil/Initial velocity": velocity} if what == "soil" else {"Soil/Region": "y < 0.4"}
-        table = run(scree, "column_saturated", name.replace(",", "").replace(" ", "_").replace("/", "_"), pictures({
+        table = run(scree, "columns/column_saturated", name.replace(",", "").replace(" ", "_").replace("/", "_"), pictures({
             "Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": "0.05", **soil, "Soil/Initial state/Type": "none",
             "Soil/Points per cell": "3", "Water/Region": both,
             "Water/Points per cell": "3", "Water/Initial pressure": "none", "Water/Hydraulic conductivity": "1e-3",
@@ -935,7 +934,7 @@ def impact(scree):
     """
     for step in ("1e-3", "1e-4"):
         name = "impact, steps of %s s" % step
-        table = run(scree, "column_saturated", "impact_" + step, {
+        table = run(scree, "columns/column_saturated", "impact_" + step, {
             "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6",
             "Soil/Initial state/Type": "none", "Soil/Points per cell": "3", "Water/Points per cell": "3", "Water/Initial pressure": "none",
             "Water/Hydraulic conductivity": "1e-5", "Soil/Initial velocity": "0; -2", "Water/Initial velocity": "0; -2",
@@ -954,9 +953,9 @@ def impact(scree):
 def drawdown(scree):
     """A slope that stands under water slides when the reservoir runs off: tan(phi)/tan(slope) is 1.40, then .70."""
     for name, entries in (("closed", {"Boundaries/Water/Right": "impermeable", "End time": "1.5"}), ("drawdown", {"End time": "3"})):
-        table = run(scree, "drawdown", name, pictures({"Mesh/Cell size": "0.1", "Time step/Maximum time step": "2e-3",
+        table = run(scree, "slopes/drawdown", name, pictures({"Mesh/Cell size": "0.1", "Time step/Maximum time step": "2e-3",
                                                        "Water/Volume correction rate": "5", **entries}))
-        first, last = (render.read_points(name, render.read_times(name, "points")[i]) for i in (0, -1))
+        first, last = (read_points(name, read_times(name, "points")[i]) for i in (0, -1))
         order = [np.argsort(points.arrays["id"]) for points in (first, last)]
         moved = np.max(np.linalg.norm(last.positions[order[1]] - first.positions[order[0]], axis=1))
         if name == "closed":
@@ -971,7 +970,7 @@ def drawdown(scree):
 def dam(scree):
     """The downstream shell of a dam stands if its friction is above its slope of 26.6 degrees, and slides below; the reservoir stays."""
     for angle, lowest, highest in ((24, 0.3, 1), (29, -1e-3, 0.01)):  # amounts: ours
-        table = run(scree, "dam", "dam", {"End time": "3", "Downstream shell/Mohr-Coulomb/Friction angle": "%d" % angle,
+        table = run(scree, "slopes/dam", "dam", {"End time": "3", "Downstream shell/Mohr-Coulomb/Friction angle": "%d" % angle,
                                           "Downstream shell/Initial state/K0": "%.3f" % (1 - math.sin(math.radians(angle)))})
         name = "dam, downstream shell of %d degrees" % angle
         front = table["Front 90 % (m)"]
@@ -982,7 +981,7 @@ def dam(scree):
 
 def column_3d(scree):
     """A saturated column in 3D on a coarse mesh: balances, and x and y are alike."""
-    table = run(scree, "column_saturated_3d", "column_3d",
+    table = run(scree, "columns/column_saturated_3d", "column_3d",
                 {"End time": "0.4", "Mesh/Cell size": "0.1", "Water/Pressure/Relative tolerance": "1e-10"})
     x, y = table["Momentum x (N s)"], table["Momentum y (N s)"]
     check("saturated column in 3D: difference of momentum along x and y",

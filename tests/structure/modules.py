@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """modules.py ROOT ORDER: every include of scree's own files below ROOT goes down the order of modules.
 
@@ -34,7 +33,7 @@ def module_of(path, known):
 
 def faults(root, known):
     for folder in ("include/scree", "source"):
-        for file in sorted((root / folder).rglob("*.[hc]*")):
+        for file in sorted(file for file in (root / folder).rglob("*") if file.suffix in (".h", ".cc")):
             module = module_of(file.relative_to(root / folder), known)
             for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
                 include = re.match(r'\s*#\s*include\s*[<"]scree/([^>"]+)', line)

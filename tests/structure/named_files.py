@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """named_files.py ROOT: every entry below ROOT that names a file is declared by add_file_entry(), so that its path counts from the case and a
 checkpoint knows its contents; and what it names is opened by open_file()."""

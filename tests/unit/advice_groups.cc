@@ -12,7 +12,7 @@
 
 using namespace scree;
 
-/// prm/terzaghi.prm: c_v = 0.11326 m^2/s, drainage time 8.829 s, T_v = 1 at the end.
+/// prm/consolidation/terzaghi.prm: c_v = 0.11326 m^2/s, drainage time 8.829 s, T_v = 1 at the end.
 SceneNumbers terzaghi()
 {
   SceneNumbers scene;

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Makes a mountain side with a release area, and a case that runs on it.
+
+scree-mountain 1 results/mountain_1
+scree results/mountain_1/case.prm
+
+Writes terrain.asc (heights, m), release.asc (thickness of the soil, measured vertically, m) and case.prm into the folder. The same seed makes the
+same mountain. It is a concave valley head: height A exp(-(d/s)^1.4) over the distance d from the head, with a parabolic cross section and random
+roughness whose amplitude falls as k^-1.7 with the wavenumber k. At a spacing of 10 m, `rough` relief has second differences of 3 to 5 m (RMS), as
+measured mountain sides have; `smooth` relief has no wavelength below 150 m.
+"""
+
+import pathlib
+from typing import NamedTuple
+
+import numpy as np
+
+from scree.command import Command
+from scree.results import write_raster
+
+
+class Size(NamedTuple):
+    """Extent of the raster and of the release area, m."""
+    width: float
+    length: float
+    relief: float      # from the valley floor to the head
+    half_width: float  # of the release, across the slope
+    half_length: float  # along the slope
+    thickness: float   # in its middle
+
+
+SIZES = {"large": Size(1100, 1700, 900, 130, 150, 40), "small": Size(600, 900, 460, 65, 75, 22)}  # 1.2 and 0.17 million m^3
+
+
+def roughness(rng, shape, spacing, shortest):
+    """Random heights with the standard deviation 1; wavelengths from `shortest` to 600 m."""
+    rows, columns = shape
+    wavenumber = np.hypot(np.fft.fftfreq(columns, spacing)[None, :], np.fft.fftfreq(rows, spacing)[:, None])
+    inside = (wavenumber > 1 / 600) & (wavenumber < 1 / shortest)
+    amplitude = np.where(inside, np.where(inside, wavenumber, 1.) ** -1.7, 0.)
+    heights = np.real(np.fft.ifft2(amplitude * np.exp(2j * np.pi * rng.random(shape))))
+    return heights / heights.std()
+
+
+def make(seed, size, spacing, rim, relief, feature):
+    """Heights and release thickness on a grid whose first row is the southern one, m."""
+    rng = np.random.default_rng(seed)
+    shape = int(size.length / spacing) + 1, int(size.width / spacing) + 1
+    y, x = np.indices(shape) * spacing
+    middle = size.width / 2
+    heights = 300 + size.relief * np.exp(-((size.length - y) / (0.41 * size.length)) ** 1.4) + 0.055 * size.width * ((x - middle) / middle) ** 2
+    heights += 9 * roughness(rng, shape, spacing, 2.5 * spacing if relief == "rough" else 150.)
+    if feature == "gully":  # a meandering channel from below the release to the valley
+        bed = middle + 0.05 * size.width * np.sin(2 * np.pi * y / (0.35 * size.length))
+        heights -= 0.8 * size.thickness * np.exp(-((x - bed) / (0.03 * size.width)) ** 2) * np.clip(4 * (0.75 - y / size.length), 0, 1)
+    elif feature == "cliff":  # a step as high as the release is thick, over two cells
+        heights += size.thickness * 0.5 * (np.tanh((y - 0.62 * size.length) / spacing) - 1)
+    shift = 0.6 * np.array([size.half_width, 0.7 * size.half_length]) * rng.uniform(-1, 1, 2)
+    centre = middle + shift[0], 0.81 * size.length + shift[1]
+    distance = ((x - centre[0]) / size.half_width) ** 2 + ((y - centre[1]) / size.half_length) ** 2
+    thickness = size.thickness * np.clip(1 - distance, 0, None)
+    if rim == "cut":
+        thickness[thickness < size.thickness / 8] = 0
+    return heights, thickness
+
+
+def case_text(heights, thickness, spacing, cell):
+    """A dry slide to rest."""
+    lower = [cell, cell, cell * np.floor(heights.min() / cell - 1)]
+    upper = [(n - 1) * spacing for n in heights.shape[::-1]] + [(heights + thickness).max() + 5 * cell]
+    upper = [low + cell * np.floor((high - low - (cell if axis < 2 else 0)) / cell) for axis, (low, high) in enumerate(zip(lower, upper))]
+    corner = [", ".join(f"{value:g}" for value in place) for place in (lower, upper)]
+    walls = "\n".join(f"  set {face:6} = open" for face in ("Bottom", "Left", "Right", "Front", "Back"))
+    return f"""# A dry slide on a mountain side that scree-mountain has made.
+set Dimension        = 3
+set End time         = 60                           # s
+set Output directory = out
+set Gravity          = 0, 0, -9.81                  # m/s^2
+
+subsection Mesh
+  set Lower corner = {corner[0]}
+  set Upper corner = {corner[1]}
+  set Cell size    = {cell:g}
+end
+
+subsection Bed
+  set Type           = friction
+  set Friction angle = 20                           # degrees
+  set Raster         = terrain.asc
+end
+
+subsection Boundaries
+{walls}
+end
+
+subsection Soil
+  set Thickness        = release.asc
+  set Material         = Mohr-Coulomb
+  set Points per cell  = 3
+  set Grain density    = 2650                       # kg/m^3
+  set Initial porosity = 0.4
+  subsection Mohr-Coulomb
+    set Young's modulus = 1e7                       # Pa
+    set Poisson's ratio = 0.3
+    set Friction angle  = 32                        # degrees
+    set Dilation angle  = 0                         # degrees
+  end
+end
+
+subsection Output
+  set Interval            = 5                       # s
+  set Statistics interval = 0.2                     # s
+  subsection Maps
+    set Write           = true
+    set Least thickness = 0.1                       # m
+  end
+end
+"""
+
+
+def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", relief="rough", feature="none"):
+    """Writes the rasters and the case into a folder; returns heights and thickness, m."""
+    for name, length in (("spacing", spacing), ("cell", cell)):
+        if length <= 0:
+            raise ValueError(f"--{name} {length:g}: write a length above 0")
+    heights, thickness = make(seed, SIZES[size], spacing, rim, relief, feature)
+    folder.mkdir(parents=True, exist_ok=True)
+    write_raster(folder / "terrain.asc", heights, spacing)
+    write_raster(folder / "release.asc", thickness, spacing)
+    (folder / "case.prm").write_text(case_text(heights, thickness, spacing, cell), encoding="utf-8")
+    return heights, thickness
+
+
+def _make_case(arguments):
+    heights, thickness = make_case(**vars(arguments))
+    print(f"Wrote {arguments.folder}: release {thickness.sum() * arguments.spacing**2:.0f} m^3, heights {heights.min():.0f} to {heights.max():.0f} m")
+
+
+def main():
+    parser = Command("scree-mountain", __doc__)
+    parser.add_argument("seed", type=int, help="number that decides the roughness and the place of the release")
+    parser.add_argument("folder", type=pathlib.Path, help="where the files go; it is made if it does not exist")
+    parser.add_argument("--size", choices=SIZES, default="large", help="1.1 km by 1.7 km with 1.2 million m^3 (large) or 0.6 km by 0.9 km with 0.17 (small)")
+    parser.add_argument("--spacing", type=float, default=10., help="of the rasters, m; default %(default)g")
+    parser.add_argument("--cell", type=float, default=10., help="cell size of the case, m; default %(default)g")
+    parser.add_argument("--rim", choices=("thin", "cut"), default="thin", help="the release thins out to nothing, or ends at an eighth of its thickness")
+    parser.add_argument("--relief", choices=("rough", "smooth"), default="rough", help="wavelengths from 2.5 spacings on, or none below 150 m; default: rough")
+    parser.add_argument("--feature", choices=("none", "gully", "cliff"), default="none", help="a channel below the release, or a step in the slope; default: none")
+    parser.run(_make_case)

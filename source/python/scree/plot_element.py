@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Plots what scree-element wrote: element.png of table.txt in each folder."""
+
+import pathlib
+import warnings
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from scree.command import Command
+
+
+def read(file):
+    """Columns of the table by name, without units."""
+    names = file.open(encoding="utf-8").readline().split()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of a table without rows
+        values = np.loadtxt(file, skiprows=1, ndmin=2)
+    if values.shape[1] != len(names):
+        raise ValueError(f"{file} is no table of scree-element, or one without rows")
+    return {name.split("[")[0]: values[:, i] for i, name in enumerate(names)}
+
+
+def plot(directory):
+    """Throws OSError or ValueError if there is no table of scree-element."""
+    columns = read(directory / "table.txt")
+    missing = [name for name in ("strain", "stress_ratio", "mean_pressure", "deviator_stress") if name not in columns]
+    if missing:
+        raise ValueError(f"{directory / 'table.txt'} has no column {missing[0]}: is {directory} a folder of scree-element?")
+    pressure = columns["mean_pressure"] / 1000
+    # Laws without pores: the volume ratio stands in for the specific volume.
+    volume = "specific_volume" if "specific_volume" in columns else "volume_ratio"
+    curves = [
+        (100 * columns["strain"], columns["stress_ratio"], "strain, %", "q/p', -"),
+        (pressure, columns[volume], "p', kPa", volume.replace("_", " ") + ", -"),
+        (pressure, columns["deviator_stress"] / 1000, "p', kPa", "q, kPa"),
+    ]
+    figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
+    for axis, (x, y, x_label, y_label) in zip(axes, curves):
+        axis.plot(x, y)
+        axis.set_xlabel(x_label)
+        axis.set_ylabel(y_label)
+        axis.grid(alpha=0.3)
+    if pressure.min() > 0 and pressure.max() > 3 * pressure.min():
+        axes[1].set_xscale("log")
+    figure.suptitle(directory.name)
+    figure.savefig(directory / "element.png", dpi=120)
+    plt.close(figure)
+
+
+def plot_all(arguments):
+    for folder in arguments.folders:
+        plot(folder)
+        print(f"Wrote {folder / 'element.png'}")
+
+
+def main():
+    parser = Command("scree-plot-element", __doc__)
+    parser.add_argument("folders", metavar="FOLDER", nargs="+", type=pathlib.Path, help="output directory of scree-element, for instance results/element/oedometer")
+    parser.run(plot_all)

@@ -1,0 +1,85 @@
+"""Closure of an air gap: a body 0.4 m high falls on another one, 0.4 m high, between smooth walls, so that the exact end is known: all is at rest, the gap
+is gone. Water on water, saturated soil on water, water on saturated soil, and soil on soil; the gap (in cells of 0.05 m) and the speed at the start
+vary. Air has no pressure here. Further row of panels: `Fading = 5`.
+State: `measures.BOUNDS`; the oscillation of p is its roughness at the end (`measures.roughness`) over rho_w g 0.8 m. The number is the air that stays in the
+closed gap, as a height in cells."""
+import numpy as np
+
+from scree.studies.charts import StabilityMap
+from scree.studies.measures import classify, roughness
+from scree.studies.study import Claim, Study, axis, product
+
+CELL, HEIGHT = 0.05, 0.4  # m
+PRESSURES = {"default": {}, "fading": {"Water/Pressure/Fading": 5}}
+PAIRS = ["water on water", "soil on water", "water on soil", "soil on soil"]
+
+
+def with_case(variants):
+    """Each variant with the entries of its pair of bodies, gap and speed; water alone has a case without soil for its base."""
+    result = []
+    for labels, entries, *_ in variants:
+        upper, _, lower = labels["pair"].split()
+        gap = labels["gap"] * CELL
+        above, below = f"(y > {HEIGHT + gap:g} && y < {2 * HEIGHT + gap:g})", f"y < {HEIGHT:g}"
+        soil = [region for region, what in ((above, upper), (below, lower)) if what == "soil"]
+        velocity = f"0; if(y > {HEIGHT + gap / 2:g}, {-labels['v']:g}, 0)"
+        entries = {**entries, "Water/Region": f"{below} || {above}", "Water/Initial velocity": velocity}
+        if soil:
+            entries.update({"Soil/Initial state/Type": "none", "Soil/Points per cell": 3, "Soil/Region": " || ".join(soil),
+                            "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": 1e-3})
+        else:
+            entries.update({"Water/Volume correction rate": 0, "Time step/Maximum time step": 1e-3})
+        result.append(variants[0]._replace(labels=labels, entries=entries, base=None if soil else "prm/water/dam_break.prm"))
+    return result
+
+
+def measure(run):
+    water = run.points(None, "water")
+    rough = roughness(water, CELL, "pressure") / (1000 * 9.81 * 2 * HEIGHT)
+    # The body's top from its centre of volume: two full layers without a gap have theirs at their height.
+    volumes = water.arrays["volume"]
+    upper = np.argsort(water.positions[:, 1])[len(volumes) // 2:]
+    left = (np.average(water.positions[upper, 1], weights=volumes[upper]) - 1.5 * HEIGHT) / CELL
+    return {**classify(run, {"oscillation of p": rough}), "air left, cells": left,
+            "peak p, kPa": 1e-3 * max(run.statistics("Largest p (Pa)")), "lowest p, kPa": 1e-3 * min(run.statistics("Smallest p (Pa)")),
+            "volume error": max(run.statistics("Volume error (-)"))}
+
+
+def verdict(rows):
+    def of(pair, pressure):
+        return [row for row in rows if row["pair"] == pair and row["old p"] == pressure]
+
+    def gain(chosen):
+        """Largest gain, % of the released energy."""
+        return 100 * max(row["gain"] for row in chosen)
+    ended = [row for row in rows if row["ended"]]
+    water = of("water on water", "default")
+    gaining = {pair: [row for row in of(pair, "default") if row["state"] == "energy gain"] for pair in PAIRS}
+    faded = [row for row in rows if row["old p"] == "fading"]
+    return [
+        Claim("By default energy is gained by " + (", ".join(
+            f"{pair} in {len(gaining[pair])} of {len(of(pair, 'default'))} (up to {gain(of(pair, 'default')):.2g} % of what is released)"
+            for pair in PAIRS if gaining[pair]) or "none")
+              + f". With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of "
+              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Wanted: at most .5 % by default.",
+              gain([row for row in rows if row["old p"] == "default"]) <= 0.5),
+        Claim("The bodies do not touch: of a cell, air stays by default below " + ", ".join(
+            f"{pair.split()[0]} on soil {min(left):.2g} to {max(left):.2g}" for pair in PAIRS[2:]
+            if (left := [row["air left, cells"] for row in of(pair, "default")])) + ". Wanted: at most half a cell.",
+              max(row["air left, cells"] for row in rows if row["old p"] == "default") <= 0.5, quick=False),
+        Claim(f"Water on water gains no energy (at most {gain(water):.2g} %) and keeps {min(row['air left, cells'] for row in water):.2g} to "
+              f"{max(row['air left, cells'] for row in water):.2g} of a cell of air: bodies feel each other before they touch, and nothing "
+              "closes what is left.", gain(water) < 0.5 and max(row["air left, cells"] for row in water) < 0.5),
+        Claim(f"{len(ended)} of {len(rows)} closures run to their end.", len(ended) == len(rows)),
+    ]
+
+
+STUDY = Study(title="Closure of an air gap", base="prm/columns/column_saturated.prm", needs_end=False,
+              entries={"Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": CELL, "Water/Initial pressure": "none", "Water/Points per cell": 3,
+                       "End time": 0.5, "Output/Interval": 0.25, "Output/Statistics interval": 0.005},
+              variants=with_case(product(axis("old p", PRESSURES.get, list(PRESSURES)),
+                                         axis("pair", lambda _: {}, PAIRS), axis("gap", lambda _: {}, [0.5, 1., 2., 4.]),
+                                         axis("v", lambda _: {}, [0., 1., 5.]))),
+              quick=lambda labels: labels["pair"] != PAIRS[1] and labels["gap"] in (1., 4.) and labels["v"] in (0., 5.),
+              measure=measure, verdict=verdict, default={"old p": "default"},
+              chart=StabilityMap("v", "gap", panels=["old p", "pair"], number="air left, cells", xlabel="speed, m/s", ylabel="gap, cells"))

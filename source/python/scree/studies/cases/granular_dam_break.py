@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A layer of grains, 0.2 m deep, breaks down a plane of 20 degrees that is oblique to the mesh (`prm/bed/granular_dam_break.prm`), beside shallow flow in closed form (Mangeney, Heinrich & Roche
+2000): with friction of 10 degrees on the bed and in the soil, and on a smooth bed with soil of 1 degree, which is nearly a fluid.
+
+Error: rms of the depth (volume over a width of 0.1 m) over the layer's depth, at 31 places from the wave's end in the layer to its front. Shallow flow has no vertical acceleration and a
+front without depth: the error falls as the wave grows over the layer's depth, and not with the cells. Place at a tenth: where the depth is a tenth of the layer's, behind the closed form, over c t.
+"""
+
+import math
+
+import numpy as np
+
+from scree import closed_forms
+from scree.studies.charts import RunCurves
+from scree.studies.study import Claim, Study, axis, product
+
+LAYER, SLOPE, ORIGIN = 0.2, math.radians(20), np.array([5, 3.35])  # m, -, m
+TIMES = (0.4, 0.8, 1.2)  # s
+FRICTION, SMOOTH = "friction", "smooth"
+BEDS = {FRICTION: {}, SMOOTH: {"Bed/Type": "free slip", "Bed/Friction angle": 0, "Soil/Mohr-Coulomb/Friction angle": 1, "Soil/Initial state/K0": 0.98}}
+BOUND = {FRICTION: 0.04, SMOOTH: 0.03}
+
+
+def exact(bed):
+    return closed_forms.GrainDamBreak(LAYER, SLOPE, math.radians(10) if bed == FRICTION else 0.)
+
+
+def depth(run, time, x):
+    """Over the layer's, at places along the plane, m."""
+    points = run.points(time)
+    along = (points.positions[:, :2] - ORIGIN) @ (math.cos(SLOPE), -math.sin(SLOPE))
+    order = np.argsort(along)
+    along, volume = along[order], np.cumsum(points.arrays["volume"].ravel()[order])
+    return np.diff(np.interp([x - LAYER / 4, x + LAYER / 4], along, volume), axis=0)[0] / (LAYER**2 / 2)
+
+
+def measure(run):
+    CHART.keep(run)
+    flow, part, columns = exact(run.labels["bed"]), np.linspace(-1, 2, 31), {}
+    for time in TIMES:
+        columns[f"error at {time:g} s"] = np.sqrt(np.mean((depth(run, time, flow.place(part, time)) - flow.depth(part))**2))
+    parts = np.linspace(-1, 2, 3001)
+    tenth = parts[np.flatnonzero(depth(run, TIMES[-1], flow.place(parts, TIMES[-1])) >= 0.1)[-1]]
+    return {**columns, "behind at a tenth": 2 - 3 * math.sqrt(0.1) - tenth, "lost": run.statistics("Points lost")[-1]}
+
+
+def verdict(rows):
+    claims = []
+    for bed in BEDS:
+        group = [row for row in rows if row["bed"] == bed]
+        errors = np.array([[row[f"error at {time:g} s"] for time in TIMES] for row in group])
+        sizes = "; ".join(f"cells of {row['h']:g} m: " + ", ".join(f"{error:.3f}" for error in of) for row, of in zip(group, errors))
+        claims += [Claim(f"Bed with {bed}: error of the depth at {', '.join(f'{time:g}' for time in TIMES)} s, {sizes}." if bed == FRICTION else
+                         f"Smooth bed: error of the depth at {', '.join(f'{time:g}' for time in TIMES)} s, {sizes}.",
+                         errors[:, -1].max() < BOUND[bed] and np.all(np.diff(errors) < 0)),
+                   Claim(f"{'With friction' if bed == FRICTION else 'Smooth'}: where a tenth of the layer's depth is left, the soil is " + ", ".join(f"{row['behind at a tenth']:+.3f} (h = {row['h']:g} m)" for row in group)
+                         + " c t behind the closed form at 1.2 s.", max(abs(row["behind at a tenth"]) for row in group) < 0.1)]
+    return claims
+
+
+def draw(figure, runs):
+    plots = dict(zip(BEDS, figure.subplots(1, 2, sharey=True)))
+    for bed, plot in plots.items():
+        flow, part = exact(bed), np.linspace(-1, 2, 301)
+        for time, colour in zip(TIMES, ("C0", "C1", "C2")):
+            x = flow.place(part, time)
+            plot.plot(x, flow.depth(part), "--", color=colour, linewidth=1)
+            for run in runs:
+                if run.labels["bed"] == bed:
+                    plot.plot(x, depth(run, time, x), color=colour, linewidth=1.5 if run.labels["h"] < 0.03 else 0.6, label=f"{time:g} s, cells of {run.labels['h']:g} m")
+        plot.set(xlabel="place down the plane, m", title=f"bed with {bed}" if bed == FRICTION else "smooth bed")
+        plot.grid(alpha=0.3)
+    plots[FRICTION].set_ylabel("depth over the layer's")
+    plots[FRICTION].plot([], [], "k--", linewidth=1, label="shallow flow")
+    plots[FRICTION].legend(fontsize="x-small")
+
+
+CHART = RunCurves(draw, size=(11, 4))
+STUDY = Study(title="A layer of grains breaks down a plane", base="prm/bed/granular_dam_break.prm", measure=measure, verdict=verdict, chart=CHART,
+              entries={"Output/Graphics": "points", "Output/Interval": 0.4},
+              variants=product(axis("h", "Mesh/Cell size", [0.04, 0.02]), axis("bed", lambda bed: BEDS[bed], list(BEDS))), quick=lambda labels: labels["h"] == 0.04)

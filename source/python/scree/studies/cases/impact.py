@@ -1,0 +1,77 @@
+"""A saturated block of soil falls on the floor: which speeds of impact, conductivities and cells the method bears, and what the sudden stop does to
+the pressure. The block, 1 m x 0.5 m of Mohr-Coulomb sand, starts 0.1 m above the floor with the speed of the axis, without stress and pressure, and is
+followed for 0.3 s after the impact.
+Water is incompressible here, so that the stop takes as long as the last cell takes to close, and the peak of p says more about step and cell than about
+a real impact. What the floor takes is said by the impulse: the part of the momentum that the block had at the touch and has given to the floor 0.1 s
+later, beyond its weight (1: at rest; less: it still sinks and spreads; more: it rebounds). Panels: cell size, and `Fading = 5` in place of the default.
+State: `measures.BOUNDS`; the oscillation of p is its roughness at the end (`measures.roughness`) over rho_w g 0.5 m, and the number."""
+import numpy as np
+
+from scree.studies.charts import StabilityMap
+from scree.studies.measures import BOUNDS, classify, roughness
+from scree.studies.study import Claim, Study, axis, product
+
+HEAD = 1000 * 9.81 * 0.5  # Pa
+PRESSURES = {"default": {}, "p fading": {"Water/Pressure/Fading": 5}}
+
+
+def speed(v):
+    velocity = f"0; {-v}"
+    return {"Soil/Initial velocity": velocity, "Water/Initial velocity": velocity, "End time": 0.1 / v + 0.3}
+
+
+def measure(run):
+    water = run.points(None, "water")
+    rough = roughness(water, float(run.entries["Mesh/Cell size"]), "pressure") / HEAD
+    # From 0.1 m above the floor, with the momentum of the start and of free fall.
+    momentum, speed_at_start = np.asarray(run.statistics("Momentum y (N s)")), run.labels["v"]
+    speed_at_touch = (speed_at_start**2 + 2 * 9.81 * 0.1)**0.5
+    later = (speed_at_touch - speed_at_start) / 9.81 + 0.1
+    mass = -momentum[0] / speed_at_start
+    impulse = 1 + np.interp(later, run.statistics("Time (s)"), momentum) / (mass * speed_at_touch)
+    return {**classify(run, {"oscillation of p": rough}), "impulse": impulse, "peak p, kPa": 1e-3 * max(run.statistics("Largest p (Pa)")), "volume error": max(run.statistics("Volume error (-)"))}
+
+
+def verdict(rows):
+    ended = [row for row in rows if row["ended"]]
+    default, faded = ([row for row in rows if row["old p"] == name] for name in PRESSURES)
+    spray = [row for row in rows if row["state"] == "J out of bounds"]
+    rest = max((row["v"] for row in rows if row not in spray and row["v"] < max(row["v"] for row in rows)), default=0.)
+
+    def mean(chosen):
+        return sum(row["oscillation of p"] for row in chosen) / len(chosen)
+
+    def pairs(quantity):
+        """A quantity on the coarse and on the fine mesh."""
+        fine = {(row["k"], row["v"]): row[quantity] for row in default if row["h"] == min(row["h"] for row in default)}
+        return [(row[quantity], fine[row["k"], row["v"]]) for row in default if row["h"] == 0.1]
+    changes = [abs(b - a) for a, b in pairs("impulse")]
+    ratios = [b / a for a, b in pairs("peak p, kPa")]
+    return [
+        Claim(f"By default the impact leaves p rough: by {mean(default):.2g} rho_w g 0.5 m in the mean, up to {max(row['oscillation of p'] for row in default):.2g}. p bears what "
+              "the effective stress of the row that the impact has pressed together does not, and at small k this row cannot drain (doc/verification.md: most of this "
+              "pressing is no strain, but not that of slow impacts). "
+              f"With Fading = 5 {sum(row['state'] == 'stable' for row in faded)} of {len(faded)} impacts are stable instead of "
+              f"{sum(row['state'] == 'stable' for row in default)}, the roughness is {mean(faded):.2g} in the mean.", mean(default) > mean(faded)),
+        Claim(f"The impulse converges, the peak does not: from h = 0.1 to 0.05 m the impulse changes by up to {max(changes):.2g} of the momentum (in the mean by "
+              f"{sum(changes) / len(changes):.2g}), the peak of p by a factor of {min(ratios):.2g} to {max(ratios):.2g}. Report the impulse.",
+              max(changes) < min(ratios) - 1, quick=False),
+        Claim(f"Single points of soil open beyond the bound in the spray of {max(row['v'] for row in rows):g} m/s (J up to {max(row['largest J'] for row in spray):.0f}, {len(spray)} of "
+              f"{len(rows)} runs); up to {rest:g} m/s none does.", len(spray) > 0 and all(row["v"] > rest for row in spray), quick=False) if spray else
+        Claim("No point's volume leaves its bounds.", True),
+        Claim(f"{len(ended)} of {len(rows)} impacts run to their end, up to {max(row['v'] for row in rows):g} m/s; none gains more than "
+              f"{100 * max(row['gain'] for row in default):.2g} % of the energy released, with Fading = 5 up to {100 * max(row['gain'] for row in faded):.2g} %; "
+              f"no cell is overfull by more than {max(row['volume error'] for row in rows):.0%} of the volume.",
+              len(ended) == len(rows) and max(row["gain"] for row in default) < BOUNDS["gain"]),
+    ]
+
+
+STUDY = Study(title="Impact of a saturated block", base="prm/columns/column_saturated.prm", needs_end=False,
+              entries={"Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6", "Soil/Initial state/Type": "none", "Water/Initial pressure": "none",
+                       "Mesh/Upper corner": "2, 1.5", "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Interval": 0.1,
+                       "Output/Statistics interval": 0.002},
+              variants=product(axis("old p", PRESSURES.get, list(PRESSURES)), axis("h", "Mesh/Cell size", [0.1, 0.05]),
+                               axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-2, 1e-3, 1e-5]), axis("v", speed, [0.5, 1., 2., 5., 10.])),
+              quick=lambda labels: labels["h"] == 0.1 and labels["k"] in (1e-1, 1e-5) and labels["v"] in (1., 10.),
+              measure=measure, verdict=verdict, default={"old p": "default"},
+              chart=StabilityMap("v", "k", panels=["old p", "h"], number="oscillation of p", xlabel="speed, m/s", ylabel="k, m/s"))

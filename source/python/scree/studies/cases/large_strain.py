@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Soft mud settles under its own weight below water (`prm/consolidation/large_strain_consolidation.prm`, to T_v = 1): strain 24 % at the base, points cross cells,
+and water leaves the soil. Error: rms over T_v = 0.25, 0.5, 1 of the L2 errors of the excess pressure inside the soil, over its buoyant weight,
+and of the heights of the points' rows, over the final settlement; against finite differences in the material height (`source/python/scree/closed_forms.py`).
+Methods differ from the case (double-point, splines, TPIC, 4 x 4 points a cell and phase, Courant number 0.6, no F-bar) in one thing."""
+
+import functools
+import math
+
+import numpy as np
+
+from scree import closed_forms
+from scree.studies.charts import WorkPrecision
+from scree.studies.precision import DEFAULTS, at_finest, costs, failed, listed, order, ratio
+from scree.studies.study import Claim, Study, axis, product
+
+MUD = closed_forms.Mud(1., closed_forms.oedometric_modulus(2e4, 0.2), 0.5, 1e-2)
+TIMES = [MUD.time(factor) for factor in (0.25, 0.5, 1.)]
+
+
+def points(number):
+    return {"Soil/Points per cell": number, "Water/Points per cell": number}
+
+
+METHODS = {
+    DEFAULTS: {},
+    "linear": {"Mesh/Basis": "linear"},
+    "quadratic": {"Mesh/Basis": "quadratic"},
+    "standard F-bar": {"Stabilisation/F-bar": "standard"},
+    "modified F-bar": {"Stabilisation/F-bar": "modified"},
+    "2 x 2 points": points(2),
+    "3 x 3 points": points(3),
+    "6 x 6 points": points(6),
+    "FLIP": {"Transfer/Method": "FLIP"},
+    "APIC": {"Transfer/Method": "APIC"},
+    "Courant number 0.2": {"Time step/Courant number": 0.2},
+    "Courant number 0.9": {"Time step/Courant number": 0.9},
+}
+
+
+def mesh(h):
+    return {"Mesh/Cell size": h, "Mesh/Upper corner": f"{2 * h:.12g}, 1.2"}
+
+
+@functools.cache
+def reference():
+    return closed_forms.consolidate(MUD, TIMES, 100, 200)
+
+
+def measure(run):
+    n_rows = round(float(run.entries.get("Soil/Points per cell", 4)) / float(run.entries["Mesh/Cell size"]))
+    pressures, heights = [], []
+    for state in reference():
+        soil, water = run.points(state.time), run.points(state.time, "water")
+        if soil.positions.shape[0] % n_rows:  # the run has lost soil
+            return {"ended": False, "error": math.nan, "error of p": math.nan, "error of heights": math.nan}
+        rows = np.sort(soil.positions[:, 1]).reshape(n_rows, -1).mean(axis=1)  # points of a row stay side by side
+        material_height = (np.arange(n_rows) + 0.5) / n_rows
+        exact = np.interp(material_height, [0, *state.material_height, 1], [0, *state.height, 1 - state.settlement])
+        heights.append((rows - exact) / closed_forms.final_settlement(MUD))
+
+        y = water.positions[:, 1]
+        inside = y < 1 - state.settlement
+        excess = water.arrays["pressure"][inside] - closed_forms.hydrostatic_pressure(y[inside], 1.)
+        exact = np.interp(y[inside], [*state.height, 1 - state.settlement], [*state.excess_pressure, 0])
+        pressures.append((excess - exact) / (MUD.buoyant_weight * MUD.height))
+    errors = [math.sqrt(np.mean([np.mean(error**2) for error in kind])) for kind in (pressures, heights)]
+    return {"error": math.sqrt(np.mean(np.square(errors))), "error of p": errors[0], "error of heights": errors[1]}
+
+
+def verdict(rows):
+    def stops(basis):
+        meshes = failed(rows, basis)
+        return f", and the run stops or loses soil at h = {', '.join(f'{h:.2g}' for h in meshes)} m" if meshes else ""
+    best = at_finest(rows, DEFAULTS)
+    return [
+        Claim(f"Where points cross cells, only splines serve: linear functions make {ratio(rows, 'linear'):.2g} times the error" + stops("linear") + ".",
+              not ratio(rows, "linear") < 5 and not failed(rows, DEFAULTS)),
+        Claim(f"Quadratic elements make {ratio(rows, 'quadratic'):.2g} times the error" + stops("quadratic") + ".", not ratio(rows, "quadratic") < 5, quick=False),
+        Claim(f"Points count here, as they cross cells and water leaves the soil: 3 x 3 make {ratio(rows, '3 x 3 points'):.2g} times the error of 4 x 4, 2 x 2 "
+              f"{ratio(rows, '2 x 2 points'):.2g} times, and neither falls as it should with the mesh. The default is right.",
+              ratio(rows, "3 x 3 points") > 1.2 and ratio(rows, "2 x 2 points") > 2),
+        Claim(f"6 x 6 points do not pay: on the finest mesh they make {at_finest(rows, '6 x 6 points') / best:.2g} times the error for "
+              f"{at_finest(rows, '6 x 6 points', 'core-seconds') / at_finest(rows, DEFAULTS, 'core-seconds'):.2g} times the time, on the others less.",
+              at_finest(rows, "6 x 6 points") > best, quick=False),
+        Claim(f"F-bar is not needed and does little harm: {ratio(rows, 'modified F-bar'):.2g} times the error with the modified one.",
+              0.8 < ratio(rows, "modified F-bar") < 1.4, quick=False),
+        Claim(f"The transfer hardly matters (APIC {ratio(rows, 'APIC'):.2g}, FLIP {ratio(rows, 'FLIP'):.2g} times the error of TPIC), nor does the step: Courant number 0.2 "
+              f"{ratio(rows, 'Courant number 0.2'):.2g}, 0.9 {ratio(rows, 'Courant number 0.9'):.2g} times.",
+              0.8 < ratio(rows, "APIC") < 1.1 and 0.8 < ratio(rows, "FLIP") < 1.4 and ratio(rows, "Courant number 0.9") < 1.1, quick=False),
+        Claim(f"Core-seconds for the same error, over those of the defaults (order {order(rows):.2g} only, so that these numbers are rough): " + listed(costs(rows))
+              + ".", costs(rows)["3 x 3 points"] > 1.1, quick=False),
+    ]
+
+
+STUDY = Study(
+    title="Consolidation at large strain: error over cost", base="prm/consolidation/large_strain_consolidation.prm",
+    entries={"End time": TIMES[-1], "Output/Interval": TIMES[0], "Output/Graphics": "points"},
+    variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", mesh, [1 / 10, 1 / 20, 1 / 40])),
+    default={"method": DEFAULTS},
+    quick=lambda labels: labels["h"] > 0.03 and labels["method"] in (DEFAULTS, "linear", "modified F-bar", "2 x 2 points", "3 x 3 points"),
+    measure=measure, verdict=verdict,
+    chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of p and of heights (-)"))

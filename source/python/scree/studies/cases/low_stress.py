@@ -1,0 +1,66 @@
+"""Low stress: a column, as wide as high, collapses, with its height scaled from 2 m to 0.02 m and gravity from 1 to 0.01 of Earth's, so that the stress at its base goes from
+30 kPa to 3 Pa while the soil stays as stiff. Nor-Sand (loose; no stress below 1 Pa) and Mohr-Coulomb sand (cut off at 0), dry and saturated, 8 cells over the
+height, for 2 sqrt(height/g).
+State: `measures.BOUNDS`; the oscillation of p' is the time mean of `Stress oscillation`, and the number: the stiffer the soil over its weight, the more of it.
+No options are compared: all cells count as default cells.
+`low_stress_before.csv` and `.png` are the same runs before rows and pictures that are due within a tenth of a step of each other were met in one step: a picture was due
+less than 1e-11 s after a row, and a step as short as that turned the divergence that the last one had left into a shock of p. It broke all that is saturated. (The states of that table are
+by the bound of then, .5 for p'.)"""
+import math
+
+from scree.studies.charts import StabilityMap
+from scree.studies.measures import classify, mean_oscillation
+from scree.studies.study import Claim, Study, axis, product
+
+CASES = {("Nor-Sand", "dry"): "columns/column_loose", ("Mohr-Coulomb", "dry"): "columns/mohr_coulomb_collapse", ("Nor-Sand", "saturated"): "slopes/slope_saturated_loose",
+         ("Mohr-Coulomb", "saturated"): "columns/column_saturated"}
+
+
+def with_case(variants):
+    """Each variant with the case of its soil, and lengths and times of its scale."""
+    result = []
+    for labels, *_ in variants:
+        law, pores = labels["soil"].split(", ")
+        height, gravity = labels["height"], 9.81 * labels["gravity"]
+        end = 2 * math.sqrt(height / gravity)
+        entries = {"Mesh/Upper corner": f"{2.5 * height:.10g}, {1.25 * height:.10g}", "Mesh/Cell size": height / 8, "Soil/Region": f"x < {height:g} && y < {height:g}",
+                   "Gravity": f"0, {-gravity:.10g}", "End time": end, "Output/Interval": end / 2, "Output/Statistics interval": end / 50}
+        if pores == "saturated":
+            entries.update({"Water/Points per cell": 2, "Time step/Maximum time step": end / 400})
+        result.append(variants[0]._replace(labels=labels, entries=entries, base=f"prm/{CASES[law, pores]}.prm"))
+    return result
+
+
+def measure(run):
+    height = run.labels["height"]
+    suction = -min(run.columns.get("Smallest p (Pa)", [0.]))  # dry soil has none
+    return {**classify(run, {"oscillation of p'": mean_oscillation(run, "Stress oscillation (-)")}),
+            "front/height": run.statistics("Front 99 % (m)")[-1] / height, "suction/weight": suction / (1000 * 9.81 * run.labels["gravity"] * height),
+            "unresolved": run.statistics("Unresolved")[-1]}
+
+
+def verdict(rows):
+    ended = [row for row in rows if row["ended"]]
+    calm = [row for row in rows if row["state"] in ("stable", "oscillating")]
+    failed = [row for row in rows if row not in calm]
+    smallest, largest = (pick(row["height"] * row["gravity"] for row in rows) for pick in (min, max))
+
+    def mean(scale):
+        chosen = [row["oscillation of p'"] for row in rows if row["height"] * row["gravity"] == scale]
+        return sum(chosen) / len(chosen)
+    return [
+        *([Claim(f"{len(failed)} of {len(rows)} columns, of saturated Mohr-Coulomb sand, gain energy: up to {100 * max(row['gain'] for row in failed):.1f} % of what is released, in one kick "
+                 "of a few steps.", quick=False, holds=all(row["soil"] == "Mohr-Coulomb, saturated" and row["state"] == "energy gain" for row in failed))] if failed else []),
+        Claim(f"What low stress costs is smoothness: p' oscillates by {mean(largest):.2g} of its mean at the largest stress and {mean(smallest):.2g} at the smallest (means over "
+              "soils): the soil is as stiff as ever, its weight next to nothing.", mean(smallest) > mean(largest)),
+        Claim(f"{len(ended)} of {len(rows)} columns collapse to their end, {len(calm)} without gain of energy or volumes out of bounds.", len(ended) == len(rows)),
+        Claim(f"The return map leaves {sum(row['unresolved'] for row in rows):g} updates unresolved.", sum(row["unresolved"] for row in rows) == 0),
+    ]
+
+
+STUDY = Study(title="Low stress", base="prm/columns/column_loose.prm", needs_end=False, entries={"Soil/Points per cell": 2},
+              variants=with_case(product(axis("soil", lambda _: {}, [", ".join(case) for case in CASES]), axis("gravity", lambda _: {}, [0.01, 1.]),
+                                         axis("height", lambda _: {}, [0.02, 0.1, 0.5, 2.]))),
+              quick=lambda labels: labels["gravity"] == 1. and labels["height"] in (0.1, 2.),
+              measure=measure, verdict=verdict, default={},
+              chart=StabilityMap("height", "gravity", panels=["soil"], number="oscillation of p'", xlabel="height, m", ylabel="gravity, 9.81 m/s$^2$"))

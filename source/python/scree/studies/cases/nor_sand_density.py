@@ -1,0 +1,59 @@
+"""Collapse of a small column of Nor-Sand, 1 m x 1 m, from very dense to very loose, with each stabilisation, dry and saturated. The critical state at the
+column's mean pressure of 5 kPa has a specific volume of 1.78; v_0 = 1.5 is denser than any sand.
+State: `measures.BOUNDS`; the oscillation of p' is the time mean of `Stress oscillation`, and the number. (p' of points without stabilisation scatters by .7 and
+more of its mean in a collapse.)"""
+from scree.studies.charts import StabilityMap
+from scree.studies.measures import classify, mean_oscillation
+from scree.studies.study import Claim, Study, axis, product, transfer
+
+
+def water(kind):
+    if kind == "dry":
+        return {}
+    return {"Soil/Initial porosity": 0.4, "Water/Region": "same", "Water/Points per cell": 3, "Water/Hydraulic conductivity": 5e-3,
+            **transfer("TPIC"), "Time step/Maximum time step": 1e-3}
+
+
+def measure(run):
+    return {**classify(run, {"oscillation of p'": mean_oscillation(run, "Stress oscillation (-)")}),
+            "largest effective stress, kPa": 1e-3 * max(run.statistics("Largest effective stress (Pa)")), "front, m": run.statistics("Front 99 % (m)")[-1],
+            "unresolved": run.statistics("Unresolved")[-1]}
+
+
+def verdict(rows):
+    def of(stabilisation):
+        return [row for row in rows if row["F-bar"] == stabilisation]
+
+    def count(stabilisation, state):
+        return sum(row["state"] == state for row in of(stabilisation))
+    def scatter(chosen):
+        return [row["oscillation of p'"] for row in chosen]
+    modified, none, standard = map(of, ("modified", "none", "standard"))
+    loose = [row for row in modified if row["pores"] == "saturated" and row["v_0"] > 1.8]  # looser than critical, and wet
+    others = [row for row in modified if row not in loose]
+    bad = len(standard) - count("standard", "stable") - count("standard", "oscillating")
+    return [
+        Claim(f"With the modified F-bar (the default) p' scatters by {min(scatter(others)):.2g} to {max(scatter(others)):.2g} of its mean, v_0 from {min(row['v_0'] for row in rows):g} to "
+              f"{max(row['v_0'] for row in rows):g}, dry and saturated" + (
+                  f", but by {max(scatter(loose)):.2g} saturated with v_0 = {loose[0]['v_0']:g}, where the sand is looser than critical and liquefies: the mean of p' falls "
+                  "towards 0, and scatter over it grows" if loose else "")
+              + f". None gains more than {100 * max(row['gain'] for row in modified):.2g} % of the energy released; V/V_0 of a point stays between "
+              f"{min(row['smallest J'] for row in modified):.2g} and {max(row['largest J'] for row in modified):.2g}.",
+              count("modified", "stable") + count("modified", "oscillating") == len(modified) and max(scatter(others)) < 0.5
+              and all(0.5 < row["smallest J"] and row["largest J"] < 2 for row in modified)),
+        Claim(f"Without stabilisation none breaks, but p' scatters beyond the bound in {count('none', 'oscillating')} of {len(none)} (by {min(scatter(none)):.2g} to "
+              f"{max(scatter(none)):.2g}).", count("none", "oscillating") + count("none", "stable") == len(none) and count("none", "oscillating") > 0),
+        Claim(f"The standard F-bar gains energy, loses the volumes or breaks in {bad} of {len(standard)}: up to {100 * max(row['gain'] for row in standard):.2g} % of the energy "
+              f"released, V/V_0 up to {max(row['largest J'] for row in standard):.2g}.", bad > 0.5 * len(standard)),
+        Claim(f"The return map leaves {sum(row['unresolved'] for row in rows):g} updates unresolved.", sum(row["unresolved"] for row in rows) == 0),
+    ]
+
+
+STUDY = Study(title="Density of Nor-Sand", base="prm/columns/column_loose.prm", needs_end=False,
+              entries={"Mesh/Upper corner": "2.5, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "End time": 1., "Output/Interval": 0.25,
+                       "Output/Statistics interval": 0.02},
+              variants=product(axis("pores", water, ["dry", "saturated"]), axis("F-bar", "Stabilisation/F-bar", ["none", "standard", "modified"]),
+                               axis("v_0", "Soil/Nor-Sand/Initial specific volume", [1.5, 1.55, 1.63, 1.7, 1.78, 1.85])),
+              quick=lambda labels: labels["pores"] == "dry" and labels["v_0"] in (1.55, 1.85),
+              measure=measure, verdict=verdict, default={"F-bar": "modified"},
+              chart=StabilityMap("v_0", "F-bar", panels=["pores"], number="oscillation of p'", xlabel="initial specific volume"))

@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""When is a run with soil and water needed, and when does a simpler model do?
+
+Three scenes of a saturated column of height H, each computed with soil and water for conductivities k from 1e-12 to 1e-1 m/s: it **collapses** in
+air; it collapses **submerged** under 1.2 H of water; or it is **loaded**, by a pressure that grows steadily to a thousandth of E_oed. The
+first two are of Mohr-Coulomb soil (30 degrees, no dilation), H wide and released at once, the loaded one is elastic and held at its sides. All end after
+4 sqrt(H/g). Two simpler models stand beside them:
+
+- *drained*, one phase: the dry soil; under water soil of the saturated density whose weight is the buoyant one; for the load soil of the saturated density;
+- *undrained*: no water moves through the soil, which is the run with k = 1e-12 m/s (single-point water will do).
+
+For the collapse in air undrained soil is also computed as one phase, as geotechnics does: total stress, a strength at constant volume
+c = (1 + K0)/2 sigma_v' sin(phi) of its own for each row of cells, no friction, Poisson's ratio 0.49.
+
+The error of a model is the largest one at t = 1, 2, 3, 4 sqrt(H/g): of the front that holds 90 % of the soil, over the front of the coupled run;
+of the settlement under load, over the drained one at the end. 5 % is called enough. The abscissa is the time of drainage over the time of motion,
+(H^2/c_v)/sqrt(H/g), with c_v = k E_oed/(rho_w g); the time factor at the end is 4 over it. Zienkiewicz, Chang &
+Bettess 1980 drew such a map for a layer under a periodic load.
+"""
+import math
+
+import numpy as np
+
+from scree.studies.charts import Curves
+from scree.studies.study import Claim, Study, Variant, transfer
+
+GRAVITY, WATER, GRAINS, POROSITY = 9.81, 1000., 2650., 0.4
+POISSON, FRICTION, K0 = 0.3, 30., 0.5
+SATURATED = (1 - POROSITY) * GRAINS + POROSITY * WATER
+ENOUGH = 0.05
+END = 4  # sqrt(H/g)
+TIMES = (1, 2, 3, 4)  # sqrt(H/g)
+STRAIN = 1e-3  # load over E_oed
+UNDRAINED_POISSON = 0.49
+COLLAPSE, LOADED, DRY = "prm/columns/column_saturated.prm", "prm/consolidation/terzaghi.prm", "prm/columns/mohr_coulomb_collapse.prm"
+SIZES = [(1., 1e6), (0.2, 1e6), (5., 1e6), (1., 1e7)]  # H, m; Young's modulus, Pa
+CONDUCTIVITIES = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-12]
+SUBMERGED = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-12]
+
+
+# Cases ----------------------------------------------------------------------------------------------------------------
+
+
+def oedometric(young):
+    return young * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON))
+
+
+def group(height, young, conductivity):
+    """Time of drainage over time of motion, -."""
+    return height**2 * WATER * GRAVITY / (conductivity * oedometric(young)) / math.sqrt(height / GRAVITY)
+
+
+def common(height, cells, length, top):
+    """Mesh (length and top of the box over H), times, transfer."""
+    motion = math.sqrt(height / GRAVITY)
+    return {"End time": f"{END * motion:.6g}", "Output/Interval": f"{END * motion / 40:.9g}", "Output/Graphics": "none",
+            "Mesh/Cell size": height / cells, "Mesh/Upper corner": f"{length * height:g}, {top * height:g}",
+            "Time step/Maximum time step": f"{1e-3 * math.sqrt(height):.3g}", **transfer("TPIC")}
+
+
+def collapse(height, young, cells=10):
+    return {**common(height, cells, 5, 1.5), "Soil/Region": f"x < {height:g} && y < {height:g}",
+            "Soil/Mohr-Coulomb/Young's modulus": young, "Soil/Mohr-Coulomb/Poisson's ratio": POISSON,
+            "Soil/Mohr-Coulomb/Friction angle": FRICTION, "Soil/Grain density": GRAINS, "Soil/Initial porosity": POROSITY,
+            "Soil/Initial state/K0": K0}
+
+
+def submerged(height, young):
+    return {**collapse(height, young), "Mesh/Upper corner": f"{4 * height:g}, {1.6 * height:g}", "Water/Region": f"y < {1.2 * height:g}",
+            "Water/Volume correction rate": 0.5 * math.sqrt(GRAVITY / (height / 10))}
+
+
+def loaded(height, young, cells=10):
+    rate = STRAIN * oedometric(young) / (END * math.sqrt(height / GRAVITY))  # Pa/s
+    width = 2 * height / cells
+    return {**common(height, cells, 2 / cells, 1.2), "Gravity": "0, 0", "Stabilisation/F-bar": "none", "Soil/Region": f"y < {height:g}",
+            "Soil/Material": "linear elastic", "Soil/Linear elastic/Young's modulus": young, "Soil/Linear elastic/Poisson's ratio": POISSON,
+            "Soil/Initial porosity": POROSITY, "Soil/Grain density": GRAINS, "Soil/Initial state/Type": "none",
+            "Surface load/Lower corner": f"0, {height:g}", "Surface load/Upper corner": f"{width:g}, {height:g}",
+            "Surface load/Traction": f"0; {-rate:.6g}*t"}
+
+
+def total_stress(height, young, cells=10):
+    """Undrained soil as one phase. The first body keeps the base's name."""
+    buoyant = (SATURATED - WATER) * GRAVITY
+    entries = {**common(height, cells, 5, 1.5), "Bodies": ", ".join(["Soil", *(f"Row{row}" for row in range(1, cells))])}
+    for row, name in enumerate(entries["Bodies"].split(", ")):
+        low, high = height * row / cells, height * (row + 1) / cells
+        strength = (1 + K0) / 2 * buoyant * (height - (low + high) / 2) * math.sin(math.radians(FRICTION))
+        values = {"Region": f"x < {height:g} && y >= {low:g} && y < {high:g}", "Material": "Mohr-Coulomb", "Grain density": SATURATED,
+                  "Initial porosity": 0, "Mohr-Coulomb/Young's modulus": young * (1 + UNDRAINED_POISSON) / (1 + POISSON),
+                  "Mohr-Coulomb/Poisson's ratio": UNDRAINED_POISSON, "Mohr-Coulomb/Friction angle": 0, "Mohr-Coulomb/Cohesion": strength,
+                  "Mohr-Coulomb/Tension cut-off": 1e9, "Initial state/Type": "K0", "Initial state/K0": 1}
+        entries.update({f"{name}/{key}": value for key, value in values.items()})
+    return entries
+
+
+def variants():
+    found = []
+
+    def add(scene, model, size, conductivity, entries, base, cells=10):
+        labels = {"scene": scene, "model": model, "H": size[0], "E": size[1], "k": conductivity, "cells": cells}
+        found.append(Variant(labels, {**entries, **({"Water/Hydraulic conductivity": conductivity} if conductivity else {})}, base))
+
+    heavy = {"Soil/Grain density": SATURATED / (1 - POROSITY)}
+    for size in SIZES:
+        add("collapse", "drained", size, 0., collapse(*size), DRY)
+        add("load", "drained", size, 0., {**loaded(*size), **heavy}, DRY)
+        for k in CONDUCTIVITIES:
+            add("collapse", "coupled", size, k, collapse(*size), COLLAPSE)
+            add("load", "coupled", size, k, loaded(*size), LOADED)
+    add("submerged", "drained", SIZES[0], 0., {**collapse(*SIZES[0]), **heavy, "Gravity": f"0, {-GRAVITY * (1 - WATER / SATURATED):.6g}"}, DRY)
+    for k in SUBMERGED:
+        add("submerged", "coupled", SIZES[0], k, submerged(*SIZES[0]), COLLAPSE)
+    add("collapse", "single-point", SIZES[0], min(CONDUCTIVITIES), {**collapse(*SIZES[0]), "Water/Point sets": "single"}, COLLAPSE)
+    add("collapse", "total stress", SIZES[0], 0., total_stress(*SIZES[0]), DRY)
+    add("collapse", "total stress", SIZES[0], 0., total_stress(*SIZES[0], cells=20), DRY, cells=20)
+    add("collapse", "coupled", SIZES[0], min(CONDUCTIVITIES), collapse(*SIZES[0], cells=20), COLLAPSE, cells=20)
+    return found
+
+
+def measure(run):
+    height, young, k = (run.labels[name] for name in ("H", "E", "k"))
+    if run.labels["scene"] == "load":
+        top = run.statistics("Height (m)")
+        values = (top[0] - top) / (STRAIN * height)
+    else:
+        values = run.statistics("Front 90 % (m)") / height
+    samples = np.interp(np.array(TIMES) * math.sqrt(height / GRAVITY), run.time, values)
+    return {"group": group(height, young, k) if k else math.nan, **{f"at {time}": value for time, value in zip(TIMES, samples)}}
+
+
+# Verdict --------------------------------------------------------------------------------------------------------------
+
+
+def values(row):
+    return np.array([row[f"at {time}"] for time in TIMES])
+
+
+def pick(rows, **labels):
+    return [row for row in rows if all(row[name] == value for name, value in labels.items())]
+
+
+def error(rows, row, model):
+    """The largest error of a simpler model against a coupled run, -."""
+    same = pick(rows, scene=row["scene"], H=row["H"], E=row["E"], cells=row["cells"])
+    drained = pick(same, model="drained")
+    simpler = drained[0] if model == "drained" else pick(same, model="coupled", k=min(CONDUCTIVITIES))[0]
+    scale = values(drained[0])[-1] if row["scene"] == "load" else values(row)
+    return np.max(np.abs(values(simpler) - values(row)) / scale)
+
+
+def curve(rows, scene, size, model):
+    """Groups, ascending, and errors; without the run that is the model."""
+    runs = pick(rows, scene=scene, model="coupled", H=size[0], E=size[1], cells=10)
+    runs = sorted((row for row in runs if model == "drained" or row["k"] > min(CONDUCTIVITIES)), key=lambda row: row["group"])
+    return np.array([row["group"] for row in runs]), np.array([error(rows, row, model) for row in runs])
+
+
+def threshold(rows, scene, size, model):
+    """The group below (drained) or above (undrained) which all errors are small enough, between two runs by their logarithms; nan if there is none."""
+    groups, errors = curve(rows, scene, size, model)
+    if model == "drained":
+        groups, errors = groups[::-1], errors[::-1]
+    too_large = np.flatnonzero(errors > ENOUGH)
+    if len(too_large) == 0 or too_large[-1] == len(groups) - 1:
+        return math.nan
+    pair = slice(too_large[-1], too_large[-1] + 2)
+    part = math.log(errors[pair][0] / ENOUGH) / math.log(errors[pair][0] / errors[pair][1])
+    return groups[pair][0] ** (1 - part) * groups[pair][1] ** part
+
+
+def sizes(rows):
+    return list(dict.fromkeys((row["H"], row["E"]) for row in rows))
+
+
+def thresholds(rows, scene, model):
+    found = [threshold(rows, scene, size, model) for size in sizes(rows) if pick(rows, scene=scene, H=size[0], E=size[1])]
+    return [value for value in found if math.isfinite(value)]
+
+
+def number(value):
+    return f"{value:.2g}" if value < 10 else f"{value:.0f}"
+
+
+def span(found):
+    return number(min(found)) if len(found) == 1 else f"{number(min(found))} to {number(max(found))}"
+
+
+def cost(row):
+    return row["core-seconds"]
+
+
+def verdict(rows):
+    drained, undrained = thresholds(rows, "load", "drained"), {scene: thresholds(rows, scene, "undrained") for scene in ("load", "collapse", "submerged")}
+    slowest = max(value for found in undrained.values() for value in found)
+    collapses = [row for row in rows if row["model"] == "coupled" and row["cells"] == 10 and row["scene"] != "load"]
+    dry = {scene: [error(rows, row, "drained") for row in collapses if row["scene"] == scene] for scene in ("collapse", "submerged")}
+    single, dry_run = pick(rows, model="single-point")[0], pick(rows, scene="collapse", model="drained", H=1, E=1e6)[0]
+    wet_run = pick(collapses, scene="collapse", H=1, E=1e6, k=min(CONDUCTIVITIES))[0]
+    claims = [
+        Claim(f"Under a load the drained model does below {number(min(drained))}; in all scenes the undrained one does above {number(slowest)}. "
+              "Between them a case needs soil and water.", holds=0.3 < min(drained) < 1 and 100 < slowest < 400),
+        Claim(f"The settlement under load is drained below {span(drained)} and undrained above {span(undrained['load'])}, for {len(sizes(rows))} "
+              "pairs of H and E: the abscissa is the right one.",
+              holds=max(drained) < 2 * min(drained) and max(undrained["load"]) < 2 * min(undrained["load"])),
+        Claim(f"The collapse in air is undrained above {span(undrained['collapse'])}, in part far below the load's: there the abscissa is less of a measure, as "
+              "water also runs out of the heap.",
+              holds=max(undrained["collapse"]) < 1.5 * max(undrained["load"]) and min(undrained["collapse"]) < 0.5 * min(undrained["load"])),
+        Claim(f"A dry run never stands in for a saturated collapse in air: its front falls short by {100 * min(dry['collapse']):.0f} to "
+              f"{100 * max(dry['collapse']):.0f} %, whatever the conductivity. It takes {cost(dry_run) / cost(wet_run):.1f} of the time.",
+              holds=min(dry["collapse"]) > ENOUGH and all(values(row)[-1] > values(dry_run)[-1] for row in pick(collapses, scene="collapse", H=1, E=1e6))),
+        Claim(f"Single-point water does where nothing drains: its front is within {100 * error(rows, single, 'undrained'):.1f} % of the double-point one.",
+              holds=error(rows, single, "undrained") < 0.01, quick=False),
+    ]
+    if dry["submerged"]:
+        claims.append(Claim(f"Under water a single phase of buoyant weight is off by {100 * min(dry['submerged']):.0f} % and more, as the water around must "
+                            f"move, too; the undrained model does above {span(undrained['submerged'])}.", holds=min(dry["submerged"]) > ENOUGH, quick=False))
+    total = [(row, pick(rows, scene="collapse", model="coupled", H=row["H"], E=row["E"], cells=row["cells"], k=min(CONDUCTIVITIES))[0])
+             for row in pick(rows, model="total stress")]
+    if total:
+        off = [np.max(np.abs(values(row) / values(coupled) - 1)) for row, coupled in total]
+        claims.append(Claim("Undrained soil as one phase with a strength of its own has much the same front, and is no bargain: it is "
+                            + " and ".join(f"{100 * part:.0f} %" for part in off) + " off with " + " and ".join(f"{row['cells']:g}" for row, _ in total)
+                            + f" cells, and it takes {cost(total[-1][0]) / cost(total[-1][1]):.1f} times the time of soil and water, whose step the "
+                            "stiffness against a change of volume does not limit.",
+                            holds=max(off) < 0.1 and cost(total[-1][0]) > cost(total[-1][1]), quick=False))
+    return claims
+
+
+def draw(figure, rows):
+    plots = figure.subplots(1, 3, sharey=True)
+    for scene, plot in zip(("load", "collapse", "submerged"), plots):
+        for index, size in enumerate(SIZES):
+            for model, style in (("drained", "-"), ("undrained", "--")):
+                groups, errors = curve(rows, scene, size, model)
+                if len(groups):
+                    plot.plot(groups, errors, style, color=f"C{index}", marker="o", markersize=3, linewidth=1,
+                              label=f"{model}, H = {size[0]:g} m, E = {1e-6 * size[1]:g} MPa")
+        plot.axhline(ENOUGH, color="k", linewidth=0.6, linestyle=":")
+        plot.set(xscale="log", yscale="log", ylim=(1e-3, 1), xlim=(1e-2, 1e5), xlabel="time of drainage / time of motion", title=scene)
+        plot.grid(alpha=0.3)
+    plots[0].set_ylabel("error of the simpler model (-)")
+    plots[2].legend(*plots[0].get_legend_handles_labels(), fontsize="x-small", loc="lower left")
+
+
+STUDY = Study(title="When a simpler model does", base=COLLAPSE, variants=variants(), measure=measure, verdict=verdict,
+              quick=lambda labels: (labels["H"], labels["E"], labels["cells"]) == (*SIZES[0], 10) and labels["scene"] != "submerged"
+              and labels["model"] != "total stress" and labels["k"] in (0, 1e-1, 1e-2, 1e-3, 1e-5, 1e-12),
+              chart=Curves(draw, size=(12, 4.6), timed=True))

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A saturated slope of loose sand slides (`prm/slopes/slope_saturated_loose.prm`, its first 1.5 s). There is no exact solution, and no mesh that has converged:
+all fronts grow as the mesh is refined. The reference is FLIP with h = 0.05 m and 3 x 3 points a cell, taken after the first runs as FLIP's fronts are the
+farthest on every mesh. (The case's TPIC on that mesh gets hardly farther than FLIP with h = 0.1 m.) It is one of the methods compared, so that "error"
+here means the distance to that method's own run, not to the truth, and FLIP is the nearest to it in part by construction. Error: as in the study of the dry slope, of the fronts that hold 90 and 99 % of
+the soil and of the height of the centre of mass of soil and water. Methods differ from the case (double-point, TPIC, splines, 4 x 4 points a cell
+and phase, Courant number 0.6 and steps of at most 1e-3 s, modified F-bar, relative tolerance of the pressure 1e-4) in one thing or two."""
+
+import math
+
+import numpy as np
+
+from scree.studies.cases import dry_slope
+from scree.studies.charts import WorkPrecision
+from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, listed, order, ratio
+from scree.studies.study import Claim, Study, axis, product
+
+
+def points(number):
+    return {"Soil/Points per cell": number, "Water/Points per cell": number}
+
+
+METHODS = {
+    DEFAULTS: {},
+    "single-point": {"Water/Point sets": "single"},
+    "no F-bar": {"Stabilisation/F-bar": "none"},
+    "2 x 2 points": points(2),
+    "3 x 3 points": points(3),
+    "FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5},
+    "FLIP, PIC rate 20": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 20},
+    "FLIP, 3 x 3 points": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5, **points(3)},
+    "APIC": {"Transfer/Method": "APIC"},
+    "tolerance 1e-3": {"Water/Pressure/Relative tolerance": 1e-3},
+    "Courant number 0.3": {"Time step/Courant number": 0.3},
+    "Courant number 0.9": {"Time step/Courant number": 0.9},
+}
+TIP = "front 99 % at the end, m"
+REFERENCE = 0.05  # m, cells of the reference
+HYDROSTATIC = 1000 * 9.81 * 2  # p under the crest, 2 m high, at the start, Pa
+FINEST = (DEFAULTS, "3 x 3 points", "FLIP", "FLIP, 3 x 3 points", "FLIP, PIC rate 20")  # run on a fourth mesh
+
+
+def measure(run):
+    return {**dry_slope.measure(run), "median p oscillation": np.median(run.statistics("p oscillation (-)")[1:]),
+            "largest effective stress, kPa": np.max(run.statistics("Largest effective stress (Pa)")) / 1e3,
+            "largest p, kPa": np.max(run.statistics("Largest p (Pa)")) / 1e3, "CG iterations": np.mean(run.statistics("CG iterations per step")[1:])}
+
+
+def verdict(rows):
+    candidate = "FLIP, 3 x 3 points"
+    coarse = next(iter(curve(rows, candidate).values()), dict.fromkeys(rows[0], math.nan))
+    fine = list(curve(rows).values())[-1]
+    finest = min(curve(rows))
+
+    def front(method):
+        return at_finest(rows, method, TIP)
+    flip, own = curve(rows, "FLIP", TIP), curve(rows, column=TIP)
+    farther = [flip[h][TIP] > own[h][TIP] for h in flip.keys() & own.keys()]
+    return [
+        Claim(f"No mesh here has converged: with the smallest cells, h = {finest:.2g} m, FLIP with the reference's points is still {100 * at_finest(rows, candidate):.0f} % off its own run with "
+              f"h = {REFERENCE:g} m, the TPIC of the case {100 * at_finest(rows, DEFAULTS):.0f} %, and the fits of an order and a limit (study of the dry slope) find none for either.",
+              at_finest(rows, candidate) < 0.15 and not any(LimitFit(rows, REFERENCE, method).found for method in (candidate, DEFAULTS)), quick=False),
+        Claim(f"FLIP (PIC rate 5 1/s) runs out farther than the TPIC of the case, which the reference, FLIP's own run, rewards: {ratio(rows, 'FLIP'):.2g} times the distance to it on the "
+              f"same mesh, for {ratio(rows, 'FLIP', 'core-seconds'):.2g} times the time, without a gain of energy. What does not depend on the reference: all fronts grow with refinement, and "
+              f"FLIP's are the farther on each mesh (at 99 % of the soil {front('FLIP'):.2f} against {front(DEFAULTS):.2f} m with h = {finest:.2g} m).",
+              ratio(rows, "FLIP") < 0.75 and all(farther) and max(row["energy gained"] for row in rows if row["method"] == "FLIP") < 0.005),
+        Claim(f"FLIP's stress is rougher: single peaks of p' reach {_largest(rows, 'FLIP'):.0f} kPa ({_largest(rows, 'FLIP, 3 x 3 points'):.0f} with 3 x 3 points), where TPIC's largest "
+              f"is {_largest(rows, DEFAULTS):.0f} kPa. A PIC rate of 20 1/s lies between: {ratio(rows, 'FLIP, PIC rate 20'):.2g} times the error of TPIC, peaks of "
+              f"{_largest(rows, 'FLIP, PIC rate 20'):.0f} kPa.",
+              _largest(rows, "FLIP") > 1.2 * _largest(rows, DEFAULTS), quick=False),
+        Claim(f"The pore pressure has no such peaks: with no method does p exceed {max(row['largest p, kPa'] for row in rows):.1f} kPa, that of water at rest under "
+              f"the crest being {HYDROSTATIC / 1e3:.1f} kPa, and FLIP's oscillates as TPIC's ({ratio(rows, 'FLIP', 'median p oscillation'):.2g} times).",
+              max(row["largest p, kPa"] for row in rows) < 1.05e-3 * HYDROSTATIC and ratio(rows, "FLIP", "median p oscillation") < 1.5, quick=False),
+        Claim(f"TPIC filters once a step: Courant number 0.3 instead of 0.6 makes {ratio(rows, 'Courant number 0.3'):.2g} times the error, for "
+              f"{ratio(rows, 'Courant number 0.3', 'core-seconds'):.2g} times the time; 0.9 {ratio(rows, 'Courant number 0.9'):.2g} times.",
+              ratio(rows, "Courant number 0.3") > 1.05, quick=False),
+        Claim(f"3 x 3 points suffice: {ratio(rows, '3 x 3 points'):.2g} times the error for {ratio(rows, '3 x 3 points', 'core-seconds'):.2g} times the time, p "
+              f"oscillation {ratio(rows, '3 x 3 points', 'median p oscillation'):.3g} times.",
+              ratio(rows, "3 x 3 points") < 1.1 and ratio(rows, "3 x 3 points", "median p oscillation") < 1.2),
+        Claim(f"Single-point water has the same fronts ({ratio(rows, 'single-point'):.2g} times the error) for {ratio(rows, 'single-point', 'core-seconds'):.2g} times the "
+              f"time, but gains energy: {100 * max(row['energy gained'] for row in rows if row['method'] == 'single-point'):.0f} % of what is released, double-point "
+              f"{100 * max(row['energy gained'] for row in rows if row['method'] == DEFAULTS):.1g} %.",
+              0.8 < ratio(rows, "single-point") < 1.25 and max(row["energy gained"] for row in rows if row["method"] == "single-point") > 0.02),
+        Claim(f"Without F-bar the stress oscillates {ratio(rows, 'no F-bar', 'mean oscillation'):.2g} times as much, and the error is {ratio(rows, 'no F-bar'):.2g} times "
+              "as large.", ratio(rows, "no F-bar", "mean oscillation") > 1.3, quick=False),
+        Claim(f"A relative tolerance of the pressure of 1e-3 instead of 1e-4 does not show ({ratio(rows, 'tolerance 1e-3'):.4g} times the error), but hardly pays: "
+              f"{ratio(rows, 'tolerance 1e-3', 'core-seconds'):.2g} times the time.", abs(ratio(rows, "tolerance 1e-3") - 1) < 0.01, quick=False),
+        Claim(f"Core-seconds for the same distance to the reference, over those of the case, among methods that approach it as slowly (order {order(rows):.2g} against this reference): "
+              + listed({method: cost for method, cost in costs(rows).items() if not method.startswith("FLIP")})
+              + f". The case is not on the front: {candidate} has on h = {coarse['h']:.2g} m, for {coarse['core-seconds']:.2g} s, "
+              f"{coarse['error'] / fine['error']:.2g} times the distance that TPIC with 4 x 4 has on h = {fine['h']:.2g} m, for {fine['core-seconds']:.2g} s.",
+              coarse["error"] < 1.1 * fine["error"] and coarse["core-seconds"] < 0.3 * fine["core-seconds"], quick=False),
+    ]
+
+
+def _largest(rows, method):
+    """Largest mean effective stress of all runs of a method, kPa."""
+    stresses = [row["largest effective stress, kPa"] for row in rows if row["method"] == method]
+    return max(filter(math.isfinite, stresses), default=math.nan)
+
+
+STUDY = Study(
+    title="Saturated slope of loose sand: error over cost", base="prm/slopes/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
+    variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15]))
+    + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 10])),
+    reference={"Mesh/Cell size": REFERENCE, **METHODS["FLIP, 3 x 3 points"]}, quick_reference={"Mesh/Cell size": 2 / 15, **points(3)}, default={"method": DEFAULTS},
+    quick=lambda labels: labels["h"] > 0.19 and labels["method"] in (DEFAULTS, "single-point", "3 x 3 points", "FLIP"),
+    measure=measure, verdict=verdict,
+    chart=WorkPrecision(error="error", curves=["method"], annotate="h", ylabel="error of fronts and centre of mass (-)"))

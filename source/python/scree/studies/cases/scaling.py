@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What ranks exchange, how evenly they share the work, and what that lets expect of more cores than were there.
+
+1. Messages, bytes and collectives of a step for 1 to 64 ranks, counted by `doc/studies/count_mpi.c` through MPI's profiling interface: the difference
+   of a long and a short run, so that start-up and output are left out. With more ranks than cores only the numbers mean anything, not the times.
+   Imbalance is that of the log: the slowest rank's work over the mean (times on a crowded machine: an upper bound).
+2. Wall time on two ranks over that on one, each on a core of its own; the dam break with 12 800 points and with 16 times as many.
+3. Iterations of the pressure solve over unknowns and ranks: a dam break with finer and finer cells.
+
+The model: a step takes ns per point of one core x points/rank x imbalance + (messages x 1.5 us + bytes/(10 GB/s)) of the busiest rank + collectives x 1.5 us x
+log2(ranks): numbers of a common cluster network, not measured here."""
+
+import math
+import re
+
+from scree.studies.charts import Curves
+from scree.studies.study import Claim, Study, Variant, compiled, transfer
+
+QUIET = {"Output/Interval": 100, "Output/Graphics": "none", "Output/Statistics interval": 100}
+SCENES = {"dry slope": ("prm/slopes/slope_dense.prm", (0.004, 0.012), {}),
+          "saturated slope": ("prm/slopes/slope_saturated_dense.prm", (0.005, 0.015), {}),
+          "3D column": ("prm/columns/column_3d.prm", (0.01, 0.03), {}),
+          "dam break": ("prm/water/dam_break.prm", (0.04, 0.12), {})}
+RANKS = (1, 2, 4, 8, 16, 32, 64)
+TIMED = {**SCENES, "dam break, 205000 points": ("prm/water/dam_break.prm", (), {"Mesh/Cell size": 0.0125})}
+LONG = dict(zip(TIMED, (0.1, 0.1, 0.15, 0.6, 0.35)))  # s of motion for times
+CELLS = (0.02, 0.01, 0.005, 0.002)  # m, of the dam break's 2 m^2: up to 5e5 unknowns
+COUNTS = ("messages", "messages of busiest", "bytes", "bytes of busiest", "collectives")
+LATENCY, BANDWIDTH = 1.5e-6, 10e9  # s, bytes/s
+
+
+def environment():
+    return {"LD_PRELOAD": str(compiled("count_mpi.c", "mpicc", "-shared", "-fPIC", "-O2")), "OMPI_MCA_hwloc_base_binding_policy": "none"}
+
+
+def variants():
+    found = []
+    for scene, (base, ends, entries) in SCENES.items():
+        for ranks in RANKS:
+            for end in ends:
+                found.append(Variant({"question": "counts", "scene": scene, "ranks": ranks, "end": end}, {**QUIET, **entries, "End time": end}, base, ranks))
+    for scene, end in LONG.items():
+        base, _, entries = TIMED[scene]
+        for ranks in (1, 2):
+            found.append(Variant({"question": "two ranks", "scene": scene, "ranks": ranks, "end": end}, {**QUIET, **entries, "End time": end}, base, ranks))
+    for cell in CELLS:
+        for ranks in (1, 2, 8):
+            found.append(Variant({"question": "unknowns", "scene": f"h = {cell:g} m", "ranks": ranks, "end": 20 * cell * 0.02},
+                                 {**QUIET, **transfer("TPIC"), "Mesh/Cell size": cell, "Water/Points per cell": 2, "Time step/Maximum time step": cell * 0.02,
+                                  "Water/Volume correction rate": 0, "End time": 20 * cell * 0.02}, "prm/water/dam_break.prm", ranks))
+    return found
+
+
+def measure(run):
+    counts = re.search(r"^mpi: ranks \d+ messages (\d+) (\d+) bytes (\d+) (\d+) collectives (\d+)$", run.log, re.MULTILINE)
+    total = re.search(r"^total +([\d.e+-]+) ", run.log, re.MULTILINE)
+    imbalance = re.search(r"^imbalance: ([\d.]+)", run.log, re.MULTILINE)
+    ghosts = re.search(r": (\d+) ghosts", run.log)
+    updates = re.search(r"/ ([\d.e+-]+) point updates", run.log)
+    columns = run.columns
+    return {**dict(zip(COUNTS, map(int, counts.groups()))), "wall s": float(total.group(1)), "imbalance": float(imbalance.group(1)) if imbalance else 1.,
+            "points": float(updates.group(1)) / run.statistics("Step")[-1], "ghost nodes": float(ghosts.group(1)) if ghosts else 0.,
+            "CG iterations": columns["CG iterations per step"][-1] if "CG iterations per step" in columns else math.nan}
+
+
+def per_step(rows, scene):
+    """{ranks: {what: a step's}} of the counted runs of a scene."""
+    result = {}
+    for ranks in sorted({row["ranks"] for row in rows}):
+        pair = sorted((row for row in rows if (row["question"], row["scene"], row["ranks"]) == ("counts", scene, ranks)), key=lambda row: row["end"])
+        if len(pair) == 2:
+            steps = pair[1]["steps"] - pair[0]["steps"]
+            result[ranks] = {**{name: (pair[1][name] - pair[0][name]) / steps for name in COUNTS}, "points": pair[1]["points"],
+                             "imbalance": pair[1]["imbalance"], "ghost nodes": pair[1]["ghost nodes"]}
+    return result
+
+
+def modelled(step, ranks, ns, times=1., dimensions=2):
+    """Seconds of a step by the model, with `times` as many points as were counted."""
+    surface = times ** ((dimensions - 1) / dimensions)
+    work = 1e-9 * ns * times * step["points"] / ranks * (step["imbalance"] if ranks <= 2 else 1.1)
+    if ranks == 1:
+        return work
+    return (work + step["messages of busiest"] * LATENCY + surface * step["bytes of busiest"] / BANDWIDTH
+            + step["collectives"] * LATENCY * math.log2(ranks))
+
+
+def ns_of_one_core(rows, scene):
+    row = next(row for row in rows if (row["question"], row["scene"], row["ranks"]) == ("two ranks", scene, 1))
+    return 1e9 * row["wall s"] / row["steps"] / row["points"]
+
+
+def speed_up(rows, scene):
+    one, two = (next(row for row in rows if (row["question"], row["scene"], row["ranks"]) == ("two ranks", scene, ranks)) for ranks in (1, 2))
+    return one["wall s"] / two["wall s"]
+
+
+def verdict(rows):
+    counted = {scene: per_step(rows, scene) for scene in SCENES}
+    counted = {scene: steps for scene, steps in counted.items() if len(steps) > 1}
+    claims = []
+    if any(row["question"] == "two ranks" for row in rows):
+        times = {scene: speed_up(rows, scene) for scene in LONG}
+        claims.append(Claim("Two ranks are " + ", ".join(f"{value:.2f} ({scene})" for scene, value in times.items()) + " times as fast as one; wanted: 1.8.",
+                            min(times.values()) >= 1.8, quick=False))
+    most = max(ranks for steps in counted.values() for ranks in steps)
+    claims.append(Claim(f"On {most:g} ranks a step has " + ", ".join(
+        f"{steps[most]['collectives']:.0f} collectives and {steps[most]['messages of busiest']:.0f} messages of the busiest rank ({scene})"
+        for scene, steps in counted.items()) + "; one rank sends nothing.", all(steps[1]["messages"] == 0 for steps in counted.values())))
+    dry = [scene for scene in counted if scene in ("dry slope", "3D column")]
+    claims.append(Claim("Dry scenes need " + ", ".join(f"{max(steps['collectives'] for steps in counted[scene].values()):.1f}" for scene in dry)
+                        + " collectives a step on any number of ranks.", all(max(steps["collectives"] for steps in counted[scene].values()) < 5 for scene in dry)))
+    if most == max(RANKS):
+        strong = {scene: modelled(steps[1], 1, ns_of_one_core(rows, scene), 100) / most
+                  / modelled(steps[most], most, ns_of_one_core(rows, scene), 100, 3 if "3D" in scene else 2) for scene, steps in counted.items()}
+        claims.append(Claim(f"By the model, a hundred times the points of these scenes on {most:g} ranks run with an efficiency of "
+                            + ", ".join(f"{value:.0%} ({scene}, {100 * counted[scene][1]['points']:.1e} points)" for scene, value in strong.items()) + ".",
+                            True, quick=False))
+        solves = [row for row in rows if row["question"] == "unknowns"]
+        coarse, fine = ([row["CG iterations"] for row in solves if row["scene"] == f"h = {cell:g} m"] for cell in (CELLS[0], CELLS[-1]))
+        claims.append(Claim(f"The pressure takes {min(coarse):.1f} to {max(coarse):.1f} CG iterations a step with cells of {CELLS[0]:g} m and {min(fine):.1f} to {max(fine):.1f} with "
+                            f"{CELLS[-1]:g} m, on 1 to 8 ranks: {2 / CELLS[0] ** 2:.0f} and {2 / CELLS[-1] ** 2:.0f} unknowns.", max(fine) < 3 * min(coarse), quick=False))
+    return claims
+
+
+def draw(figure, rows):
+    axes = figure.subplots(1, 3)
+    for scene in SCENES:
+        steps = per_step(rows, scene)
+        ranks = [number for number in steps if number > 1]
+        axes[0].plot(ranks, [steps[number]["messages of busiest"] for number in ranks], marker="o", label=f"{scene}: messages of the busiest rank")
+        axes[0].plot(ranks, [steps[number]["collectives"] for number in ranks], marker="x", linestyle="--", color=axes[0].lines[-1].get_color(), label="collectives")
+        axes[1].plot(ranks, [1e-3 * steps[number]["bytes of busiest"] for number in ranks], marker="o", label=scene)
+        if any(row["question"] == "two ranks" for row in rows):
+            ns, dimensions = ns_of_one_core(rows, scene), 3 if "3D" in scene else 2
+            everyone = [1, *ranks]
+            for times, style in ((1, ":"), (100, "-")):
+                one = modelled(steps[1], 1, ns, times)
+                axes[2].plot(everyone, [one / modelled(steps[number], number, ns, times, dimensions) for number in everyone], linestyle=style,
+                             color=axes[0].lines[-1].get_color(), label=f"{scene}, {times * steps[1]['points']:.0e} points")
+    axes[2].plot(RANKS, RANKS, color="0.7", linewidth=1)
+    for plot, label in zip(axes, ("messages and collectives a step", "kB a step of the busiest rank", "speed-up by the model")):
+        plot.set(xscale="log", yscale="log", xlabel="ranks", ylabel=label)
+        plot.set_xticks(RANKS, RANKS, minor=False)
+        plot.grid(alpha=0.3)
+        plot.legend(fontsize="xx-small")
+
+
+STUDY = Study(title="Ranks: what they exchange", base="prm/slopes/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
+              quick=lambda labels: labels["question"] == "counts" and labels["ranks"] <= 2 and labels["scene"] in ("dry slope", "dam break"),
+              chart=Curves(draw, size=(15, 5), timed=True))

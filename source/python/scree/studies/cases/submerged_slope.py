@@ -1,0 +1,61 @@
+"""A slope of Mohr-Coulomb sand (friction 30 degrees, no cohesion) under still water: what is less steep than 30 degrees must stay at rest, what is steeper
+slides. Crest 0.6 m high, surface of the water below the crest, just above it, or 0.4 m above it; conductivities from gravel to clay. The slope settles for at most 1 s with
+damping and is then released for 1 s.
+State: `measures.BOUNDS` with the work of the soil's weight over a centimetre as energy; the error is 1 if the front of a slope below the friction angle moves by a
+millimetre, or a steeper one stands (soil slower than 5 mm/s), else 0. No options are compared: all cells count as default cells. The number is the mean (rms) speed of the free water at the end, mm/s: spurious
+currents, where the slope is at rest."""
+import math
+
+import numpy as np
+
+from scree.studies.charts import StabilityMap
+from scree.studies.measures import classify
+from scree.studies.study import Claim, Study, axis, product
+
+CREST, FRICTION = 0.6, 30  # m, degrees
+
+
+def slope(angle):
+    return {"Soil/Region": f"if(x < 0.6, y < {CREST}, y < {CREST} - (x - 0.6)*{math.tan(math.radians(angle)):.6f})"}
+
+
+def measure(run):
+    water, soil, start = run.points(None, "water"), run.points(), run.points(0.)
+    mass = start.arrays["mass"].sum()
+    speeds = np.linalg.norm(water.arrays["velocity"][water.arrays["inside_soil"] < 0.5], axis=1)
+    front = run.statistics("Front 99 % (m)")
+    moved, fastest = 1e3 * (front[-1] - front[0]), 1e3 * np.max(np.linalg.norm(soil.arrays["velocity"], axis=1))
+    angle = run.labels["angle"]
+    wrong = moved > 1 if angle < FRICTION else fastest < 5 if angle > FRICTION else False
+    return {**classify(run, {"oscillation of p": np.mean(run.statistics("p oscillation (-)")), "error": int(wrong)}, mass * 9.81 * 0.01), "water, mm/s": 1e3 * math.sqrt(np.mean(speeds ** 2)),
+            "soil, mm/s": fastest, "front moved, mm": moved,
+            "volume error": max(run.statistics("Volume error (-)"))}
+
+
+def verdict(rows):
+    stable = [row for row in rows if row["state"] == "stable"]
+    flat, steep = ([row for row in rows if row["angle"] < FRICTION], [row for row in rows if row["angle"] > FRICTION])
+    under = [row for row in flat if row["surface"] > CREST]
+
+    def largest(chosen, column):
+        return max(row[column] for row in chosen)
+    return [
+        Claim(f"That holds for k from {largest(rows, 'k'):g} to {min(row['k'] for row in rows):g} m/s and any water level, on one mesh (h = 0.1 m).",
+              len(stable) == len(rows)),
+        Claim(f"Below the friction angle the slope stays: the front moves by at most {largest(flat, 'front moved, mm'):.2g} mm, soil by at most "
+              f"{largest(flat, 'soil, mm/s'):.2g} mm/s. Spurious currents are at most {largest(under, 'water, mm/s'):.2g} mm/s under water, and "
+              f"{largest(flat, 'water, mm/s'):.2g} mm/s where the water's surface cuts a slope that it passes easily (sqrt(g 0.6 m) is 2.4 m/s).",
+              largest(flat, "front moved, mm") < 1 and largest(under, "water, mm/s") < 0.5 and largest(flat, "water, mm/s") < 5),
+        Claim(f"Above it, it slides: its soil is as fast as {min(row['soil, mm/s'] for row in steep):.2g} mm/s at the least.",
+              min(row["soil, mm/s"] for row in steep) > 5),
+    ]
+
+
+STUDY = Study(title="Slope under still water", base="prm/columns/column_saturated.prm", needs_end=False,
+              entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "Water/Points per cell": 3, "End time": 1.,
+                       "Settling/Maximum time": 1., "Time step/Maximum time step": 2e-3, "Output/Interval": 0.5, "Output/Statistics interval": 0.05},
+              variants=product(axis("surface", lambda y: {"Water/Region": f"y < {y:g}"}, [0.45, 0.65, 1.]),
+                               axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-4, 1e-8]), axis("angle", slope, [15, 25, 30, 35, 45])),
+              quick=lambda labels: labels["surface"] == 1. and labels["k"] in (1e-1, 1e-4) and labels["angle"] in (25, 45),
+              measure=measure, verdict=verdict, default={},
+              chart=StabilityMap("angle", "k", panels=["surface"], number="water, mm/s", xlabel="slope, degrees", ylabel="k, m/s"))

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where in its cell may the water's surface lie? The surface's distance from the vertices is found from their fill; what p = 0 at vertices next to an
+empty cell, or at those that are less than half full, does here is in doc/verification.md, "Choices for the pressure that failed". Water alone, and saturated
+soil, at rest for 0.2 s, ten cells deep, on regular points and on points moved by up to a quarter of their spacing. State: `measures.BOUNDS`. The number
+is the error, the rms of that of p at the water's points over rho g h, h the cell, against rho g depth.
+"""
+
+from scree.studies import measures
+from scree.studies.charts import StabilityMap
+from scree.studies.study import Claim, Study, Variant
+
+CELL = 0.1
+SCENES = {"water": ("prm/water/hydrostatic.prm", "Water/Region", {"Mesh/Upper corner": "0.4, 1.5"}),
+          "saturated soil": ("prm/seepage/saturated_rest.prm", "Soil/Region", {"Mesh/Upper corner": "0.4, 1.5", "Time step/Maximum time step": 2e-3})}
+
+
+
+def scene(name):
+    base, region, entries = SCENES[name]
+    return [Variant({"scene": name, "points": points, "surface": part},
+                    {**entries, region: f"y < {1 + part * CELL:.6g}", "Water/Jitter": jitter,
+                     **({"Soil/Jitter": jitter} if name != "water" else {})}, base)
+            for points, jitter in (("regular", 0.), ("jittered", 0.25)) for part in (0., 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875)]
+
+
+def measure(run):
+    surface = 1 + run.labels["surface"] * CELL
+    error = measures.hydrostatic_error(run, surface) if run.ended else float("nan")
+    # Next to nothing is released: the weight of a layer of one cell, lifted by it, is the measure of energy.
+    mass = run.statistics("Water mass (kg)")[0] / surface * CELL
+    return {**measures.classify(run, {"oscillation of p": measures.mean_oscillation(run), "error": error}, mass * 9.81 * CELL), "cause": measures.cause(run)}
+
+
+def verdict(rows):
+    regular, jittered = (max(row["error"] for row in rows if row["points"] == points)
+                         for points in ("regular", "jittered"))
+    return [
+        Claim(f"p is right wherever the surface lies: error at most {regular:.1g} rho g h on regular points, {jittered:.2g} on "
+              "jittered ones.", regular < 2e-3 and jittered < 0.02),
+    ]
+
+
+STUDY = Study(
+    title="Water at rest: place of the surface in its cell", base="prm/water/hydrostatic.prm",
+    entries={"Mesh/Cell size": CELL, "End time": 0.2, "Output/Interval": 0.1, "Output/Statistics interval": 0.02, "Output/Graphics": "points"},
+    variants=[variant for name in SCENES for variant in scene(name)],
+    measure=measure, verdict=verdict, needs_end=False, default={},
+    quick=lambda labels: labels["surface"] in (0., 0.375) and labels["scene"] == "water",
+    chart=StabilityMap("surface", "points", panels=["scene"], number="error", xlabel="surface above a cell's face (cells)", ylabel=""))

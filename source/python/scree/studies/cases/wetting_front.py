@@ -1,0 +1,164 @@
+"""Water infiltrates dry soil from a pond: 0.2 m of water stand on 0.5 m of dry elastic sand and sink in, with no capillary suction. Without inertia, with a sharp
+front at depth z and saturated rigid soil above it, n dz/dt = k (h + z)/z, h = h_0 - n z (Green & Ampt 1911, falling head), or
+t = n/k [z/(1-n) - h_0/(1-n)^2 ln(1 + (1-n) z/h_0)]. Runs end when z is 0.3 m by that formula. Rows and columns: cell size and conductivity; panels: 2 x 2 or 4 x 4 points a cell.
+
+The reference has a sharp front, too, p = 0 at it and water above it that fills the pores, but inertia and elasticity as in the program's equations. In rigid soil p falls by rho_w (u^2 - q^2)/2 where the pond
+enters the pores with u = q/n, as the gradient of p alone acts there, and (z + n h) u' = g (h + z) - (1 - n^2) u^2/2 - g (n/k) u z, u = dz/dt (`rigid_front`; energy is kept but for the drag's). The sand gives way to
+the pond by 5 mm, that is 3.5 % of the fall: `elastic_front` adds its motion, by finite differences in the soil's coordinates.
+State: `measures.BOUNDS`; the oscillation of p is its roughness at the end (`measures.roughness`) over rho_w g h_0, the error that of the fall of the water's
+centre of mass, over the reference's at the same time. The number is that fall over the reference's; columns tell it over that in rigid soil and over Green & Ampt's. `wetting_front_before.csv` and `.png` are the same runs before a solve
+that takes too long made its preconditioner anew, over Green & Ampt's, with states by the bound of then, .1 for the fall."""
+import functools
+
+import numpy as np
+
+from scree.studies.charts import StabilityMap
+from scree.studies.measures import BOUNDS, cause, classify, roughness
+from scree.studies.study import Claim, Study, axis, product
+
+POND, DEPTH, POROSITY, TOP = 0.2, 0.3, 0.4, 0.5  # m, m, -, m: the pond's height, the front at the end, the soil's surface
+GRAVITY, WATER, GRAINS = 9.81, 1000., 2650.  # m/s^2, kg/m^3, kg/m^3
+MODULUS = 1e5  # Pa, Young's; Poisson's ratio is .3
+
+
+METHODS = {"2 x 2": {"Soil/Points per cell": 2, "Water/Points per cell": 2}, "4 x 4": {"Soil/Points per cell": 4, "Water/Points per cell": 4}}
+
+
+def time_of(z, k):
+    """When the sharp front is at depth z, s."""
+    return POROSITY / k * (z / (1 - POROSITY) - POND / (1 - POROSITY) ** 2 * np.log(1 + (1 - POROSITY) * z / POND))
+
+
+def fall_of(z):
+    """How far the water's centre of mass has sunk when the sharp front is at depth z, m."""
+    pond = POND - POROSITY * z
+    return POND / 2 - (pond * pond / 2 - POROSITY * z * z / 2) / POND
+
+
+@functools.cache
+def rigid_front(k, n_steps=20000):
+    """Depth of the sharp front in rigid soil, m, at time_of(DEPTH, k): Runge & Kutta's fourth order."""
+    def rate(state):
+        z, u = state
+        pond = POND - POROSITY * z
+        push = GRAVITY * (pond + z) - (1 - POROSITY ** 2) * u * u / 2 - GRAVITY * POROSITY / k * u * z
+        return np.array([u, push / (z + POROSITY * pond)])
+    step, state = time_of(DEPTH, k) / n_steps, np.zeros(2)
+    for _ in range(n_steps):
+        first = rate(state)
+        second = rate(state + step / 2 * first)
+        third = rate(state + step / 2 * second)
+        state = state + step / 6 * (first + 2 * second + 2 * third + rate(state + step * third))
+    return state[0]
+
+
+@functools.cache
+def elastic_front(k, young_modulus=MODULUS, n_cells=100):
+    """Depth of the sharp front in elastic soil, in coordinates of the soil at the start, and fall of the water's centre of mass, m, at time_of(DEPTH, k).
+
+    Unknowns: displacement s of the soil's cells (X is the depth), Z, and the velocity V of the pond, which is that of the mixture in the wet soil, v_s + n w.
+    With n w = V - v_s and the water's -dp/dx = rho_w [D(v_s + w)/Dt - g + g/k (V - v_s)] each soil cell has an acceleration alpha + beta dV/dt, and p = 0 at the
+    pond's surface and at the front tells dV/dt. All is explicit; the cell with the front is wet in part.
+    """
+    modulus = young_modulus * 0.7 / (1.3 * 0.4)  # oedometric
+    width = TOP / n_cells
+    n_steps = int(np.ceil(time_of(DEPTH, k) / min(0.4 * width / np.sqrt(modulus / ((1 - POROSITY) * GRAINS)), 3e-4)))
+    step = time_of(DEPTH, k) / n_steps
+    upper_faces = np.arange(n_cells) * width
+    s, v, pond_velocity, front = np.zeros(n_cells), np.zeros(n_cells), 0., 0.
+    porosity = np.full(n_cells, POROSITY)
+    for _ in range(n_steps):
+        strain = np.concatenate([[0], np.diff(s) / width, [-2 * s[-1] / width]])  # of the faces: no stress above, no motion below
+        ratio = 1 + (strain[1:] + strain[:-1]) / 2  # J
+        before, porosity = porosity, 1 - (1 - POROSITY) / ratio
+        wet = np.clip((front - upper_faces) / width, 0, 1)
+        flux = pond_velocity - v
+        slip = flux / porosity
+        convected = slip / ratio * np.concatenate([[0], np.diff(v + slip) / width]) - slip * (porosity - before) / (step * porosity)
+        push = convected - GRAVITY + GRAVITY / k * flux  # -dp/dx over rho_w, but for dv_s/dt (1 - 1/n) and dV/dt / n
+        lever = wet * ratio * (1 - porosity) * WATER
+        mass = (1 - POROSITY) * GRAINS - lever * (1 - 1 / porosity)
+        alpha = (modulus * np.diff(strain) / width + lever * push + wet * ratio * porosity * WATER * GRAVITY / k * flux) / mass
+        beta = lever / (porosity * mass)
+        pond = POND - np.sum(wet * ratio * porosity) * width
+        at_inlet = GRAVITY * pond - slip[0] ** 2 * (1 - porosity[0] ** 2) / 2  # p there over rho_w, at rest
+        force = at_inlet - np.sum(wet * ratio * (alpha * (1 - 1 / porosity) + push)) * width
+        inertia = pond + np.sum(wet * ratio * (beta * (1 - 1 / porosity) + 1 / porosity)) * width
+        rate = force / inertia
+        v, pond_velocity = v + step * (alpha + beta * rate), pond_velocity + step * rate
+        s = s + step * v
+        tip = min(int(front / width), n_cells - 1)
+        front += step * (pond_velocity - v[tip]) / (porosity[tip] * ratio[tip])
+    volumes = wet * porosity * ratio * width
+    depths = upper_faces + width / 2 + s - (1 - wet) * width * ratio / 2
+    pond, top = POND - volumes.sum(), s[0] - width * (ratio[0] - 1) / 2
+    return front, (pond * (top - pond / 2) + np.sum(volumes * depths)) / POND + POND / 2
+
+
+def conductivity(k):
+    end = float(time_of(DEPTH, k))
+    return {"Water/Hydraulic conductivity": k, "End time": end, "Output/Interval": end, "Output/Statistics interval": end / 20}
+
+
+def measure(run):
+    """A run that stops is compared nowhere: its ratio is nan."""
+    if not run.ended:
+        return {**classify(run), "cause": cause(run)}
+    water = run.points(None, "water")
+    y, volumes = water.positions[:, 1], water.arrays["volume"]
+    k = float(run.entries["Water/Hydraulic conductivity"])
+    fall = TOP + POND / 2 - np.average(y, weights=volumes)
+    front, exact = elastic_front(k)
+    rough = roughness(water, float(run.entries["Mesh/Cell size"]), "pressure") / (WATER * GRAVITY * POND)
+    return {**classify(run, {"oscillation of p": rough, "error": abs(fall / exact - 1)}), "cause": cause(run), "fall/exact": fall / exact,
+            "fall/rigid": fall / fall_of(rigid_front(k)), "fall/Green & Ampt": fall / fall_of(DEPTH), "front/exact": (TOP - np.quantile(y, 0.01)) / front,
+            "volume error": max(run.statistics("Volume error (-)"))}
+
+
+def verdict(rows):
+    def of(method):
+        return [row for row in ended if row["points"] == method]
+
+    def gain(chosen):
+        return 100 * sum(row["gain"] for row in chosen) / len(chosen)
+
+    def most(chosen):
+        return 100 * max(row["gain"] for row in chosen)
+
+    def off(name):
+        return max(abs(row[name] - 1) for row in of("4 x 4"))
+    ended = [row for row in rows if row["ended"]]
+    conductivities = sorted({row["k"] for row in ended}, reverse=True)
+    fine, coarse = (pick(row["h"] for row in ended) for pick in (min, max))
+    errors = {h: [abs(row["fall/exact"] - 1) for row in of("4 x 4") if row["h"] == h] for h in sorted({row["h"] for row in ended})}
+    fronts = [row["front/exact"] for row in of("4 x 4") if row["h"] == fine]
+    few = [abs(row["fall/exact"] - 1) for row in of("2 x 2") if row["h"] == coarse]
+    alike = [row for row in of("4 x 4") if row["h"] >= 0.025]
+    return [
+        Claim(f"With 4 x 4 points a cell the water's fall is off from the reference's by up to {max(map(max, errors.values())):.1%}: "
+              + ", ".join(f"{max(error):.1%} at h = {h:g} m" for h, error in reversed(errors.items()))
+              + f"; from that in rigid soil by up to {off('fall/rigid'):.1%}, from Green & Ampt's by up to {off('fall/Green & Ampt'):.1%}.", max(errors[fine]) < 0.03, quick=False),
+        Claim("At the end the reference's fall is " + ", ".join(f"{elastic_front(k)[1] / fall_of(DEPTH):.4f}" for k in conductivities) + " times Green & Ampt's at k = "
+              + ", ".join(f"{k:g}" for k in conductivities) + " m/s; in rigid soil " + ", ".join(f"{fall_of(rigid_front(k)) / fall_of(DEPTH):.4f}" for k in conductivities)
+              + f" times (inertia alone; {abs(fall_of(rigid_front(1e-3, 200000)) / fall_of(DEPTH) - 1):.1g} is left of it at k = 1e-3 m/s). In sand a hundred times as stiff it is within "
+              f"{abs(elastic_front(max(conductivities), 100 * MODULUS)[1] / fall_of(rigid_front(max(conductivities))) - 1):.2%} of that in rigid soil.",
+              abs(fall_of(rigid_front(1e-3, 200000)) / fall_of(DEPTH) - 1) < 1e-5
+              and abs(elastic_front(max(conductivities), 100 * MODULUS)[1] / fall_of(rigid_front(max(conductivities))) - 1) < 1e-3),
+        Claim(f"At h = {fine:g} m the front's tip (99 % of the water is above it) is at {min(fronts):.2f} to {max(fronts):.2f} of the sharp front's depth.",
+              0.95 < min(fronts) and max(fronts) < 1.05),
+        Claim(f"Energy comes from nothing where water enters dry soil: {gain(of('2 x 2')):.2g} % of what its fall releases with 2 x 2 points a cell (up to {most(of('2 x 2')):.2g} %), "
+              f"{gain(alike):.2g} % with 4 x 4 (up to {most(of('4 x 4')):.2g} %; means, cells of .025 m and more).",
+              gain(alike) < gain(of("2 x 2")) and most(of("4 x 4")) < 100 * BOUNDS["gain"]),
+        Claim(f"{len(ended)} of {len(rows)} runs come to their end.", len(ended) == len(rows)),
+        Claim(f"At h = {coarse:g} m two points a cell and axis are off by up to {max(few):.0%}, four by {max(errors[coarse]):.0%}.", max(few) > max(errors[coarse])),
+    ]
+
+
+STUDY = Study(title="Infiltration into dry soil", base="prm/seepage/saturated_rest.prm", needs_end=False,
+              entries={"Mesh/Upper corner": "0.2, 0.8", "Soil/Region": f"y < {TOP}", "Soil/Linear elastic/Young's modulus": MODULUS,
+                       "Water/Region": f"y > {TOP} && y < {TOP + POND}", "Water/Initial pressure": "none"},
+              variants=product(axis("points", METHODS.get, list(METHODS)), axis("h", "Mesh/Cell size", [0.1, 0.05, 0.025, 0.0125]),
+                               axis("k", conductivity, [0.1, 0.03, 0.01])),
+              quick=lambda labels: (labels["h"] in (0.1, 0.025) and labels["k"] == 0.03) or list(labels.values()) == ["4 x 4", 0.0125, 0.1],
+              measure=measure, verdict=verdict, default={"points": "4 x 4"},
+              chart=StabilityMap("k", "h", panels=["points"], number="fall/exact", xlabel="k, m/s", ylabel="cell size, m"))

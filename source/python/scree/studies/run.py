@@ -1,0 +1,336 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs studies: variants of a case, a chart, a table and a page with the verdict.
+
+scree-study NAME... | all [--quick] [--list] [--again]
+
+A study is a module of scree.studies.cases. Its runs are kept in folders of results/studies named by the content of their parameter
+files: a second call makes what is missing or has changed, so that an interrupted study goes on where it was. The table, the
+chart and the page go to doc/studies/pages; with --quick, a short version is run and checked, and nothing under doc/ is written.
+"""
+
+import concurrent.futures
+import csv
+import hashlib
+import importlib
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+
+from scree.command import ROOT, Command, program
+from scree.studies.charts import StabilityMap, WorkPrecision
+from scree.studies.measures import bounds_in_words, share_of_defaults
+from scree.studies.precision import position_of_defaults
+from scree.studies.study import Run, Variant, prm_files
+
+INTERRUPTED = {-2, -9, -15, 130, 137, 143}  # by SIGINT, SIGKILL, SIGTERM, itself or below `timeout`: such a run is not kept
+START_UP = 1.  # s of a run before its first step
+
+PAGES = ROOT / "doc" / "studies" / "pages"
+
+
+def names_of_studies():
+    return sorted(file.stem for file in pathlib.Path(__file__).with_name("cases").glob("[a-z]*.py"))
+
+
+def module_of(name):
+    return importlib.import_module(f"scree.studies.cases.{name}")
+
+
+# Runs -----------------------------------------------------------------------------------------------------------------
+
+
+def case_text(study, variant, folder=None):
+    """The variant's parameter file, without an output directory; paths of files count from `folder`, or from the base."""
+    text = prm_files.read_case(ROOT / (variant.base or study.base), folder)
+    defaults = {"Output/Checkpoint interval": 0} if study.program == "scree" else {}
+    for name, value in {**defaults, **study.entries, **variant.entries}.items():
+        text = prm_files.set_entry(text, name, f"{value:.12g}" if isinstance(value, float) else value)
+    return text + "\n"
+
+
+def folder_of(study, variant, results):
+    """Runs of one content share a folder, whichever study or label they serve."""
+    return results / hashlib.sha256(f"{study.program} {variant.ranks}\n{case_text(study, variant)}".encode()).hexdigest()[:12]
+
+
+def load_run(folder, labels):
+    """The run in a folder, None if there is none that has ended."""
+    record = folder / "run.json"
+    if not record.exists():
+        return None
+    return Run(folder, labels, **json.loads(record.read_text(encoding="utf-8")))
+
+
+def make_run(study, variant, folder, arguments):
+    """Runs one variant in `folder`, which it empties before."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    prm, screen = folder / "case.prm", folder / "screen.txt"
+    prm.write_text(prm_files.set_entry(case_text(study, variant, folder), "Output directory", folder).rstrip("\n") + "\n", encoding="utf-8")
+    environment = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1", **study.environment())
+    if os.geteuid() == 0:
+        environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
+    if variant.ranks > (os.cpu_count() or 1):
+        launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
+    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
+    # Runs of Open MPI side by side share folders, which the last one to end removes under one that begins: each has its own.
+    with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_", ignore_cleanup_errors=True) as temporary:
+        environment["TMPDIR"] = temporary
+        process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT)
+        _, status, usage = os.wait4(process.pid, 0)
+    code = os.waitstatus_to_exitcode(status)
+    process.returncode = code  # it has been waited for
+    if code in INTERRUPTED:
+        raise RuntimeError(f"{prm} was interrupted; {screen} has what it said. Start the study again: it goes on from here.")
+    record = {"exit_code": code, "core_seconds": usage.ru_utime + usage.ru_stime}
+    run = Run(folder, variant.labels, **record)
+    if run.ended:
+        study.after(run, arguments.program)
+    (folder / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    return run
+
+
+def expected_seconds(name):
+    """Core-seconds of each variant in the committed table, by its labels as text; {} without a table."""
+    table = PAGES / f"{name}.csv"
+    if not table.exists():
+        return {}
+    return {tuple(map(_text, row.values())): row.get("core-seconds", math.nan) for row in read_table(table)}
+
+
+def _estimate(labels, expected):
+    """Core-seconds of the row that begins with these labels; the mean of the others if it is not there."""
+    words = tuple(map(_text, labels.values()))
+    known = [seconds for row, seconds in expected.items() if row[:len(words)] == words and math.isfinite(seconds)]
+    others = [seconds for seconds in expected.values() if math.isfinite(seconds)]
+    return START_UP + known[0] if known else START_UP + sum(others) / len(others) if others else math.nan
+
+
+class Plan:
+    """The runs of a study, the reference's first; which of them are missing, and how long those will take."""
+
+    def __init__(self, name, study, arguments):
+        self.variants = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
+        reference = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
+        self.has_reference = reference is not None
+        if self.has_reference:
+            self.variants.insert(0, Variant({"reference": "reference"}, reference))
+        self.folders = [folder_of(study, variant, arguments.results) for variant in self.variants]
+        self.missing = {folder: variant for variant, folder in zip(self.variants, self.folders)
+                        if arguments.again or load_run(folder, variant.labels) is None}
+        self.jobs = 1 if study.chart.timed else max(1, arguments.jobs // max(variant.ranks for variant in self.variants))
+        expected = expected_seconds(name)
+        self.left = {folder: _estimate(variant.labels, expected) for folder, variant in self.missing.items()}
+
+    @property
+    def seconds_left(self):
+        """nan without earlier times."""
+        known = [seconds for seconds in self.left.values() if math.isfinite(seconds)]
+        return sum(known) * len(self.left) / len(known) / self.jobs if known else math.nan
+
+
+def make_runs(name, study, arguments):
+    """The runs of all variants, in their order, each with the reference's; with progress and the time left."""
+    plan = Plan(name, study, arguments)
+    n_runs, n_missing = len(set(plan.folders)), len(plan.missing)
+    print(f"{name}: {n_runs} runs, {n_runs - n_missing} of them are there" + (f"; {_duration(plan.seconds_left)}" if n_missing else ""), flush=True)
+
+    def make(folder):
+        variant = plan.missing[folder]
+        run = make_run(study, variant, folder, arguments)
+        del plan.left[folder]
+        print(f"  {n_missing - len(plan.left)} of {n_missing}: " + ", ".join(f"{key} {value}" for key, value in variant.labels.items())
+              + f": {folder.name}" + ("" if run.ended else f" (ended with {run.exit_code})")
+              + (f"; {_duration(plan.seconds_left)}" if plan.left else ""), flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(plan.jobs) as pool:
+        list(pool.map(make, plan.missing))
+    runs = [load_run(folder, variant.labels) for variant, folder in zip(plan.variants, plan.folders)]
+    reference = runs.pop(0) if plan.has_reference else None
+    for run in runs:
+        run.reference = reference
+    return runs
+
+
+def _duration(seconds):
+    if not math.isfinite(seconds):
+        return "no earlier times to tell how long it takes"
+    return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {max(1, seconds):.0f} s left"
+
+
+# Tables ---------------------------------------------------------------------------------------------------------------
+
+
+def _text(value):
+    return f"{value:.5g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
+
+
+def _value(word):
+    if word in ("True", "False"):
+        return word == "True"
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def write_table(rows, table):
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    with open(table, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, fieldnames=names, restval="nan", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({name: _text(value) for name, value in row.items()} for row in rows)
+
+
+def read_table(table):
+    """The rows of a table: numbers are floats, True and False are themselves, the rest is text."""
+    with open(table, newline="", encoding="utf-8") as file:
+        return [{name: _value(word) for name, word in row.items()} for row in csv.DictReader(file)]
+
+
+def row_of(study, run):
+    row = {**run.labels, "ended": run.ended, **run.cost}
+    if study.default is not None:
+        row["default"] = all(run.labels.get(name, value) == value for name, value in study.default.items())
+    if run.ended or not study.needs_end:
+        row.update(study.measure(run))
+    return row
+
+
+# Pages ----------------------------------------------------------------------------------------------------------------
+
+
+def _cost(core_seconds):
+    return f"{core_seconds:.0f} core-seconds" if core_seconds < 90 else f"{core_seconds / 60:.0f} core-minutes"
+
+
+def page_text(name, study, introduction, rows, claims):
+    seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
+    headline = f"- {share_of_defaults(rows)}\n" if isinstance(study.chart, StabilityMap) else ""
+    verdict = headline + "\n".join(f"- {claim.text}" + ("" if claim.holds else " **(Does not hold.)**") for claim in claims)
+    return (f"# {study.title}\n\n{introduction}\n\n![{study.title}]({name}.svg)\n\n## Verdict\n\n{verdict}\n\n"
+            f"`build/scree-study {name}` repeats it: {len(rows)} runs, {_cost(seconds)}. "
+            f"Numbers: [{name}.csv]({name}.csv); case: `{study.base}`.\n")
+
+
+def write_index():
+    """The list of all studies with a page, and what they say."""
+    lines = ["# Studies\n", "Each page is written by `build/scree-study NAME` from the runs of one study.\n", f"{bounds_in_words()}\n"]
+    for name in names_of_studies():
+        page = PAGES / f"{name}.md"
+        if page.exists():
+            text = page.read_text(encoding="utf-8")
+            verdict = re.search(r"## Verdict\n\n- (.*)", text)
+            lines.append(f"- [{text.splitlines()[0][2:]}]({name}.md): {verdict.group(1) if verdict else ''}")
+    (PAGES / "README.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def write_defaults():
+    """Where the defaults lie on the work-precision charts."""
+    lines = ["# Where the defaults lie on the work-precision charts\n",
+             "On how many meshes no other run is both faster and more accurate than the case as it stands, and error / core-seconds of each other method over its own on",
+             "the same meshes (geometric means). Errors are those of the tables: those of the slopes and the dam break are distances to a finer run of one of the methods, so",
+             "that ratios are farther from 1 than against the limit. Times have a noise of 10 to 20 %. What follows from it: [defaults.md](../defaults.md).\n",
+             "| chart | not beaten on | error / time of other methods |", "|---|---|---|"]
+    for name in names_of_studies():
+        study, table = module_of(name).STUDY, PAGES / f"{name}.csv"
+        if isinstance(study.chart, WorkPrecision) and table.exists():
+            meshes, others = position_of_defaults(read_table(table))
+            lines.append(f"| [{study.title}]({name}.md) | {meshes} meshes | {others} |")
+    (PAGES / "defaults.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def finish(name, module, folder, rows=None):
+    """Writes table, chart and page of a study into `folder` (from the table in it without `rows`); returns the claims."""
+    study = module.STUDY
+    folder.mkdir(parents=True, exist_ok=True)
+    table = folder / f"{name}.csv"
+    if rows is not None:
+        study.chart.complete(rows)
+        write_table(rows, table)
+    rows = read_table(table)
+    claims = study.verdict(rows)
+    study.chart.write(rows, study.title, folder / name)
+    (folder / f"{name}.md").write_text(page_text(name, study, module.__doc__.strip(), rows, claims), encoding="utf-8")
+    return claims
+
+
+def page_is_current(name, module):
+    """Whether the committed page is what its committed table says."""
+    page, table = PAGES / f"{name}.md", PAGES / f"{name}.csv"
+    if not page.exists() or not table.exists():
+        return False
+    rows = read_table(table)
+    return page.read_text(encoding="utf-8") == page_text(name, module.STUDY, module.__doc__.strip(), rows, module.STUDY.verdict(rows))
+
+
+def cells_lost(name, study, folder):
+    """Labels of the default cells of a map that the table in `folder` does not call stable, where the committed one does or does not know them."""
+    if not isinstance(study.chart, StabilityMap):
+        return []
+    labels = list(study.variants[0].labels)
+
+    def stable(table):
+        return {tuple(row[label] for label in labels): row["state"] == "stable" for row in read_table(table) if row["default"]}
+    committed = stable(PAGES / f"{name}.csv")
+    return [cell for cell, holds in stable(folder / f"{name}.csv").items() if not holds and committed.get(cell, True)]
+
+
+def run_study(name, arguments):
+    """True if all claims hold, and in the short version also if page and map are what the committed table says."""
+    module = module_of(name)
+    folder = arguments.results / "quick" if arguments.quick else PAGES
+    rows = None if arguments.page else [row_of(module.STUDY, run) for run in make_runs(name, module.STUDY, arguments)]
+    claims = [claim for claim in finish(name, module, folder, rows) if claim.quick or not arguments.quick]
+    for claim in claims:
+        print(f"  {'holds' if claim.holds else 'DOES NOT HOLD'}: {claim.text}")
+    current = not arguments.quick or page_is_current(name, module)
+    if not current:
+        print(f"  {PAGES / name}.md does not say what its table says: scree-study {name} --page")
+    lost = cells_lost(name, module.STUDY, folder) if arguments.quick else []
+    if lost:
+        print(f"  no longer stable, as {PAGES / name}.csv says: {'; '.join(', '.join(map(_text, cell)) for cell in lost)}")
+    return current and not lost and all(claim.holds for claim in claims)
+
+
+def run_studies(arguments):
+    """0 if all claims hold, 1 else."""
+    if arguments.list:
+        print("\n".join(names_of_studies()))
+        return 0
+    unknown = sorted(set(arguments.names) - {"all", *names_of_studies()})
+    if unknown or not arguments.names:
+        raise ValueError((f"no study {', '.join(unknown)}" if unknown else "name a study, or all") + f"; there are {', '.join(names_of_studies())}")
+    if not arguments.page and not (arguments.program and os.access(arguments.program, os.X_OK)):
+        raise ValueError(f"{arguments.program or 'scree'} is not there: build it (sh doc/quickstart.sh), or name it with --program")
+    arguments.program, arguments.results = pathlib.Path(arguments.program or "").resolve(), arguments.results.resolve()
+    names = names_of_studies() if "all" in arguments.names else arguments.names
+    if len(names) > 1 and not arguments.page:
+        plans = [Plan(name, module_of(name).STUDY, arguments) for name in names]
+        seconds = sum(plan.seconds_left for plan in plans if math.isfinite(plan.seconds_left))
+        print(f"{len(names)} studies, {sum(len(plan.missing) for plan in plans)} runs are missing; {_duration(seconds)}", flush=True)
+    held = [run_study(name, arguments) for name in names]
+    if not arguments.quick:
+        write_index()
+        write_defaults()
+    return 0 if all(held) else 1
+
+
+def main():
+    parser = Command("scree-study", __doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="studies, or all")
+    parser.add_argument("--quick", action="store_true", help="the short version, into results/studies/quick")
+    parser.add_argument("--list", action="store_true", help="names of the studies")
+    parser.add_argument("--page", action="store_true", help="write chart and page again from the table that is there")
+    parser.add_argument("--again", action="store_true", help="repeat runs that are there already")
+    parser.add_argument("--program", type=pathlib.Path, default=program("scree"), help="default: scree of the build, or of the PATH")
+    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results" / "studies", help="folder of the runs; default results/studies")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time where times are not compared; default %(default)d")
+    parser.add_argument("--time-limit", type=float, default=7200., help="longest time of a run, s; default %(default)g")
+    parser.run(run_studies)

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""commands.py BUILD SCREE ELEMENT: what the commands of the Python package in BUILD say of wrong arguments, and which files they write."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CASE = """set End time = 2e-3
+set Output directory = run
+set Bodies = Sand
+subsection Mesh
+  set Cell size = 0.25
+end
+subsection Sand
+  set Region = y < 0.5
+end
+subsection Water
+end
+subsection Output
+  set Interval = 1e-3
+  set Screen = nothing
+end
+"""
+ELEMENT = "set Path = oedometer\nset Final strain = 0.001\nset Number of steps = 5\nset Output directory = element\n"
+
+
+class Commands:
+    """The commands, and what was not as it should be."""
+
+    def __init__(self, build, path):
+        self.build, self.faults = build, []
+        self.environment = {**os.environ, "PATH": path + ":/usr/bin:/bin"}
+
+    def run(self, command, *arguments):
+        return subprocess.run([os.path.join(self.build, command), *arguments], capture_output=True, text=True, check=False, env=self.environment)
+
+    def refuses(self, wanted, command, *arguments):
+        """The command must end with one line that reads as `wanted`."""
+        done = self.run(command, *arguments)
+        error = done.stderr.strip()
+        if done.returncode != 1 or "\n" in error or not re.search(wanted, error):
+            self.faults.append(f"{command} {' '.join(arguments)}: exit code {done.returncode}, {done.stdout}{error}")
+
+    def writes(self, files, command, *arguments):
+        """The command must end well, with these files changed or new and no other one."""
+        before = times_of_files()
+        done = self.run(command, *arguments)
+        changed = {name for name, time in times_of_files().items() if before.get(name) != time}
+        if done.returncode != 0 or changed != set(files):
+            self.faults.append(f"{command} {' '.join(arguments)}: exit code {done.returncode}, wrote {sorted(changed)}, {done.stderr}")
+
+
+def times_of_files():
+    return {str(path): path.stat().st_mtime_ns for path in pathlib.Path(".").rglob("*") if path.is_file()}
+
+
+def check_variants(commands):
+    for entry, wanted in (("Mesh/Cell sise = 0.1", '^scree-variant: there is no entry "Mesh/Cell sise". Did you mean "Mesh/Cell size"'),
+                          ("Cell size = 0.1", 'Did you mean "Mesh/Cell size"'),
+                          ("Soil/Region = 1", 'Did you mean "Sand/Region"'),
+                          ("Mesh/Cell size", 'has no "="')):
+        commands.refuses(wanted, "scree-variant", "case.prm", "new.prm", entry)
+    commands.refuses("^scree-variant: .*no_case.prm", "scree-variant", "no_case.prm", "new.prm", "End time = 1")
+    commands.refuses("^scree-variant: .*no_folder/new.prm", "scree-variant", "case.prm", "no_folder/new.prm", "End time = 1")
+    commands.refuses("is the case itself", "scree-variant", "case.prm", "./case.prm", "End time = 1")
+    commands.refuses('Did you mean "Final strain"', "scree-variant", "element.prm", "new.prm", "Final strian = 1")
+    commands.writes(["new.prm"], "scree-variant", "case.prm", "new.prm", "Sand/Points per cell = 2", "Time step/Courant number = 0.3")
+    # Paths count from the case, also in a variant that lies elsewhere; what names no file stays as it is.
+    for folder in ("base", "new/deep"):
+        pathlib.Path(folder).mkdir(parents=True)
+    pathlib.Path("base/part.prm").write_text("set Dimension = 2\n", encoding="utf-8")
+    pathlib.Path("base/ground.asc").write_text("", encoding="utf-8")
+    pathlib.Path("base/case.prm").write_text("include part.prm\nsubsection Bed\n  set Raster = \\\n    ground.asc # heights\n  set Profile = none.csv\nend\n",
+                                             encoding="utf-8")
+    commands.writes(["new/deep/new.prm"], "scree-variant", "base/case.prm", "new/deep/new.prm", "End time = 1")
+    moved = pathlib.Path("new/deep/new.prm").read_text(encoding="utf-8")
+    for wanted in ("set Dimension = 2\n", "  set Raster = ../../base/ground.asc\n", "  set Profile = none.csv\n"):
+        if wanted not in moved:
+            commands.faults.append(f"scree-variant: no {wanted!r} in {moved}")
+
+
+def check_plot_element(commands):
+    commands.refuses("^scree-plot-element: .*nowhere", "scree-plot-element", "nowhere")
+    commands.refuses("^scree-plot-element: .*run/table.txt has no column strain", "scree-plot-element", "run")
+    commands.writes(["element/element.png"], "scree-plot-element", "element")
+
+
+def check_render(commands):
+    commands.refuses("^scree-render: .*nowhere", "scree-render", "nowhere")
+    commands.refuses("^scree-render: .*No field speed; there are: .*velocity.*\\(points\\).*pressure.*\\(water\\)", "scree-render", "run", "--field", "speed")
+    commands.refuses("^scree-render: --times 0,one: write numbers", "scree-render", "run", "--times", "0,one")
+    for how in ([], ["--animate", "gif"]):
+        commands.refuses("^scree-render: run has no picture at t = 0.0016 s; there are 3, at 0, 0.001, 0.002 s. The next is at 0.002 s", "scree-render", "run",
+                        "--times", "0,0.0016", *how)
+    commands.refuses("^scree-render: --limits 1: write 2 numbers", "scree-render", "run", "--limits", "1")
+    commands.refuses("^scree-render: --panels: there is no panel fronts; there are: .*front", "scree-render", "run", "--panels", "fronts")
+    statistics = "run/statistics.png"
+    commands.writes(["run/points.png", "run/water.png", statistics], "scree-render", "run")
+    commands.writes(["run/points_velocity.png", "run/water_velocity.png", statistics], "scree-render", "run", "--field", "velocity")
+    commands.writes(["run/water_inside_soil_t_0.png", statistics], "scree-render", "run", "--field", "inside_soil", "--times", "0")
+    commands.writes(["mine.png", "mine_statistics.png"], "scree-render", "run", "--collection", "water", "--output", "mine.png")
+    commands.refuses("mine.png is there already", "scree-render", "run", "--collection", "points", "--output", "mine.png")
+    commands.writes(["mine.png", "mine_statistics.png"], "scree-render", "run", "--collection", "points", "--output", "mine.png", "--force")
+    commands.writes(["run/points_t_0.gif", "run/water_t_0.gif"], "scree-render", "run", "--animate", "gif", "--times", "0")
+    commands.writes(["film.gif"], "scree-render", "run", "--animate", "gif", "--collection", "water", "--output", "film.gif")
+    commands.refuses("film.png: a film of --animate gif ends with .gif", "scree-render", "run", "--animate", "gif", "--collection", "water",
+                    "--output", "film.png")
+    if shutil.which("ffmpeg") is None:
+        commands.refuses("--animate mp4: ffmpeg is missing. Install ffmpeg, or write --animate gif", "scree-render", "run", "--animate", "mp4")
+    picture = max(pathlib.Path("run/solution").glob("water*.vtu"))
+    text = picture.read_bytes()
+    picture.write_bytes(text[:len(text) // 2])
+    commands.refuses("^scree-render: .*water.*vtu is damaged", "scree-render", "run", "--collection", "water", "--field", "mass")
+    picture.unlink()
+    commands.refuses("^scree-render: .*water.*vtu is not there", "scree-render", "run", "--collection", "water", "--field", "mass")
+
+
+def check_relief(commands):
+    commands.refuses("^scree-relief: .*nowhere", "scree-relief", "nowhere")
+    commands.refuses("^scree-relief: .*run/maps/deposit.asc", "scree-relief", "run", "--maps", "deposit")
+    pathlib.Path("run/maps").mkdir()
+    grid = pathlib.Path("run/maps/deposit.asc")
+    grid.write_text("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\n0 1\n2\n", encoding="utf-8")
+    commands.refuses("^scree-relief: run/maps/deposit.asc is no ESRI ASCII grid", "scree-relief", "run", "--maps", "deposit")
+    grid.write_text(grid.read_text(encoding="utf-8") + "3\n", encoding="utf-8")
+    commands.writes(["run/relief.png"], "scree-relief", "run", "--maps", "deposit")
+
+
+def check_mountain(commands):
+    """The rasters of prm/terrain are those that the generator makes, to the digits that it writes."""
+    commands.refuses("^scree-mountain: .*case.prm", "scree-mountain", "1", "case.prm/folder")
+    files = [f"mountain/{name}" for name in ("terrain.asc", "release.asc", "case.prm")]
+    commands.writes(files, "scree-mountain", "1", "mountain", "--size", "small")
+    terrain = ROOT / "prm" / "terrain"
+    for shipped, made in (("mountain.asc", files[0]), ("release.asc", files[1])):
+        texts = [path.read_text(encoding="utf-8").split() for path in (terrain / shipped, pathlib.Path(made))]
+        if texts[0][:12] != texts[1][:12] or any(abs(float(a) - float(b)) > 0.011 for a, b in zip(texts[0][12:], texts[1][12:], strict=True)):
+            commands.faults.append(f"{shipped} is not what scree-mountain makes")
+    commands.writes(files, "scree-mountain", "2", "mountain", "--rim", "cut", "--relief", "smooth", "--feature", "cliff", "--cell", "20", "--spacing", "20")
+
+
+def check_others(commands):
+    commands.refuses("^scree-study: no study slope; there are advice, ", "scree-study", "slope")
+    commands.refuses("^scree-study: nowhere/scree is not there: build it", "scree-study", "bar", "--program", "nowhere/scree")
+    commands.refuses("^scree-terrain-bank: --seeds all: write the first and the last", "scree-terrain-bank", "bank", "--seeds", "all")
+    folders = {**commands.environment, "PYTHONPATH": str(ROOT / "source" / "python")}
+    done = subprocess.run([sys.executable, "-S", "-m", "scree", "render", "run"], capture_output=True, text=True, check=False, env=folders)  # -S: no installed packages
+    if done.returncode != 1 or not re.search("^scree: .* has no module .* Install numpy, matplotlib and vtk", done.stderr):
+        commands.faults.append(f"without packages: {done.returncode}, {done.stderr}")
+
+
+def check_help(commands):
+    """Every command has a help that tells about each of its options, and refuses an argument too many in one line."""
+    listed = (ROOT / "source" / "python" / "pyproject.toml").read_text(encoding="utf-8")
+    names = re.findall("^(scree-[a-z-]+) =", listed, re.MULTILINE)
+    for name in names:
+        done = commands.run(name, "--help")
+        if done.returncode != 0 or re.search(r"^  -\S+( [A-Z_{]\S*)?$\n(?! {10})", done.stdout, re.MULTILINE):
+            commands.faults.append(f"{name} --help: exit code {done.returncode}, an option without a word: {done.stdout}")
+        commands.refuses(f"^{name}: .*--help lists the arguments", name, "--no-such-option")
+
+
+def main():
+    build, scree, element = sys.argv[1:]
+    for path in pathlib.Path(".").iterdir():
+        (shutil.rmtree if path.is_dir() else os.remove)(path)
+    pathlib.Path("case.prm").write_text(CASE, encoding="utf-8")
+    pathlib.Path("element.prm").write_text(ELEMENT, encoding="utf-8")
+    subprocess.run([scree, "case.prm"], check=True)
+    subprocess.run([element, "element.prm"], check=True, capture_output=True)
+    pathlib.Path("run/table.txt").write_text("a b\n1 2\n", encoding="utf-8")
+    commands = Commands(build, os.path.dirname(scree))
+    check_variants(commands)
+    check_plot_element(commands)
+    check_render(commands)
+    check_relief(commands)
+    check_mountain(commands)
+    check_others(commands)
+    check_help(commands)
+    print("\n".join(commands.faults) or "all as they should be")
+    sys.exit(bool(commands.faults))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the package reads: tables, rasters."""
+
+import pathlib
+
+import numpy as np
+
+from scree.results import column, read_raster, read_statistics, read_table, write_raster
+
+
+def raises(kind, text, function, *arguments):
+    try:
+        function(*arguments)
+    except kind as error:
+        assert text in str(error), error
+    else:
+        raise AssertionError(f"{function.__name__}{arguments} throws nothing")
+
+
+def test_tables():
+    head = "# 1: Time (s)\n# 2: Front 90 % (m)\n"
+    pathlib.Path("statistics").write_text(head + "0 1.5\n\n0.1 nan\n0.2 1.7 9\n0.3", encoding="utf-8")  # a row too long, one that is being written
+    table = read_statistics(".")
+    assert list(table) == ["Time (s)", "Front 90 % (m)"]
+    np.testing.assert_array_equal(table["Time (s)"], [0., 0.1, 0.2])
+    np.testing.assert_array_equal(column(table, "Front 90 % (m)"), [1.5, np.nan, 1.7])
+    raises(KeyError, "there are: Time (s), Front 90 % (m)", column, table, "Front (m)")
+    pathlib.Path("empty").write_text(head, encoding="utf-8")
+    assert [len(values) for values in read_table("empty").values()] == [0, 0]
+
+
+def test_rasters():
+    heights = np.array([[1., 2., 3.], [4., -9999., 6.]])  # the southern row first
+    write_raster("heights.asc", heights, 10.)
+    raster = read_raster("heights.asc")
+    np.testing.assert_array_equal(raster.values, [[4., np.nan, 6.], [1., 2., 3.]])
+    assert raster.extent == (-5., 25., -5., 15.)
+    pathlib.Path("short.asc").write_text("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n", encoding="utf-8")
+    raises(ValueError, "short.asc is no ESRI ASCII grid", read_raster, "short.asc")
+
+
+test_tables()
+test_rasters()
