@@ -50,7 +50,7 @@ namespace scree
     }
 
 
-    std::vector<Triangle> read_text(const std::string &content, const std::string &name)
+    std::vector<Triangle> read_ascii(const std::string &content, const std::string &name)
     {
       std::vector<Triangle> triangles;
       std::istringstream lines(content);
@@ -114,6 +114,6 @@ namespace scree
       throw EntryError(name +
                        "it is no STL file: it neither begins with \"solid\" nor is as long as a binary one with its "
                        "number of triangles. Export the surface as STL.");
-    return read_text(content, name);
+    return read_ascii(content, name);
   }
 } // namespace scree
