@@ -276,7 +276,7 @@ namespace
     std::unique_ptr<CaseFolder> files;
     if (rank == 0)
       files = std::make_unique<CaseFolder>(source, folder);
-    std::string faults;
+    std::vector<std::string> failed;
     for (const Case &one : cases)
       {
         if (rank == 0)
@@ -292,7 +292,10 @@ namespace
             for (const std::string &text : texts)
               got += text;
             if (const std::string fault = fault_of(source / (one.name + ".expected"), codes, got); !fault.empty())
-              faults += "\n" + one.name + ": " + fault;
+              {
+                std::cout << fault << std::flush;
+                failed.push_back(one.name);
+              }
             files->restore();
           }
       }
@@ -301,13 +304,14 @@ namespace
       {
         constexpr unsigned int fewest_cases = 300;
         if (cases.size() < fewest_cases)
-          faults += "\nOnly " + std::to_string(cases.size()) + " cases were found in " + source.string() + ".\n";
+          failed.push_back("the number of cases, " + std::to_string(cases.size()));
         for (const std::string &name : left_over(source, cases))
-          faults += "\nNo case belongs to " + name + ".\n";
-        std::cout << faults << '\n'
-                  << cases.size() << " cases, " << (faults.empty() ? "all as expected" : "FAILED") << '\n';
+          failed.push_back(name + ", to which no case belongs");
+        std::cout << '\n' << cases.size() << " cases, " << failed.size() << " not as expected:\n";
+        for (const std::string &name : failed)
+          std::cout << "  " << name << '\n';
       }
-    return broadcast(MPI_COMM_WORLD, faults.empty() ? 0 : 1);
+    return broadcast(MPI_COMM_WORLD, failed.empty() ? 0 : 1);
   }
 } // namespace
 
