@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# shellcheck shell=sh
+#
 # Everything between a fresh Debian 12 and a build: packages, environment, build/. Called (sh doc/setup.sh) or sourced by
 # doc/quickstart.sh and tests/run.sh; leaves the variable `root` (this repository) and the function configure_scree behind.
+# Installs the packages in the variable test_packages, too.
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 if [ ! -f "$root/doc/setup.sh" ]; then
@@ -10,7 +13,7 @@ fi
 
 # Packages -------------------------------------------------------------------------------------------------------------
 
-packages="libdeal.ii-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy"
+packages="libdeal.ii-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy${test_packages:+ $test_packages}"
 
 missing_packages()
 {
