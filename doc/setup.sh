@@ -97,12 +97,16 @@ compile_jobs()
 CMAKE_BUILD_PARALLEL_LEVEL=$(compile_jobs)
 export CMAKE_BUILD_PARALLEL_LEVEL
 
-# configure_scree FOLDER TYPE: FOLDER is relative to the root, TYPE is Release or Debug.
+# configure_scree FOLDER TYPE [OPTION...]: FOLDER is relative to the root, TYPE is Release or Debug.
 configure_scree()
 {
+  folder=$1
+  type=$2
+  shift 2
   generator=
-  [ -f "$root/$1/CMakeCache.txt" ] || generator=-GNinja
-  cmake -S "$root" -B "$root/$1" ${generator:+"$generator"} -DCMAKE_BUILD_TYPE="$2" ${CI:+-DSCREE_WARNINGS_AS_ERRORS=ON}
+  [ -f "$root/$folder/CMakeCache.txt" ] || generator=-GNinja
+  cmake -S "$root" -B "$root/$folder" ${generator:+"$generator"} -DCMAKE_BUILD_TYPE="$type" \
+    ${CI:+-DSCREE_WARNINGS_AS_ERRORS=ON} "$@"
 }
 
 configure_scree build Release && cmake --build "$root/build" --target scree || exit 1
