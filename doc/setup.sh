@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# shellcheck shell=sh
+#
 # Everything between a fresh Debian 12 and a build: packages, environment, build/. Called (sh doc/setup.sh) or sourced by
 # doc/quickstart.sh and tests/run.sh; leaves the variable `root` (this repository) and the function configure_scree behind.
+# Installs the packages in the variable test_packages, too.
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 if [ ! -f "$root/doc/setup.sh" ]; then
@@ -10,7 +13,7 @@ fi
 
 # Packages -------------------------------------------------------------------------------------------------------------
 
-packages="libdeal.ii-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy"
+packages="libdeal.ii-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy${test_packages:+ $test_packages}"
 
 missing_packages()
 {
@@ -94,12 +97,16 @@ compile_jobs()
 CMAKE_BUILD_PARALLEL_LEVEL=$(compile_jobs)
 export CMAKE_BUILD_PARALLEL_LEVEL
 
-# configure_scree FOLDER TYPE: FOLDER is relative to the root, TYPE is Release or Debug.
+# configure_scree FOLDER TYPE [OPTION...]: FOLDER is relative to the root, TYPE is Release or Debug.
 configure_scree()
 {
+  folder=$1
+  type=$2
+  shift 2
   generator=
-  [ -f "$root/$1/CMakeCache.txt" ] || generator=-GNinja
-  cmake -S "$root" -B "$root/$1" ${generator:+"$generator"} -DCMAKE_BUILD_TYPE="$2" ${CI:+-DSCREE_WARNINGS_AS_ERRORS=ON}
+  [ -f "$root/$folder/CMakeCache.txt" ] || generator=-GNinja
+  cmake -S "$root" -B "$root/$folder" ${generator:+"$generator"} -DCMAKE_BUILD_TYPE="$type" \
+    ${CI:+-DSCREE_WARNINGS_AS_ERRORS=ON} "$@"
 }
 
 configure_scree build Release && cmake --build "$root/build" --target scree || exit 1

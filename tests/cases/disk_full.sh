@@ -28,7 +28,7 @@ full()
     ulimit -f "$2"
     export PMIX_MCA_gds=hash OMPI_MCA_btl=self # Open MPI without files of its own
     code=0
-    "$scree" "$1" $3 >screen 2>error || code=$?
+    "$scree" "$1" ${3:+"$3"} >screen 2>error || code=$?
     echo $code >code
   )
 }

@@ -12,15 +12,15 @@ case=$cases/$3.prm
 # run NAME RANKS CASE: in a folder of that name
 run()
 {
-  rm -rf $1
-  mkdir $1
-  (cd $1 && $launcher $2 "$scree" "$3" >screen)
+  rm -rf "$1"
+  mkdir "$1"
+  (cd "$1" && $launcher "$2" "$scree" "$3" >screen)
 }
 
 compare()
 {
   echo "$1 and $2:"
-  "$PYTHON" "$cases/compare_statistics.py" $1/results/statistics $2/results/statistics $3
+  "$PYTHON" "$cases/compare_statistics.py" "$1"/results/statistics "$2"/results/statistics "$3"
 }
 
 sed 's/set Cell size/set Fine cells = everywhere\n  set Cell size/' "$case" >everywhere.prm

@@ -7,9 +7,9 @@ cases=$(dirname -- "$0")
 scree=$1
 launcher=$2 # several words
 for ranks in 1 ${5:-2}; do
-  mkdir -p $ranks
-  (cd $ranks && $launcher $ranks "$scree" "$cases/$3.prm" >screen)
+  mkdir -p "$ranks"
+  (cd "$ranks" && $launcher "$ranks" "$scree" "$cases/$3.prm" >screen)
 done
 for ranks in ${5:-2}; do
-  "$PYTHON" "$cases/compare_statistics.py" 1/results/statistics $ranks/results/statistics "$4"
+  "$PYTHON" "$cases/compare_statistics.py" 1/results/statistics "$ranks"/results/statistics "$4"
 done

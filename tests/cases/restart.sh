@@ -13,15 +13,15 @@ case=$cases/$3.prm
 stop_and_go()
 {
   folder=${1}_to_$2
-  rm -rf $folder
-  mkdir $folder
-  cd $folder
-  $launcher $1 "$scree" "$case" >screen
+  rm -rf "$folder"
+  mkdir "$folder"
+  cd "$folder"
+  $launcher "$1" "$scree" "$case" >screen
   cp results/statistics whole
-  $launcher $2 "$scree" "$case" --resume >screen
+  $launcher "$2" "$scree" "$case" --resume >screen
   grep -q Resumed results/log.txt
   echo "$1 to $2 ranks:"
-  "$PYTHON" "$cases/compare_statistics.py" whole results/statistics $3
+  "$PYTHON" "$cases/compare_statistics.py" whole results/statistics "$3"
   cd ..
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A manufactured solution at large strain: in a closed box of side 1 m, points swing by up to 0.1 m along both axes, 0.8 to 6.4 cells, under a body
-force that makes the motion exact (as `tests/unit/order_manufactured`, at 0.6 s). Points cross cells all the time. Error: rms over velocity and
+force that makes the motion exact (as `unit/order_manufactured`, at 0.6 s). Points cross cells all the time. Error: rms over velocity and
 stress of their relative L2 errors over the points; velocities are those of half a step before, as symplectic Euler has them. Methods differ from
 the program's defaults (splines, FLIP with a PIC rate of 1 1/s, 4 x 4 points a cell, Courant number 0.6), here without F-bar, in one thing."""
 

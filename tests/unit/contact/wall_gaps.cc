@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Walls of a wet scene and what falls on them: which walls act where a point has reached one, two or no wall; that they
+// act on what is slow; the speed at which a gap closes within a step; a full cell has no gap; a gate holds whatever is
+// near; afterwards all walls act again; points just outside come back, through closed faces only; the same on 1 and 2
+// ranks.
+
+#include "../expect.h"
+
+#include <scree/seeding/water_seeding.h>
+#include <scree/boundary/clamp_to_box.h>
+#include <scree/boundary/wall_gaps.h>
+#include <scree/transfer/water_transfer.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+#include "../unit_test.h"
+
+namespace test_wall_gaps
+{
+using namespace dealii;
+using namespace scree;
+
+/// A box of 8 x 8 cells, 1 m wide, all of whose walls are fixed, with 2 points a cell along each axis: a point reaches
+/// .3 cells.
+struct Box
+{
+  static constexpr double h = 0.125, reach = 0.3 * h;
+
+  Box()
+      : grid(parameters(), MPI_COMM_WORLD)
+      , walls(grid, boundaries())
+      , water_walls(grid, WaterBoundaryParameters())
+      , constraints(grid, walls, &water_walls)
+      , gaps(grid, constraints)
+      , points(grid.triangulation(), grid.mapping(), 1)
+      , soil(grid)
+      , water(grid)
+      , forcing(grid, { 0., -10. }, BodyForceParameters(), BaseMotionParameters())
+  {
+    forcing.set_start();
+    gaps.add({ &soil, &water });
+  }
+
+  static GridParameters parameters()
+  {
+    GridParameters result;
+    result.upper_corner = { 1., 1. };
+    result.cell_size    = h;
+    return result;
+  }
+
+  static BoundaryParameters boundaries()
+  {
+    BoundaryParameters result;
+    for (std::string *wall : { &result.left, &result.right, &result.bottom, &result.top })
+      *wall = "fixed";
+    return result;
+  }
+
+  /// A point, m, whichever rank has its cell; all nodes around it move at `velocity`, m/s, with 3 kg of soil and 1 kg
+  /// of water.
+  void add(const Point<2> &x, const Tensor<1, 2> &velocity)
+  {
+    for (const auto &cell : grid.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && cell->bounding_box().point_inside(x))
+        points.add(cell, x, 0, { 0. });
+    points.finish_adding();
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      {
+        soil[node][NodalField<2>::mass]  = 3.;
+        water[node][NodalField<2>::mass] = 1.;
+        for (unsigned int c = 0; c < 2; ++c)
+          {
+            soil[node][NodalField<2>::momentum + c]  = 3. * velocity[c];
+            water[node][NodalField<2>::momentum + c] = velocity[c];
+          }
+      }
+  }
+
+  /// @param mixture whose cells are looked at, too; may be null
+  void release(const double time_step, const Mixture<2> *mixture = nullptr)
+  {
+    gaps.clear();
+    gaps.add(points, h / 2);
+    if (mixture)
+      gaps.add(*mixture);
+    gaps.release(forcing, time_step);
+  }
+
+  /// Nodes of all ranks that walls hold, and the sum of their velocities towards walls.
+  std::pair<unsigned int, Tensor<1, 2>> held() const
+  {
+    unsigned int n = 0;
+    Tensor<1, 2> sum;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      {
+        n += constraints.at(node) != nullptr;
+        sum += gaps.closing_velocity(node);
+      }
+    return { Utilities::MPI::sum(n, MPI_COMM_WORLD), Utilities::MPI::sum(sum, MPI_COMM_WORLD) };
+  }
+
+  BackgroundGrid<2> grid;
+  const BoundaryConditions<2> walls;
+  const WaterBoundaryConditions<2> water_walls;
+  Constraints<2> constraints;
+  WallGaps<2> gaps;
+  PointSet<2> points;
+  NodalField<2> soil, water;
+  BodyForces<2> forcing;
+};
+
+void run()
+{
+  const bool tells   = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  constexpr double h = Box::h, dt = 1e-3, fall = 10. * dt;
+  const Tensor<1, 2> rest;
+  const unsigned int n_all = Box().held().first;
+  if (tells)
+    std::cout << n_all << " nodes on walls" << std::endl;
+
+  // Cells without points tell of no gap: their walls are far from the nodes.
+  const auto test = [&](const std::string &what,
+                        const Point<2> &x,
+                        const Tensor<1, 2> &velocity,
+                        const unsigned int n_held,
+                        const Tensor<1, 2> &closing) {
+    Box box;
+    box.add(x, velocity);
+    box.release(dt);
+    const auto [n, sum] = box.held();
+    expect(n, n_held, 0., what + ": held nodes");
+    expect((sum - closing).norm(), 0., 1e-10, what + ": error of the closing velocities");
+    box.gaps.clear();
+    expect(box.held().first, n_all, 0., what + ": held nodes afterwards");
+    if (tells)
+      std::cout << what << ": " << n << " held" << std::endl;
+  };
+  const double middle = 3.5 * h;
+  const Tensor<1, 2> down({ 0., -2. }), down_left({ -2., -2. });
+  test("at rest", Point<2>(middle, middle), rest, n_all, rest);
+  test("as after a fall through less than an eighth of a cell", Point<2>(middle, middle), 0.25 * down, n_all, rest);
+  test("through more", Point<2>(middle, middle), 0.3 * down, n_all - 8, rest);
+  test("a point falls", Point<2>(middle, middle), down, n_all - 8, rest);
+  test("a point falls, not far above the bottom", Point<2>(middle, 0.9 * h), down, n_all - 8, rest);
+  test("a point that has reached the bottom", Point<2>(middle, 0.25 * h), down, n_all - 8 + 3, rest);
+  test("a point flies into a corner", Point<2>(middle, middle), down_left, 19, rest);
+  test("a point in the corner", Point<2>(0.2 * h, 0.2 * h), down_left, 19 + 5, rest);
+  test("a point on the bottom beside a wall", Point<2>(0.9 * h, 0.2 * h), down_left, 19 + 3, rest);
+  // One that would come through its gap of .1 cells within the step is let as far as that.
+  const double gap = 0.1 * h, limit = gap / dt;
+  const auto velocity = [&](const double of_limit) { return Tensor<1, 2>({ 0., of_limit * limit + fall }); };
+  const Tensor<1, 2> sum({ 0., 3. * limit });
+  test("it closes its gap", Point<2>(middle, Box::reach + gap), velocity(-1.01), n_all - 8 + 3, -sum);
+  test("it does not", Point<2>(middle, Box::reach + gap), velocity(-0.99), n_all - 8, rest);
+  test("it closes its gap at the top", Point<2>(middle, 1. - Box::reach - gap), velocity(1.01), n_all - 8 + 3, sum);
+
+  // Water below it, whose points are not looked at: cells that are full of it have no gap.
+  const auto test_fill = [&](const std::string &region, const unsigned int n_held) {
+    Box box;
+    WaterParameters parameters;
+    parameters.region          = region;
+    parameters.points_per_cell = 20;
+    WaterPhase<2> phase(1000., false, box.grid.triangulation(), box.grid.mapping());
+    seed_water(phase, parameters, {}, box.grid.triangulation(), h);
+    const WaterTransfer<2> transfer(box.grid, TransferParameters(), parameters, 1.);
+    Mixture<2> mixture(box.grid, 2);
+    PoreField<2> pores(box.grid);
+    NodalField<2> field(box.grid);
+    transfer.to_grid(phase, mixture, field, pores);
+    mixture.finish();
+    box.add({ middle, middle }, down);
+    box.release(dt, &mixture);
+    const unsigned int n = box.held().first;
+    expect(n, n_held, 0., region + ": held nodes");
+    if (tells)
+      std::cout << "water in " << region << ": " << n << " held" << std::endl;
+  };
+  test_fill("y < " + std::to_string(0.85 * h), n_all - 8);
+  test_fill("y < " + std::to_string(0.95 * h), n_all);
+  // The two full cells hold four of these nodes.
+  test_fill("x > " + std::to_string(3 * h) + " && x < " + std::to_string(5 * h) + " && y < " + std::to_string(0.95 * h),
+            n_all - 8 + 4);
+
+  Box gated;
+  gated.constraints.close_gate(std::make_unique<Region<2>>("gate", "y < 0.01"));
+  gated.add({ middle, middle }, down);
+  gated.release(dt);
+  expect(gated.held().first, n_all, 0., "nodes that a gate and walls hold");
+  if (tells)
+    std::cout << "gate: OK" << std::endl;
+
+  // By default the top is drained.
+  const auto test_hold =
+      [&](const std::string &what, const Point<2> &start, const Point<2> &moved, const Point<2> &end) {
+        Box box;
+        box.add(start, rest);
+        for_each_point(box.points, [&](const auto &point) { point.location = moved; });
+        clamp_to_box(box.grid, box.water_walls.closed_faces(), box.points);
+        double error = 0;
+        for_each_point(box.points, [&](const auto &point) { error = point.location.distance(end); });
+        expect(Utilities::MPI::max(error, MPI_COMM_WORLD), 0., 2e-6 * h, what + ": error of the place");
+        if (tells)
+          std::cout << what << ": OK" << std::endl;
+      };
+  const double low = 0.5 * h, out = 0.09 * h, far_out = 0.11 * h;
+  test_hold("below the bottom", { middle, low }, { middle, -out }, { middle, 0. });
+  test_hold("beyond a corner", { 1. - low, low }, { 1. + out, -out }, { 1., 0. });
+  test_hold("far below the bottom", { middle, low }, { middle, -far_out }, { middle, -far_out });
+  test_hold("above the drained top", { middle, 1. - low }, { middle, 1. + out }, { middle, 1. + out });
+  test_hold("inside", { middle, low }, { middle, 1e-3 * h }, { middle, 1e-3 * h });
+}
+
+const UnitTest registered("wall_gaps", run);
+} // namespace test_wall_gaps

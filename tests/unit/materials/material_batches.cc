@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Laws in batches against the same laws point by point, at random and odd states; what comes out of a point is the same
+// to the last bit wherever it stands among the others. Argument: states of each kind.
+
+#include <scree/materials/batch_material.h>
+#include <scree/materials/laws/linear_elastic.h>
+#include <scree/materials/laws/mohr_coulomb_return.h>
+#include <scree/materials/laws/nor_sand_return.h>
+#include <scree/materials/principal_batch_material.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "../random_numbers.h"
+
+#include "../unit_test.h"
+
+namespace test_material_batches
+{
+using namespace dealii;
+using namespace scree;
+
+/// Records of points and their motion over a step.
+template <int dim>
+struct States
+{
+  static constexpr unsigned int n_components = n_symmetric_components<dim>;
+  static constexpr unsigned int stride       = 2 * n_components + 3; // one is not the law's
+
+  explicit States(const unsigned int n)
+      : records(n * stride, 7.)
+      , increment(n)
+      , stretch(n, 1.)
+      , volume_ratio(n)
+      , reference_volume(n)
+  {
+  }
+
+  double *record(const unsigned int p)
+  {
+    return &records[p * stride];
+  }
+
+  /// Updates `n` points from `first` on, which `slots` names.
+  UpdateReport update(const Material<dim> &material,
+                      const std::vector<unsigned int> &slots,
+                      const unsigned int first,
+                      unsigned int n)
+  {
+    std::vector<double> F(dim * dim * n), zz, J, V0;
+    for (unsigned int i = first; i < first + n; ++i)
+      {
+        for (unsigned int c = 0; c < dim * dim; ++c)
+          F[c * n + i - first] = increment[slots[i]][c / dim][c % dim];
+        zz.push_back(stretch[slots[i]]);
+        J.push_back(volume_ratio[slots[i]]);
+        V0.push_back(reference_volume[slots[i]]);
+      }
+    UpdateReport report;
+    material.update({ n, stride, record(0), record(0) + n_components, record(0) + 2 * n_components, &slots[first] },
+                    { F.data(), zz.data(), J.data(), V0.data(), n },
+                    report);
+    return report;
+  }
+
+  std::vector<double> records;
+  std::vector<Tensor<2, dim>> increment;
+  std::vector<double> stretch, volume_ratio, reference_volume;
+};
+
+
+/// What random states are like.
+struct Kind
+{
+  std::string name;
+  double smallest_increment, largest_increment;
+  double smallest_pressure, largest_pressure; // Pa
+  double largest_ratio;                       // q/P
+  double overconsolidation;
+  double share_of_quick; // whose increments are larger by the factor that needs sub-steps
+};
+
+
+template <int dim>
+void set_random(States<dim> &states, const Material<dim> &material, const Kind &kind, RandomNumbers &random)
+{
+  for (unsigned int p = 0; p < states.increment.size(); ++p)
+    {
+      double deviator[6], square = 0, stress[6];
+      for (unsigned int c = 0; c < states.n_components; ++c)
+        deviator[c] = random.uniform(-1, 1);
+      const double mean = (deviator[0] + deviator[1] + deviator[2]) / 3;
+      for (unsigned int c = 0; c < states.n_components; ++c)
+        {
+          deviator[c] -= c < 3 ? mean : 0;
+          square += (c < 3 ? 1. : 2.) * deviator[c] * deviator[c];
+        }
+      const double pressure = random.log_uniform(kind.smallest_pressure, kind.largest_pressure);
+      const double q        = pressure * random.uniform(0, kind.largest_ratio);
+      for (unsigned int c = 0; c < states.n_components; ++c)
+        stress[c] = (c < 3 ? -pressure : 0.) + deviator[c] * q / std::sqrt(1.5 * square);
+      double *record = states.record(p);
+      material.initialise(stress, record, record + states.n_components, record + 2 * states.n_components);
+      record[2 * states.n_components] *= random.uniform(1, kind.overconsolidation);
+
+      double size = random.log_uniform(kind.smallest_increment, kind.largest_increment);
+      if (random.uniform(0, 1) < kind.share_of_quick)
+        size *= 20;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          states.increment[p][i][j] = (i == j ? 1. : 0.) + size * random.uniform(-1, 1);
+      if (dim == 2)
+        states.stretch[p] = 1 + 0.2 * size * random.uniform(-1, 1);
+      states.volume_ratio[p]     = random.log_uniform(0.9, 1.2);
+      states.reference_volume[p] = random.log_uniform(1e-4, 1e-2);
+    }
+}
+
+
+/// The largest difference of two sets of records: of b, stress over its size and a pascal, internal variables.
+template <int dim>
+double difference(const States<dim> &a, const States<dim> &b)
+{
+  constexpr unsigned int n = States<dim>::n_components;
+  double largest           = 0;
+  for (unsigned int p = 0; p < a.increment.size(); ++p)
+    {
+      const double *x = &a.records[p * a.stride], *y = &b.records[p * a.stride];
+      double size = 1;
+      for (unsigned int c = 0; c < n; ++c)
+        size = std::max(size, std::abs(x[n + c]));
+      for (unsigned int c = 0; c < a.stride; ++c)
+        {
+          const double scale = c < n ? 1e-3 : c < 2 * n ? size : std::max(std::abs(x[c]), 1e-3);
+          const double error = std::abs(x[c] - y[c]) / scale;
+          AssertThrow(std::isfinite(error), ExcMessage("not a number"));
+          largest = std::max(largest, error);
+        }
+    }
+  return largest;
+}
+
+
+template <int dim>
+void compare_reports(const UpdateReport &one, const UpdateReport &batch, const std::string &name)
+{
+  const auto agree = [](const double a, const double b) { return std::abs(a - b) <= 1e-8 * (std::abs(a) + 1e-30); };
+  AssertThrow(one.n_updates == batch.n_updates && one.n_substeps == batch.n_substeps &&
+                  one.n_separated == batch.n_separated && one.n_vertices == batch.n_vertices &&
+                  one.n_fallbacks == batch.n_fallbacks && one.n_unresolved == batch.n_unresolved,
+              ExcMessage(name + ": counts differ"));
+  AssertThrow(agree(one.largest_bulk_modulus, batch.largest_bulk_modulus) &&
+                  agree(one.largest_compression, batch.largest_compression) &&
+                  agree(one.plastic_dissipation, batch.plastic_dissipation),
+              ExcMessage(name + ": sums differ: " + std::to_string(one.largest_compression) + ' ' +
+                         std::to_string(batch.largest_compression) + ", " + std::to_string(one.plastic_dissipation) +
+                         ' ' + std::to_string(batch.plastic_dissipation)));
+}
+
+
+/// Batches of any size, in any order: bit by bit the same.
+template <int dim>
+void test_places(const Material<dim> &material,
+                 const States<dim> &start,
+                 const States<dim> &expected,
+                 const std::string &name,
+                 RandomNumbers &random)
+{
+  const unsigned int n = std::min<unsigned int>(start.increment.size(), 4000);
+  std::vector<unsigned int> slots(n);
+  for (unsigned int p = 0; p < n; ++p)
+    slots[p] = p;
+  for (unsigned int p = 0; p < n; ++p)
+    std::swap(slots[p], slots[static_cast<unsigned int>(random.uniform(0, n))]);
+  States<dim> states = start;
+  for (unsigned int first = 0, size = 1; first < n; first += size, size = size % 19 + 1)
+    states.update(material, slots, first, std::min(size, n - first));
+  AssertThrow(std::equal(states.records.begin(), states.records.begin() + n * states.stride, expected.records.begin()),
+              ExcMessage(name + ": a point depends on its place"));
+}
+
+
+template <int dim, template <int, typename> class Batches = BatchMaterial, typename Law>
+void test(const Law &law, const Kind &kind, const unsigned int n, const double bound, RandomNumbers &random)
+{
+  const HenckyMaterial<dim, Law> one_by_one(law);
+  const Batches<dim, Law> in_batches(law);
+  const std::string name = std::to_string(dim) + "D, " + kind.name;
+
+  States<dim> start(n);
+  set_random(start, one_by_one, kind, random);
+  std::vector<unsigned int> slots(n);
+  for (unsigned int p = 0; p < n; ++p)
+    slots[p] = p;
+  States<dim> one = start, batch = start;
+  const UpdateReport report_of_one = one.update(one_by_one, slots, 0, n);
+  compare_reports<dim>(report_of_one, batch.update(in_batches, slots, 0, n), name);
+  const double error = difference(one, batch);
+  if (n > 100000)
+    std::cout << name << ": " << error << ", fallbacks " << report_of_one.n_fallbacks << ", separated "
+              << report_of_one.n_separated << ", sub-steps " << report_of_one.n_substeps << std::endl;
+  AssertThrow(error < bound, ExcMessage(name + ": differs by " + std::to_string(error)));
+  test_places(in_batches, start, batch, name, random);
+  std::cout << name << ": OK" << std::endl;
+}
+
+
+template <int dim>
+void test_laws(const unsigned int n, RandomNumbers &random)
+{
+  const LinearElastic elastic{ LinearElasticParameters() };
+  test<dim>(elastic, { "elastic, small strain", 1e-9, 1e-3, 1e2, 1e5, 1, 1, 0 }, n, 1e-9, random);
+  test<dim>(elastic, { "elastic, large strain", 1e-3, 0.3, 1e2, 1e6, 1, 1, 0 }, n, 1e-9, random);
+
+  NorSandParameters parameters;
+  const NorSand sand(parameters);
+  test<dim>(sand, { "sand, inside the yield surface", 1e-9, 1e-6, 1e3, 1e5, 0.5, 3, 0 }, n, 1e-8, random);
+  test<dim>(sand, { "sand, yielding", 1e-6, 9e-4, 1e3, 1e5, 1, 1, 0 }, n, 1e-8, random);
+  test<dim>(sand, { "sand, mixed with sub-steps", 1e-7, 9e-4, 1e3, 1e5, 1, 1.5, 0.2 }, n, 1e-7, random);
+  test<dim>(sand, { "sand, pulled apart and to the vertex", 1e-5, 9e-4, 1., 1e3, 0.5, 1, 0.05 }, n, 1e-7, random);
+  parameters.potential_constant = parameters.yield_constant = 0;
+  test<dim>(NorSand(parameters), { "N = 0", 1e-6, 9e-4, 1e3, 1e5, 0.5, 1, 0.05 }, n, 1e-7, random);
+}
+
+
+template <int dim>
+void test_mohr_coulomb(const unsigned int n, RandomNumbers &random)
+{
+  const auto test_law = [&](const MohrCoulombParameters &parameters, const Kind &kind) {
+    test<dim, PrincipalBatchMaterial>(MohrCoulomb(parameters), kind, n, 1e-8, random);
+  };
+  MohrCoulombParameters parameters;
+  test_law(parameters, { "Mohr-Coulomb, inside the yield surface", 1e-9, 1e-6, 1e4, 1e6, 0.3, 1, 0 });
+  test_law(parameters, { "Mohr-Coulomb, faces, edges, pulled apart", 1e-5, 0.01, 1e2, 1e5, 0.8, 1, 0.1 });
+  test_law(parameters, { "Mohr-Coulomb, nearly isotropic", 1e-12, 1e-3, 1e3, 1e5, 1e-9, 1, 0 });
+  parameters.dilation_angle = 15;
+  parameters.cohesion       = 1e3;
+  test_law(parameters, { "Mohr-Coulomb, psi, c, no tension", 1e-5, 0.01, 1e2, 1e5, 0.8, 1, 0.1 });
+  parameters.tension_cut_off = 500;
+  test_law(parameters, { "Mohr-Coulomb, cut-off", 1e-6, 0.01, 1e2, 1e4, 0.8, 1, 0.1 });
+  parameters.friction_angle = parameters.dilation_angle = 0;
+  test_law(parameters, { "Mohr-Coulomb, no friction", 1e-6, 0.01, 1e2, 1e3, 1, 1, 0.1 });
+}
+
+
+/// Denormal numbers, exact unity, and one point alone.
+template <int dim, template <int, typename> class Batches, typename Law>
+void test_odd(const Law &law)
+{
+  const HenckyMaterial<dim, Law> one_by_one(law);
+  const Batches<dim, Law> in_batches(law);
+  States<dim> start(3);
+  for (unsigned int p = 0; p < 3; ++p)
+    {
+      double stress[6] = { -1e3, -1e3, -1e3 }, *record = start.record(p);
+      if (p == 2)
+        stress[3] = 5e-324;
+      one_by_one.initialise(stress, record, record + start.n_components, record + 2 * start.n_components);
+      start.increment[p]       = unit_symmetric_tensor<dim>();
+      start.increment[p][0][1] = p == 1 ? 5e-324 : 0.;
+      start.volume_ratio[p] = start.reference_volume[p] = 1.;
+    }
+  States<dim> one = start, batch = start;
+  const std::vector<unsigned int> slots = { 0, 1, 2 };
+  one.update(one_by_one, slots, 0, 3);
+  for (unsigned int p = 0; p < 3; ++p)
+    batch.update(in_batches, slots, p, 1);
+  AssertThrow(difference(one, batch) < 1e-12, ExcMessage("odd states"));
+}
+
+
+template <int dim>
+void test_odd()
+{
+  test_odd<dim, BatchMaterial>(NorSand{ NorSandParameters() });
+  test_odd<dim, PrincipalBatchMaterial>(MohrCoulomb{ MohrCoulombParameters() });
+  std::cout << dim << "D, odd states: OK" << std::endl;
+}
+
+
+void run()
+{
+  constexpr unsigned int n = 20000;
+  RandomNumbers random;
+  test_laws<2>(n, random);
+  test_laws<3>(n, random);
+  test_mohr_coulomb<2>(n, random);
+  test_mohr_coulomb<3>(n, random);
+  test_odd<2>();
+  test_odd<3>();
+}
+
+const UnitTest registered("material_batches", run);
+} // namespace test_material_batches

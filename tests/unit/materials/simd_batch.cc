@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Functions of a batch: to rounding, lane by lane whatever the other lanes hold, and as the C library's at odd input.
+
+#include <scree/simd/lane_rows.h>
+#include <scree/simd/pair.h>
+#include <scree/simd/records.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <iostream>
+#include <vector>
+
+#include "../random_numbers.h"
+
+#include "../unit_test.h"
+
+namespace test_simd_batch
+{
+using namespace dealii;
+using namespace scree;
+
+/// Distance from the exact value in units of the last place.
+double ulps(const double value, const long double exact)
+{
+  const double rounded = std::abs(static_cast<double>(exact));
+  const double unit    = std::nextafter(rounded, std::numeric_limits<double>::infinity()) - rounded;
+  return static_cast<double>(std::abs(static_cast<long double>(value) - exact) / unit);
+}
+
+
+template <typename Function, typename ScalarFunction, typename Exact>
+void test_accuracy(const std::string &name,
+                   const Function &function,
+                   const ScalarFunction &scalar,
+                   const Exact &exact,
+                   const double bound,
+                   const std::vector<double> &arguments)
+{
+  double worst = 0;
+  for (std::size_t i = 0; i + batch_size <= arguments.size(); i += batch_size)
+    {
+      const Batch value = function(simd::load(&arguments[i]));
+      for (unsigned int l = 0; l < batch_size; ++l)
+        {
+          const double x    = arguments[i + l];
+          worst             = std::max({ worst, ulps(value[l], exact(x)), ulps(scalar(x), exact(x)) });
+          const Batch alone = function(simd::broadcast<Batch>(x));
+          AssertThrow(alone[0] == value[l] && alone[batch_size - 1] == value[l],
+                      ExcMessage(name + ": a lane depends on the others"));
+        }
+    }
+  AssertThrow(worst < bound, ExcMessage(name + " is wrong by " + std::to_string(worst) + " ulp"));
+  std::cout << name << ", " << arguments.size() << " arguments, below " << bound << " ulp: OK" << std::endl;
+}
+
+
+/// Odd values beside a usual one, in turn in each lane: the same bits as the C library's, or not a number as there.
+template <typename Function, typename Library>
+void test_odd(const std::string &name,
+              const Function &function,
+              const Library &library,
+              const double usual,
+              const std::vector<double> &odd)
+{
+  for (const double x : odd)
+    for (unsigned int l = 0; l < batch_size; ++l)
+      {
+        Batch batch       = simd::broadcast<Batch>(usual);
+        batch[l]          = x;
+        const Batch value = function(batch);
+        AssertThrow(std::isnan(library(x)) ? std::isnan(value[l]) : value[l] == library(x),
+                    ExcMessage(name + " of " + std::to_string(x) + " is " + std::to_string(value[l])));
+        for (unsigned int other = 0; other < batch_size; ++other)
+          AssertThrow(other == l || value[other] == function(simd::broadcast<Batch>(usual))[0],
+                      ExcMessage(name + ": an odd lane changes another one"));
+      }
+  std::cout << name << " at odd input: OK" << std::endl;
+}
+
+
+template <unsigned int n>
+void test_records(RandomNumbers &random)
+{
+  constexpr unsigned int stride = 17;
+  std::vector<double> in(batch_size * stride), out(in.size(), -1.);
+  for (double &value : in)
+    value = random.uniform(-1, 1);
+  RecordPointers<const double> from;
+  RecordPointers<double> to;
+  for (unsigned int l = 0; l < batch_size; ++l)
+    {
+      from[l] = &in[(batch_size - 1 - l) * stride];
+      to[l]   = &out[l * stride];
+    }
+  Batch batches[n];
+  simd::load_records<n>(from, batches);
+  simd::store_records<n>(batches, to);
+  for (unsigned int l = 0; l < batch_size; ++l)
+    for (unsigned int c = 0; c < stride; ++c)
+      {
+        AssertThrow(c >= n || batches[c][l] == from[l][c], ExcMessage("a record is read wrongly"));
+        AssertThrow(to[l][c] == (c < n ? from[l][c] : -1.), ExcMessage("a record is written wrongly"));
+      }
+}
+
+
+void test_masks()
+{
+  Batch a, b = simd::broadcast<Batch>(0.5);
+  for (unsigned int l = 0; l < batch_size; ++l)
+    a[l] = l % 2 == 0 ? -1. : 1.;
+  const simd::Mask<Batch> negative = a < 0.;
+  AssertThrow(simd::bits_of(negative) == (0x55u & ((1u << batch_size) - 1)), ExcMessage("bits of a mask"));
+  AssertThrow(simd::any(negative) && !simd::any(negative & !negative), ExcMessage("any lane of a mask"));
+  AssertThrow(simd::sum_of_lanes<Batch>(simd::select<Batch>(negative, a, b)) == -0.25 * batch_size,
+              ExcMessage("selected lanes"));
+  AssertThrow(simd::largest_lane<Batch>(simd::abs<Batch>(a)) == 1. && simd::max<Batch>(a, b)[0] == 0.5 &&
+                  simd::min<Batch>(a, b)[1] == 0.5 && simd::sqrt<Batch>(b)[batch_size - 1] == std::sqrt(0.5),
+              ExcMessage("functions of lanes"));
+  std::cout << "masks and lanes: OK" << std::endl;
+}
+
+
+/// Lanes that a bit pattern names come one behind the other; the last one fills up.
+void test_lane_rows(RandomNumbers &random)
+{
+  struct Two
+  {
+    Batch value;
+    simd::Mask<Batch> mask;
+  };
+  LaneRows<Two, 64> rows;
+  std::vector<double> expected;
+  while (expected.size() + batch_size <= 64)
+    {
+      Two two;
+      for (unsigned int l = 0; l < batch_size; ++l)
+        two.value[l] = random.uniform(-1, 1);
+      two.mask                = two.value < 0.;
+      const unsigned int bits = static_cast<unsigned int>(random.uniform(0, 1 << batch_size));
+      rows.append(two, bits);
+      for (unsigned int l = 0; l < batch_size; ++l)
+        if (bits >> l & 1)
+          expected.push_back(two.value[l]);
+    }
+  for (unsigned int first = 0; first < expected.size(); ++first)
+    {
+      const Two two = rows.read(first);
+      for (unsigned int l = 0; l < batch_size; ++l)
+        AssertThrow(two.value[l] == expected[std::min<std::size_t>(first + l, expected.size() - 1)] &&
+                        (two.mask[l] != 0) == (two.value[l] < 0),
+                    ExcMessage("kept lanes"));
+    }
+  std::cout << "kept lanes: OK" << std::endl;
+}
+
+
+template <typename Number>
+struct OfNumbers
+{
+  Number value;
+  simd::Mask<Number> mask;
+};
+
+/// What the laws do with numbers.
+template <typename Number>
+OfNumbers<Number> some_formula(const Number &x, const Number &y)
+{
+  Number z = -x * 2. + (3. - y) / (1. + simd::abs<Number>(x));
+  z += simd::exp<Number>(0.5 * x) - simd::log<Number>(1. / simd::max<Number>(y * y, simd::broadcast<Number>(0.1)));
+  z *= 1.5;
+  const simd::Mask<Number> mask = ((x < y) & !(z >= 1.)) | (2. * x == y - 3.) | (x > 0.9) | (z <= -2.);
+  return { simd::select<Number>(mask, z, simd::min<Number>(x, y - 0.5)), mask };
+}
+
+
+/// A pair of batches gives what each of them gives.
+void test_pairs(RandomNumbers &random)
+{
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      OfNumbers<Batch> x[2], result[2];
+      for (auto &of_batch : x)
+        {
+          for (unsigned int l = 0; l < batch_size; ++l)
+            of_batch.value[l] = random.uniform(-1, 1);
+          of_batch.mask = of_batch.value > 0.;
+        }
+      const auto pair   = simd::join<OfNumbers<BatchPair>>(x[0], x[1]);
+      const auto of_two = some_formula<BatchPair>(pair.value, BatchPair{ x[1].value, x[0].value });
+      simd::split(of_two, result[0], result[1]);
+      unsigned int bits = 0;
+      for (unsigned int h = 0; h < 2; ++h)
+        {
+          const auto of_one = some_formula<Batch>(x[h].value, x[1 - h].value);
+          bits |= simd::bits_of(of_one.mask) << h * batch_size;
+          for (unsigned int l = 0; l < batch_size; ++l)
+            AssertThrow(std::abs(result[h].value[l] - of_one.value[l]) < 1e-14 && result[h].mask[l] == of_one.mask[l],
+                        ExcMessage("a pair is not its batches"));
+        }
+      AssertThrow(simd::bits_of(of_two.mask) == bits && simd::any(of_two.mask) == (bits != 0),
+                  ExcMessage("mask of a pair"));
+    }
+
+  unsigned int next = 0;
+  for (unsigned int size = 0; size <= 4 * batch_size + 1; ++size, next = 0)
+    {
+      for_each_pair(size, [&](const BatchIndices(&places)[2], const unsigned int(&n)[2]) {
+        for (unsigned int h = 0; h < 2; ++h)
+          for (unsigned int l = 0; l < batch_size; ++l)
+            AssertThrow(places[h][l] == (l < n[h] ? next++ : size - 1), ExcMessage("places of a pair"));
+      });
+      AssertThrow(next == size, ExcMessage("a place is left out"));
+    }
+  std::cout << "pairs: OK" << std::endl;
+}
+
+
+void run()
+{
+  RandomNumbers random;
+  std::vector<double> exponents, positive, ratios;
+  for (unsigned int i = 0; i < 200000; ++i)
+    {
+      exponents.push_back(i % 2 == 0 ? random.uniform(-707.9, 708.9) : random.uniform(-2, 2));
+      positive.push_back(i % 2 == 0 ? random.log_uniform(1e-300, 1e300) : random.uniform(0.7, 1.4));
+      ratios.push_back(i % 2 == 0 ? random.log_uniform(1e-3, 1e3) : random.uniform(0.9, 1.1));
+    }
+  const auto exp       = [](const auto &x) { return simd::exp(x); };
+  const auto log       = [](const auto &x) { return simd::log(x); };
+  const auto cube_root = [](const auto &x) { return simd::cube_root(x); };
+  test_accuracy(
+      "exp", exp, exp, [](const long double x) { return std::exp(x); }, 1.1, exponents);
+  test_accuracy(
+      "log", log, log, [](const long double x) { return std::log(x); }, 1., positive);
+  test_accuracy(
+      "cube root", cube_root, cube_root, [](const long double x) { return std::cbrt(x); }, 4., ratios);
+
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  test_odd("exp",
+           exp,
+           [](const double x) { return std::exp(x); },
+           0.3,
+           { -708., -708.5, -745., -746., 709., 709.7, 710., 1e300, -1e300, infinity, -infinity, nan });
+  test_odd("log",
+           log,
+           [](const double x) { return std::log(x); },
+           0.3,
+           { 0., -0., -1., 5e-324, 1e-310, 2.2e-308, infinity, -infinity, nan });
+  test_odd("cube root", cube_root, [](const double x) { return std::cbrt(x); }, 1.01, { 0., -1., 1e-310, 1e300, nan });
+
+  test_records<1>(random);
+  test_records<2>(random);
+  test_records<3>(random);
+  test_records<4>(random);
+  test_records<6>(random);
+  test_records<8>(random);
+  test_records<12>(random);
+  std::cout << "records: OK" << std::endl;
+  test_masks();
+  test_lane_rows(random);
+  test_pairs(random);
+}
+
+const UnitTest registered("simd_batch", run);
+} // namespace test_simd_batch

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Fine cells around two cubes in boxes of several sizes, none a multiple of the coarse cells: as many cells and nodes
+// in each, whose linear functions are exact; and the same after the cubes have moved away and come back.
+#include <scree/mesh/background_grid.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <sstream>
+
+#include "../unit_test.h"
+
+namespace test_grid_fine_cells
+{
+using namespace dealii;
+using namespace scree;
+
+constexpr double width = 0.125;
+
+template <int dim>
+GridParameters box(const double size)
+{
+  GridParameters parameters;
+  parameters.lower_corner.assign(dim, -1.);
+  parameters.upper_corner.assign(dim, size - 1.);
+  parameters.cell_size = width;
+  return parameters;
+}
+
+/// One cube at the lower corner of the box, one in it, 4 cells wide.
+template <int dim>
+bool is_in_cubes(const Point<dim> &corner, const double place)
+{
+  const auto is_in = [&](const double lower) {
+    bool inside = true;
+    for (unsigned int a = 0; a < dim; ++a)
+      inside = inside && corner[a] > lower - 0.5 * width && corner[a] < lower + 3.5 * width;
+    return inside;
+  };
+  return is_in(-1.) || is_in(place);
+}
+
+template <int dim>
+Blocks blocks_of_cubes(const BackgroundGrid<dim> &grid, const double place)
+{
+  Blocks blocks;
+  for (const double lower : { -1., place })
+    for (unsigned int i = 0; i < unsigned(Utilities::pow(4, dim)); ++i)
+      {
+        Point<dim> x;
+        for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 4)
+          x[a] = lower + (rest % 4 + 0.5) * width;
+        grid.append_blocks(x, Tensor<1, dim>(), blocks);
+      }
+  make_unique(blocks);
+  return blocks;
+}
+
+/// Largest error at the cells' middles of the function x + 2 y (+ 3 z) from its values at the nodes.
+template <int dim>
+double linear_error(const BackgroundGrid<dim> &grid)
+{
+  const auto value = [](const Point<dim> &x) { return x[0] + 2. * x[1] + 3. * x[dim - 1]; };
+  double error     = 0;
+  Point<dim> middle;
+  for (unsigned int a = 0; a < dim; ++a)
+    middle[a] = 0.5;
+  for (const auto &cell : grid.fine_cells().cells())
+    if (grid.fine_cells().is_owned(cell))
+      {
+        const CellBasis<dim, 3> basis(middle, grid.open_knots(cell.index));
+        double sum = 0;
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          {
+            double product = 1;
+            for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
+              product *= basis.value[a][rest % 3];
+            sum += product * value(grid.node_position(grid.nodes(cell.index)[i]));
+          }
+        const Point<dim> x = grid.fine_cells().box().corner(cell.place) + width * (middle - Point<dim>());
+        error              = std::max(error, std::abs(sum - value(x)));
+      }
+  return Utilities::MPI::max(error, MPI_COMM_WORLD);
+}
+
+template <int dim>
+void describe(const BackgroundGrid<dim> &grid, std::ostream &out)
+{
+  unsigned int n_at_walls = 0, n_uses[4] = {};
+  for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+    n_at_walls += grid.node_faces(node) != 0;
+  for (const auto &cell : grid.triangulation().active_cell_iterators())
+    if (cell->is_locally_owned())
+      ++n_uses[cell->user_index()];
+  const auto sum = [](const unsigned int n) { return Utilities::MPI::sum(n, MPI_COMM_WORLD); };
+  out << "  " << sum(n_uses[0]) << " inner cells, " << sum(n_uses[1]) << " at the edge";
+  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1) // ranks have nodes beyond the edge of their own
+    out << ", " << grid.n_owned_nodes() << " nodes, " << n_at_walls << " at walls";
+  out << ", blocks: " << sum(grid.fine_blocks().size())
+      << (linear_error(grid) < 1e-12 ? ", linear functions are exact" : ", wrong")
+      << (sum(n_uses[2] + n_uses[3]) < 6000 ? "" : ", too many others") << std::endl;
+}
+
+template <int dim>
+void test(std::ostream &out)
+{
+  out << dim << "D" << std::endl;
+  for (const double size : { dim == 2 ? 18.875 : 4.125, dim == 2 ? 37.625 : 8.875 })
+    {
+      const double place = 1.25;
+      BackgroundGrid<dim> grid(box<dim>(size),
+                               { [&](const Point<dim> &corner) { return is_in_cubes(corner, place); }, nullptr, 1 },
+                               MPI_COMM_WORLD);
+      describe(grid, out);
+      for (const double next : { size - 1. - 4 * width, place })
+        {
+          grid.refine(grid.with_surroundings(blocks_of_cubes(grid, next)), Shares::even);
+          grid.distribute_nodes();
+          describe(grid, out);
+        }
+    }
+}
+
+void run()
+{
+  std::ostringstream silent;
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test<2>(out);
+  test<3>(out);
+}
+
+const UnitTest registered("grid_fine_cells", run);
+} // namespace test_grid_fine_cells

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Blocks in which points are put, in boxes that are too large to look at each cell closely: none of those that a close
+// look at all cells around the regions finds is missed, of a ball with a tail thinner than a cell and of a thin layer.
+#include <scree/mesh/occupied_blocks.h>
+#include <scree/particles/region.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "../unit_test.h"
+
+namespace test_grid_occupied_blocks
+{
+using namespace dealii;
+using namespace scree;
+
+template <int dim>
+void test(const std::string &name, const std::string &expression, const int n_cells, std::ostream &out)
+{
+  constexpr unsigned int n = 2; // points per cell along an axis
+  const Region<dim> region(name, expression);
+  CellsOfBox<dim> box{ Point<dim>(), 1., {} };
+  box.n.fill(n_cells);
+  std::uint64_t n_close = 0, n_places = 0;
+  const auto in_cell = [&](const Point<dim> &corner) {
+    ++n_close;
+    for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
+      {
+        Point<dim> cube = corner;
+        for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+          cube[a] += double(rest % n) / n;
+        if (region.touches_cube(cube, 1. / n))
+          return true;
+      }
+    return false;
+  };
+  const auto at_place = [&](const Point<dim> &, const Point<dim> &x) {
+    ++n_places;
+    return region.contains(x);
+  };
+  const unsigned int places_of_cell = Utilities::fixed_power<dim>(n) * Region<dim>::n_places_of_cube;
+  const Blocks found                = occupied_blocks<dim>(box, { in_cell, at_place, places_of_cell }, MPI_COMM_WORLD);
+  const double close                = Utilities::MPI::sum(double(n_close), MPI_COMM_WORLD);
+  const double places               = Utilities::MPI::sum(double(n_places), MPI_COMM_WORLD);
+
+  Blocks wanted; // The regions lie in the first 40 cells of each axis.
+  for (int i = 0; i < Utilities::pow(20, dim); ++i)
+    {
+      CellPlace<dim> block;
+      for (int a = 0, rest = i; a < dim; ++a, rest /= 20)
+        block[a] = rest % 20;
+      bool is_occupied = false;
+      for (unsigned int v = 0; v < (1 << dim) && !is_occupied; ++v)
+        {
+          Point<dim> corner;
+          for (unsigned int a = 0; a < dim; ++a)
+            corner[a] = 2 * block[a] + (v >> a & 1);
+          is_occupied = in_cell(corner);
+        }
+      if (is_occupied)
+        wanted.push_back(curve_number<dim>(block));
+    }
+  make_unique(wanted);
+  Blocks missing, more;
+  std::set_difference(wanted.begin(), wanted.end(), found.begin(), found.end(), std::back_inserter(missing));
+  std::set_difference(found.begin(), found.end(), wanted.begin(), wanted.end(), std::back_inserter(more));
+  out << dim << "D, " << name << ": " << wanted.size() << " blocks, missing " << missing.size() << ", more "
+      << more.size() << (places < 2.1e7 ? "" : ", too many places")
+      << (close < 0.02 * box.n_cells() ? "" : ", too many close looks") << std::endl;
+}
+
+void run()
+{
+  std::ostringstream silent;
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test<2>("ball with a tail", "(x-12)^2 + (y-12)^2 < 16 || (x > 12 && x < 38 && abs(y-12.1) < 0.13)", 1500, out);
+  test<2>("layer", "y > 7.3 && y < 7.6 && x < 36", 1500, out);
+  test<3>("ball with a tail",
+          "(x-12)^2 + (y-12)^2 + (z-12)^2 < 16 || (x > 12 && x < 38 && abs(y-12.1) < 0.13 && abs(z-12.1) < 0.13)",
+          150,
+          out);
+  test<3>("layer", "z > 7.3 && z < 7.6 && x < 36 && y < 30", 150, out);
+}
+
+const UnitTest registered("grid_occupied_blocks", run);
+} // namespace test_grid_occupied_blocks

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Drag of grains: Ergun's gradient of the pressure at all speeds, the law of a given conductivity, a step of soil and
+// water whose drag grows with the slip, and which water of a cell drag acts on.
+#include <scree/bodies/drag_law.h>
+#include <scree/momentum/drag_block.h>
+#include <scree/mixture/mixture.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "../random_numbers.h"
+
+#include "../unit_test.h"
+
+namespace test_drag_law
+{
+using namespace dealii;
+using namespace scree;
+
+/// Ergun 1952: gradient of the pressure, Pa/m, at a superficial velocity U, m/s.
+double ergun(const double n, const double d, const double mu, const double rho, const double U)
+{
+  return 150. * mu * std::pow(1. - n, 2) / (std::pow(n, 3) * d * d) * U +
+         1.75 * rho * (1. - n) / (std::pow(n, 3) * d) * U * U;
+}
+
+/// Water flows through grains of 3 mm; the steady gradient is drag over porosity.
+void compare_with_ergun(const double n)
+{
+  WaterParameters water;
+  water.density        = 998.;
+  water.viscosity      = 1.3e-3;
+  water.grain_diameter = 3e-3;
+  const DragLaw law(water, 0.4);
+  double error = 0;
+  for (double U = 1e-8; U < 100.; U *= 2.)
+    {
+      const double gradient = (law.linear(n) + (1. - n) * law.inertial(n) * U) * U / n;
+      error                 = std::max(error, std::abs(gradient / ergun(n, 3e-3, 1.3e-3, 998., U) - 1.));
+    }
+  std::cout << "n = " << n << ": gradient is Ergun's: " << (error < 1e-14 ? "yes" : "NO")
+            << ", conductivity, cm/s: " << 100. * law.conductivity(n) << ", rho_w g/gradient of slow flow, cm/s: "
+            << 100. * 998. * 9.81 / (ergun(n, 3e-3, 1.3e-3, 998., 1e-20) / 1e-20) << std::endl;
+}
+
+/// The slip of a step solves its equation, for any walls along the axes or along an angle that the slip has, too.
+void solve_steps()
+{
+  RandomNumbers random;
+  double error = 0;
+  for (unsigned int trial = 0; trial < 10000; ++trial)
+    {
+      DragBlock<2> pair{ random.uniform(1e-3, 2.), random.uniform(1e-3, 2.), random.log_uniform(1e-9, 1e6), {}, {} };
+      const double angle = random.uniform(0., 6.3), inertial = random.log_uniform(1e-9, 1e6);
+      const Tensor<1, 2> across({ std::cos(angle), std::sin(angle) }), along({ -across[1], across[0] });
+      if (trial % 3 == 1)
+        pair.held_soil.hold_all();
+      if (trial % 3 == 2)
+        {
+          pair.held_soil.hold(across);
+          pair.held_water.hold(across);
+        }
+      SoilAndWater<2> r;
+      r.soil               = random.uniform(-1., 1.) * along + random.uniform(-1., 1.) * across;
+      r.water              = random.uniform(-1., 1.) * along + random.uniform(-1., 1.) * across;
+      const double slip    = pair.slip_speed(r, inertial);
+      DragBlock<2> dragged = pair;
+      dragged.drag += inertial * slip;
+      const SoilAndWater<2> v = dragged.solve(r);
+      // Velocities, of which the slip is a difference, are known to 1e-16 of them.
+      error = std::max(error,
+                       std::abs((v.water - v.soil).norm() - slip) / (slip + 1e-3 * (v.water.norm() + v.soil.norm())));
+    }
+  std::cout << "10000 random pairs: slip of the step: " << (error < 1e-10 ? "yes" : "NO") << std::endl;
+
+  // Alone with the square of the slip: w' = -a w^2, of which a step of any length keeps the sign.
+  ConstrainedDirections<2> all;
+  all.hold_all();
+  const DragBlock<2> pair{ 1., 1., 0., all, {} };
+  std::cout << "slip of 1 m/s after a step with a dt of 2 and of 6 s/m: "
+            << pair.slip_speed({ Tensor<1, 2>(), Tensor<1, 2>({ 1., 0. }) }, 2.) << ' '
+            << pair.slip_speed({ Tensor<1, 2>(), Tensor<1, 2>({ 0., -1. }) }, 6.) << std::endl;
+}
+
+/// Share of the drag of a cell whose part `soil` is filled with soil of porosity n, but for what scatter takes or adds:
+/// `grains` and `water` times what they were.
+double share(const double n, const double soil, const double grains, const double water)
+{
+  constexpr double volume = 1.7;
+  const double pores = n * soil * volume, outside = (1. - soil) * volume;
+  return drag_share_of(volume, grains * (1. - n) * soil * volume, grains * pores, water * (pores + outside));
+}
+
+void show_shares()
+{
+  double off = 0;
+  for (const double n : { 0.3, 0.4, 0.8 })
+    for (double soil = 0.05; soil < 0.76; soil += 0.05)
+      off = std::max(off, std::abs(share(n, soil, 1., 1.) - 1.));
+  std::cout << "face in a full cell, soil in up to .75 of it: water outside has no part in the drag: "
+            << (off < 1e-14 ? "yes" : "NO") << "; soil in .8, .85, .9, .95 of it: " << share(0.4, 0.8, 1., 1.) << ' '
+            << share(0.4, 0.85, 1., 1.) << ' ' << share(0.4, 0.9, 1., 1.) << ' ' << share(0.4, 0.95, 1., 1.)
+            << std::endl;
+  std::cout << "soil everywhere, water .75, 1.25, 1.5 times: " << share(0.4, 1., 1., 0.75) << ' '
+            << share(0.4, 1., 1., 1.25) << ' ' << share(0.4, 1., 1., 1.5)
+            << "; grains .8, 1.25 times: " << share(0.4, 1., 0.8, 1.) << ' ' << share(0.4, 1., 1.25, 1.)
+            << "; half a cell, no water, no grains: " << share(0.4, 0.5, 1., 0.) << ' ' << drag_share_of(1., 0., 0., 1.)
+            << std::endl;
+  std::cout << "fraction of grains with .6 of grains, .4 of pores and .1, .32, .4, .9 of water: "
+            << grain_fraction_of(0.6, 0.1, 0.4) << ' ' << grain_fraction_of(0.6, 0.32, 0.4) << ' '
+            << grain_fraction_of(0.6, 0.4, 0.4) << ' ' << grain_fraction_of(0.6, 0.9, 0.4) << std::endl;
+}
+
+void run()
+{
+  show_shares();
+  for (const double n : { 0.3, 0.4, 0.9 })
+    compare_with_ergun(n);
+
+  WaterParameters water;
+  water.conductivity = 2e-2;
+  std::cout << "constant: " << 100. * DragLaw(water, 0.4).conductivity(0.5) << " cm/s, inertial "
+            << DragLaw(water, 0.4).inertial(0.4) << std::endl;
+  water.conductivity_law = "Kozeny-Carman";
+  std::cout << "Kozeny-Carman: " << 100. * DragLaw(water, 0.4).conductivity(0.4) << " cm/s at the start, "
+            << 100. * DragLaw(water, 0.4).conductivity(0.5) << " cm/s looser" << std::endl;
+  solve_steps();
+}
+
+const UnitTest registered("drag_law", run);
+} // namespace test_drag_law

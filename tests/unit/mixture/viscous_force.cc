@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The viscous force on the nodes, for every basis, on one rank and on two, of water and of suspended soil that fill a
+// part of the box with oblique edges: it is symmetric, takes energy, adds up to nothing with its moments, does not feel
+// rigid motion, dissipates mu V of unit shear, and no motion is slowed faster than largest_rate() says.
+
+#include <scree/seeding/water_seeding.h>
+#include <scree/viscosity/viscous_force.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+#include "../elastic_soil.h"
+#include "../expect.h"
+#include "../pattern.h"
+
+#include "../unit_test.h"
+
+namespace test_viscous_force
+{
+using namespace dealii;
+using namespace scree;
+
+template <int dim>
+using Velocity = std::function<Tensor<1, dim>(const Point<dim> &)>;
+
+double sum(const double value)
+{
+  return Utilities::MPI::sum(value, MPI_COMM_WORLD);
+}
+
+
+/// The nodes of the points of one phase, and the viscous force on them.
+template <int dim>
+struct Nodes
+{
+  const BackgroundGrid<dim> &grid;
+  const ViscousForce<dim> &force;
+  const PointSet<dim> &points;
+  const std::vector<double> coefficients;
+  NodalField<dim> masses, motion, forces;
+
+  Nodes(const BackgroundGrid<dim> &grid,
+        const ViscousForce<dim> &force,
+        const PointSet<dim> &points,
+        const std::vector<double> &coefficients,
+        const unsigned int mass_slot)
+      : grid(grid)
+      , force(force)
+      , points(points)
+      , coefficients(coefficients)
+      , masses(grid)
+      , motion(grid)
+      , forces(grid)
+  {
+    masses.clear();
+    for_each_point(points, [&](const auto &point) {
+      masses.activate_cell(point.cell);
+      for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+        masses[grid.nodes(point.cell)[i]][NodalField<dim>::mass] +=
+            point.properties[mass_slot] * shape(i, point.reference_location, grid.open_knots(point.cell));
+    });
+    masses.add_contributions();
+  }
+
+  double shape(const unsigned int i, const Point<dim> &x, const OpenKnots open) const
+  {
+    const unsigned int n = grid.n_nodes_1d();
+    double value         = 1.;
+    for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+      value *= n == 2 ? CellBasis<dim, 2>(x, open).value[a][rest % n] : CellBasis<dim, 3>(x, open).value[a][rest % n];
+    return value;
+  }
+
+  void move(const Velocity<dim> &velocity)
+  {
+    for (const unsigned int node : masses.active_nodes())
+      for (unsigned int c = 0; c < dim; ++c)
+        motion[node][NodalField<dim>::velocity + c] = velocity(grid.node_position(node))[c];
+    find_forces();
+  }
+
+  void find_forces()
+  {
+    motion.update_ghosts();
+    forces.clear();
+    force.add(points, coefficients, motion, forces);
+    forces.add_contributions();
+  }
+
+  double power(const Velocity<dim> &velocity) const
+  {
+    double power = 0;
+    for (const unsigned int node : masses.active_nodes())
+      for (unsigned int c = 0; c < dim; ++c)
+        power += forces[node][NodalField<dim>::force + c] * velocity(grid.node_position(node))[c];
+    return sum(power);
+  }
+
+  double size_of_forces() const
+  {
+    double size = 0;
+    for (const unsigned int node : masses.active_nodes())
+      for (unsigned int c = 0; c < dim; ++c)
+        size += std::abs(forces[node][NodalField<dim>::force + c]);
+    return sum(size);
+  }
+
+  /// The largest eigenvalue of M^-1 K, from below, by powers of it.
+  double largest_rate()
+  {
+    double rate = 0;
+    for (unsigned int iteration = 0; iteration < 100; ++iteration)
+      {
+        double square = 0;
+        for (const unsigned int node : masses.active_nodes())
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double mass = masses[node][NodalField<dim>::mass];
+              double &v         = motion[node][NodalField<dim>::velocity + c];
+              v                 = mass > 0. ? -forces[node][NodalField<dim>::force + c] / mass : 0.;
+              square += mass * v * v;
+            }
+        rate = std::sqrt(sum(square));
+        for (const unsigned int node : masses.active_nodes())
+          for (unsigned int c = 0; c < dim; ++c)
+            motion[node][NodalField<dim>::velocity + c] /= rate;
+        find_forces();
+      }
+    return rate;
+  }
+};
+
+
+template <int dim>
+void examine(Nodes<dim> nodes, const double viscosity_times_volume, const double bound, std::ostream &out)
+{
+  const auto vector = [](const std::function<double(const Point<dim> &, unsigned int)> &component) {
+    return [component](const Point<dim> &x) {
+      Tensor<1, dim> v;
+      for (unsigned int c = 0; c < dim; ++c)
+        v[c] = component(x, c);
+      return v;
+    };
+  };
+  const auto scattered = vector([](const Point<dim> &x, const unsigned int c) { return pattern<dim>(x * (1. + c)); });
+  const auto smooth =
+      vector([](const Point<dim> &x, const unsigned int c) { return c == 1 ? std::sin(5. * x[0] + x[1]) : 0.; });
+  const auto shear = vector([](const Point<dim> &x, const unsigned int c) { return c == 0 ? x[1] : 0.; });
+  const auto spin  = vector([](const Point<dim> &x, const unsigned int c) {
+    return c == 0 ? 0.3 - x[1] : c == 1 ? x[0] : 2.;
+  });
+
+  nodes.move(scattered);
+  const double size = nodes.size_of_forces();
+  for (unsigned int axis = 0; axis < dim; ++axis)
+    expect(nodes.power(vector([axis](const Point<dim> &, const unsigned int c) { return c == axis ? 1. : 0.; })) / size,
+           0,
+           1e-13,
+           "Sum of the forces over their size");
+  expect(nodes.power(spin) / size, 0, 1e-13, "Moment of the forces over their size");
+  AssertThrow(nodes.power(scattered) < 0., ExcMessage("Viscosity gives energy."));
+  const double one_way = nodes.power(smooth);
+  nodes.move(smooth);
+  expect(nodes.power(scattered) / one_way, 1, 1e-11, "Power of one motion's force on another one over the reverse");
+  nodes.move(spin);
+  expect(nodes.size_of_forces() / size, 0, 1e-13, "Force on rigid motion");
+  nodes.move(shear);
+  expect(-nodes.power(shear) / viscosity_times_volume, 1, 1e-12, "Dissipation of unit shear over mu V");
+
+  nodes.move(scattered);
+  const double part = nodes.largest_rate() / Utilities::MPI::max(bound, MPI_COMM_WORLD);
+  AssertThrow(part > 0.05 && part <= 1., ExcMessage("The bound on the rate is wrong: " + Utilities::to_string(part)));
+  out << " OK";
+}
+
+
+template <int dim>
+void test(const std::string &basis, std::ostream &out)
+{
+  GridParameters grid_parameters;
+  grid_parameters.basis = basis;
+  grid_parameters.lower_corner.assign(dim, 0.);
+  grid_parameters.upper_corner.assign(dim, 0.6);
+  const BackgroundGrid<dim> grid(grid_parameters, MPI_COMM_WORLD);
+
+  WaterParameters parameters;
+  parameters.region          = "x + 0.7 * y < 0.5";
+  parameters.points_per_cell = 3;
+  parameters.viscosity       = 2.;
+  parameters.suspension.law  = "Krieger-Dougherty";
+  WaterPhase<dim> water(1000., false, grid.triangulation(), grid.mapping());
+  seed_water(water, parameters, {}, grid.triangulation(), grid.cell_size());
+
+  ElasticSoil<dim> soil(grid, parameters.region, 2, 0.6);
+  double water_volume = 0, part = 0;
+  for_each_point(water.points(), [&](const auto &point) { water_volume += point.properties[water.layout.volume]; });
+  for_each_point(soil.points, [&](const auto &point) {
+    // Half of it bears a stress: some of that is at the contact pressure, some at half of it.
+    const double pressure = point.location[0] > 0.25 ? 0. : point.location[1] > 0.2 ? 100. : 50.;
+    for (unsigned int c = 0; c < 3; ++c)
+      point.properties[soil.layout.stress + c] = -pressure;
+    part += point.properties[soil.layout.volume] * (1. - pressure / 100.);
+  });
+
+  const ViscousForce<dim> force(grid, parameters);
+  const double of_grains =
+      2. * (std::pow(1. - 0.4 / 0.64, -1.6) - 0.6); // Krieger and Dougherty, less the water's share
+  out << dim << "D " << basis << ": water";
+  const auto test_points = [&](const PointSet<dim> &points,
+                               const std::vector<double> &coefficients,
+                               const unsigned int mass_slot,
+                               const double all) {
+    examine(Nodes<dim>(grid, force, points, coefficients, mass_slot),
+            all,
+            force.largest_rate(points, coefficients, mass_slot),
+            out);
+  };
+  test_points(water.points(), force.coefficients(water), water.layout.mass, 2. * sum(water_volume));
+  out << "; soil";
+  test_points(soil.points, force.coefficients(soil), soil.layout.mass, of_grains * sum(part));
+  out << std::endl;
+}
+
+
+void run()
+{
+  std::ostream silent(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  for (const std::string basis : { "spline", "quadratic", "linear" })
+    {
+      test<2>(basis, out);
+      test<3>(basis, out);
+    }
+}
+
+const UnitTest registered("viscous_force", run);
+} // namespace test_viscous_force

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Points of the lower half of a box cost nine times those of the upper: the ranks' shares of points are even at first,
+// those of cost after a repartition by measured cost. A measurement that was interrupted spoils nothing.
+
+#include <scree/particles/partition.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/mapping_cartesian.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <iostream>
+#include <sstream>
+
+#include "../unit_test.h"
+
+namespace test_points_partition
+{
+using namespace dealii;
+using namespace scree;
+
+namespace
+{
+  constexpr double cheap = 1e-6, dear = 9e-6; // s
+
+  template <int dim>
+  double true_cost(const typename Triangulation<dim>::cell_iterator &cell)
+  {
+    return cell->center()[dim - 1] < 0.5 ? dear : cheap;
+  }
+} // namespace
+
+
+template <int dim>
+void test(std::ostream &out)
+{
+  parallel::distributed::Triangulation<dim> mesh(
+      MPI_COMM_WORLD, Triangulation<dim>::none, parallel::distributed::Triangulation<dim>::no_automatic_repartitioning);
+  GridGenerator::hyper_cube(mesh);
+  mesh.refine_global(dim == 2 ? 5 : 4);
+  const MappingCartesian<dim> mapping;
+  PointSet<dim> points(mesh, mapping, 1);
+  unsigned int id = 0;
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (unsigned int p = 0; p < 2; ++p, ++id)
+        points.handler().insert_particle(cell->center(), Point<dim>(), id, cell);
+  points.handler().update_cached_numbers();
+  points.sort();
+
+  Partition<dim> partition(mesh, { &points });
+  const auto cost_of_rank = [&](const auto &cost_of) {
+    double cost = 0;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        cost += points.handler().n_particles_in_cell(cell) * cost_of(cell);
+    return cost;
+  };
+  const auto share = [&](const auto &cost_of) {
+    const auto of_ranks = Utilities::MPI::min_max_avg(cost_of_rank(cost_of), MPI_COMM_WORLD);
+    return of_ranks.max < 1.02 * of_ranks.avg ? "even" : "uneven";
+  };
+  const auto tell = [&](const std::string &when) {
+    out << when << ": points " << share([](const auto &) { return 1.; }) << ", cost " << share(true_cost<dim>)
+        << ", points in all " << points.handler().n_global_particles() << std::endl;
+  };
+
+  out << dim << "D" << std::endl;
+  unsigned int n_fits    = 0;
+  const auto repartition = [&] { partition.repartition([&] { ++n_fits; }); };
+  out << "all points on one rank, worth changing: " << partition.is_worth_changing() << std::endl;
+  repartition();
+  tell("shared out before the first step");
+  for (unsigned int step = 0; step < 50; ++step)
+    {
+      partition.begin_step();
+      partition.add(Work::to_points, 10. * cost_of_rank(true_cost<dim>));
+      partition.wait();
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned() && step % 10 == 0)
+          points.costs().add(cell->active_cell_index(), step == 30 ? 1. : true_cost<dim>(cell));
+    }
+  const bool is_worth_changing = partition.is_worth_changing();
+  out << "rank 0 works nine times as long, worth changing: " << is_worth_changing << std::endl;
+  const double imbalance = partition.imbalance();
+  out << "imbalance " << (imbalance > 1.2 ? "above" : "below") << " 1.2" << std::endl;
+  repartition();
+  tell("shared out anew");
+  out << "fitted " << n_fits << " times, changed " << partition.n_repartitions() << " time" << std::endl;
+}
+
+
+void run()
+{
+  std::ostringstream silent;
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test<2>(out);
+  test<3>(out);
+}
+
+const UnitTest registered("points_partition", run);
+} // namespace test_points_partition

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The measures of the statistics on fields made by hand, on one rank and on two.
+
+#include "../expect.h"
+
+#include <scree/materials/table.h>
+#include <scree/postprocess/measures.h>
+#include <scree/tensor/invariants.h>
+#include <scree/postprocess/point_sums.h>
+#include <scree/seeding/seeding.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "../unit_test.h"
+
+namespace test_output_measures
+{
+using namespace dealii;
+using namespace scree;
+
+template <int dim>
+struct Scene
+{
+  BackgroundGrid<dim> grid;
+  std::list<SoilBody<dim>> bodies;
+  std::list<WaterPhase<dim>> water;
+
+  static GridParameters box()
+  {
+    GridParameters parameters;
+    parameters.lower_corner.assign(dim, -0.3);
+    parameters.upper_corner.assign(dim, 0.9);
+    return parameters;
+  }
+
+  explicit Scene(const std::vector<std::string> &regions)
+      : grid(box(), MPI_COMM_WORLD)
+  {
+    MaterialParameters material;
+    material.law = "linear elastic";
+    for (const auto &region : regions)
+      {
+        SeedingParameters seeding;
+        seeding.region          = region;
+        seeding.points_per_cell = 2;
+        bodies.emplace_back("Soil",
+                            1000.,
+                            1000.,
+                            make_material<dim>(material),
+                            PropertyLayout<dim>(0, false),
+                            grid.triangulation(),
+                            grid.mapping());
+        seed(bodies.back(), seeding, grid.triangulation(), grid.cell_size());
+      }
+  }
+
+  /// Water with 2^dim points in each cell whose middle is in the region; it fills `part` of these cells.
+  void add_water(const std::string &region, const double part)
+  {
+    const Region<dim> where("water", region);
+    if (water.empty())
+      water.emplace_back(1000., false, grid.triangulation(), grid.mapping());
+    auto &set                = water.back();
+    constexpr unsigned int n = 1 << dim;
+    std::vector<double> properties(set.points().stride(), 0.);
+    properties[set.layout.volume] = part * std::pow(grid.cell_size(), dim) / n;
+    properties[set.layout.mass]   = set.density * properties[set.layout.volume];
+    types::particle_index id      = 0; // of one rank only: nobody asks
+    for (const auto &cell : grid.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && where.contains(cell->center()))
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            Point<dim> reference;
+            for (unsigned int a = 0; a < dim; ++a)
+              reference[a] = (i >> a) & 1 ? 0.75 : 0.25;
+            const Point<dim> location = cell->vertex(0) + grid.cell_size() * reference;
+            set.points().handler().insert_particle(location, reference, id++, cell, properties);
+          }
+    set.points().handler().update_cached_numbers();
+    set.points().sort();
+  }
+
+  /// Gives the water points the pressure of their place.
+  template <typename Pressure>
+  void set_water_pressure(const Pressure &pressure)
+  {
+    for (auto &one : water)
+      for_each_point(one.points(),
+                     [&](const auto &point) { point.properties[one.layout.pressure] = pressure(point.location); });
+  }
+
+  /// Gives the points the pressure of their place, and shear and stress deviators that must not matter.
+  template <typename Pressure>
+  void set_pressure(const Pressure &pressure)
+  {
+    for (auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) {
+        double *stress = point.properties + body.layout.stress;
+        const double P = pressure(point.location);
+        for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+          stress[c] = c < 3 ? -P + (c == 0 ? 300. : -150.) : 70.;
+      });
+  }
+};
+
+/// The fraction f of a block's mass lies below its lower face plus f times its length, to within half a point's width.
+template <int dim>
+void test_percentiles(std::ostream &out)
+{
+  const Scene<dim> scene({ "x > 0.1 && x < 0.5 && y < 0.3", "x > 0.5 && x < 0.8 && y < 0.3" });
+  constexpr double half_width = 0.025;
+  const auto percentiles      = mass_percentiles(scene.bodies, scene.grid, 0, { 0.005, 0.33, 0.5, 0.9, 0.99, 1. });
+  const std::vector<double> expected{ 0.1 + 0.7 * 0.005, 0.1 + 0.7 * 0.33, 0.1 + 0.7 * 0.5,
+                                      0.1 + 0.7 * 0.9,   0.1 + 0.7 * 0.99, 0.8 };
+  for (unsigned int i = 0; i < expected.size(); ++i)
+    {
+      AssertThrow(std::abs(percentiles[i] - expected[i]) < half_width + 1e-9,
+                  ExcMessage("A percentile is at " + Utilities::to_string(percentiles[i]) + " instead of " +
+                             Utilities::to_string(expected[i])));
+      // The percentile is the place of a point: points are in the middle of their lattice, 0.05 m wide.
+      const double lattice = (percentiles[i] - 0.1 - half_width) / 0.05;
+      AssertThrow(std::abs(lattice - std::round(lattice)) < 1e-6, ExcMessage("A percentile is not at a point."));
+    }
+  out << dim << "D percentiles: OK " << percentiles[0] << ' ' << percentiles[1] << ' ' << percentiles[3] << std::endl;
+}
+
+/// Where the mass adds up to the fraction exactly at a point, that point is the percentile, whatever the rounding.
+template <int dim>
+void test_tie(std::ostream &out)
+{
+  const Scene<dim> scene({ "x > 0 && x < 0.5 && y < 0.3 && x + y > -2" });
+  out << dim << "D percentiles at a tie:";
+  for (unsigned int tenths = 1; tenths < 10; ++tenths)
+    {
+      const double percentile = mass_percentiles(scene.bodies, scene.grid, 0, { 0.1 * tenths })[0];
+      AssertThrow(std::abs(percentile - (0.05 * tenths - 0.025)) < 1e-9,
+                  ExcMessage("The tie at " + Utilities::to_string(0.1 * tenths) + " went to " +
+                             Utilities::to_string(percentile)));
+    }
+  out << " OK" << std::endl;
+}
+
+template <int dim>
+void test_oscillation(std::ostream &out)
+{
+  // An oblique surface: linear fits next to it see half-filled cells.
+  Scene<dim> scene({ "y < 0.5 - 0.6 * x", "y > 0.5 - 0.6 * x && y < 0.8 - 0.6 * x" });
+
+  const auto linear = [](const Point<dim> &x) {
+    double P = 5000 - 3000 * x[0] + 2000 * x[1];
+    if (dim == 3)
+      P += 1500 * x[dim - 1];
+    return P;
+  };
+  scene.set_pressure(linear);
+  const double none = stress_oscillation(scene.bodies, scene.grid);
+  AssertThrow(none < 1e-10, ExcMessage("A linear pressure oscillates by " + Utilities::to_string(none)));
+
+  // Neighbouring points of a full block take turns between 0 and 2: the fit is 1, the residual 1, and so is the mean.
+  Scene<dim> block({ "x > -0.1 && y < 0.5" });
+  block.set_pressure([](const Point<dim> &x) {
+    long sum = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      sum += std::lround((x[a] + 0.3) / 0.05 - 0.5);
+    return 1. + (sum % 2 ? 1. : -1.);
+  });
+  const double points = stress_oscillation(block.bodies, block.grid);
+  AssertThrow(std::abs(points - 1.) < 0.05, ExcMessage("Turns of points oscillate by " + Utilities::to_string(points)));
+
+  // Neighbouring cells take turns: of 3^dim cells one more has the sign of the one in the middle.
+  block.set_pressure([](const Point<dim> &x) {
+    long sum = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      sum += std::lround((x[a] + 0.3) / 0.1 - 0.5);
+    return 1. + (sum % 2 ? 1. : -1.);
+  });
+  const double cells = stress_oscillation(block.bodies, block.grid);
+  AssertThrow(std::abs(cells - 1.) < 0.15, ExcMessage("Turns of cells oscillate by " + Utilities::to_string(cells)));
+
+  block.set_pressure([](const Point<dim> &) { return 0.; });
+  AssertThrow(stress_oscillation(block.bodies, block.grid) == 0., ExcMessage("Soil without stress oscillates."));
+  out << dim << "D oscillation: linear 0 OK, turns of points " << points << ", of cells " << cells << std::endl;
+}
+
+template <int dim>
+void test_invariants(std::ostream &out)
+{
+  // Uniaxial compression by 3 and a pure shear: q^2 = 3^2 + 3 * 4^2 (von Mises).
+  const double stress[6] = { -3, 0, 0, 4, 0, 0 };
+  AssertThrow(std::abs(mean_effective_stress(stress) - 1.) < 1e-15, ExcMessage("P is wrong."));
+  AssertThrow(std::abs(deviatoric_stress<dim>(stress) - std::sqrt(57.)) < 1e-14, ExcMessage("q is wrong."));
+  out << dim << "D invariants: OK" << std::endl;
+}
+
+/// Soil in 0 < x < 0.4, which is all grains, and water that reaches from its middle to x = 0.6.
+template <int dim>
+void test_water(std::ostream &out)
+{
+  Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
+  WaterMeasures dry = measure_water(scene.bodies, scene.water, scene.grid);
+  expect(dry.mass + dry.largest_pressure + dry.volume_error, 0., 0., "water of a dry scene");
+
+  scene.add_water("x > 0.2 && x < 0.6 && y < 0.3", 0.8);
+  scene.set_water_pressure([](const Point<dim> &x) { return 1000. * (x[0] - x[1]); });
+  const WaterMeasures wet = measure_water(scene.bodies, scene.water, scene.grid);
+  const double column     = 0.6 * std::pow(1.2, dim - 2); // m, times a width in x: a volume
+  expect(wet.n_points, std::pow(2., dim) * 0.4 * column / std::pow(0.1, dim), 1e-6, "number of water points");
+  expect(wet.mass, 800. * 0.4 * column, 1e-8, "water mass");
+  expect(wet.mass_outside_soil, 800. * 0.2 * column, 1e-8, "water outside soil");
+  expect(wet.smallest_pressure, 1000. * (0.225 - 0.275), 1e-8, "smallest p");
+  expect(wet.largest_pressure, 1000. * (0.575 + 0.275), 1e-8, "largest p");
+  expect(wet.tip, 0.575, 1e-12, "tip of the water");
+  // Two columns of cells hold all grains and 0.8 of water.
+  const double error = 0.8 * 0.2 / (0.4 + 0.8 * 0.4);
+  expect(wet.volume_error, error, 1e-10, "volume error");
+  expect(mass_percentiles(scene.water, scene.grid, 0, { 0.5 })[0], 0.375, 1e-9, "middle of the water");
+
+  // The second time the free cells overflow, too.
+  scene.add_water("x > 0.2 && x < 0.6 && y < 0.3", 1.2);
+  expect(measure_water(scene.bodies, scene.water, scene.grid).volume_error,
+         (2. * 0.2 + 1. * 0.2) / (0.4 + 2. * 0.4),
+         1e-10,
+         "volume error of doubly filled cells");
+  out << dim << "D water: outside soil " << wet.mass_outside_soil / wet.mass << ", volume error " << wet.volume_error
+      << std::endl;
+}
+
+/// Of p as of P; without soil.
+template <int dim>
+void test_pressure_oscillation(std::ostream &out)
+{
+  Scene<dim> scene({});
+  expect(pressure_oscillation(scene.water, scene.grid), 0., 0., "oscillation of no water");
+  scene.add_water("x > -0.1 && y < 0.5", 1.);
+  scene.set_water_pressure([](const Point<dim> &x) { return 5000 - 3000 * x[0] + 2000 * x[1]; });
+  expect(pressure_oscillation(scene.water, scene.grid), 0., 1e-10, "oscillation of a linear p");
+
+  scene.set_water_pressure([](const Point<dim> &x) {
+    long sum = 0;
+    for (unsigned int a = 0; a < dim; ++a)
+      sum += std::lround((x[a] + 0.3) / 0.05 - 0.5);
+    return 1. + (sum % 2 ? 1. : -1.);
+  });
+  expect(pressure_oscillation(scene.water, scene.grid), 1., 1e-10, "oscillation of a checkerboard");
+  expect(stress_oscillation(scene.bodies, scene.grid), 0., 0., "oscillation of no soil");
+  expect(mass_percentiles(scene.bodies, scene.grid, 0, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
+  out << dim << "D oscillation of p: OK" << std::endl;
+}
+
+/// Soil at 2 m/s that carries water at 3 m/s, single-point.
+template <int dim>
+void test_carried_water(std::ostream &out)
+{
+  Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
+  MaterialParameters material;
+  material.law               = "linear elastic";
+  const unsigned int n_water = WaterLayout<dim>(0, true).n_properties();
+  scene.bodies.emplace_back("Wet",
+                            1000.,
+                            2000.,
+                            make_material<dim>(material),
+                            PropertyLayout<dim>(0, false, n_water),
+                            scene.grid.triangulation(),
+                            scene.grid.mapping());
+  SoilBody<dim> &soil = scene.bodies.back();
+  SeedingParameters seeding;
+  seeding.region          = "x > 0.5 && x < 0.8 && y < 0.3";
+  seeding.points_per_cell = 2;
+  seed(soil, seeding, scene.grid.triangulation(), scene.grid.cell_size());
+  scene.water.emplace_back(1000., true, soil);
+  const WaterPhase<dim> &water = scene.water.back();
+  for_each_point(soil.points, [&](const auto &point) {
+    double *properties                        = point.properties;
+    properties[soil.layout.velocity]          = 2.;
+    properties[water.layout.velocity]         = 3.;
+    properties[water.layout.volume]           = 0.5 * properties[soil.layout.volume];
+    properties[water.layout.mass]             = 1000. * properties[water.layout.volume];
+    properties[soil.layout.left_cauchy_green] = 1.1;
+  });
+  const WaterMeasures wet = measure_water(scene.bodies, scene.water, scene.grid);
+  const double volume     = 0.3 * 0.6 * std::pow(1.2, dim - 2);
+  expect(wet.mass, 500. * volume, 1e-8, "mass of carried water");
+  expect(wet.mass_outside_soil, 0., 0., "carried water outside soil");
+  expect(wet.volume_error, 0., 1e-12, "volume error of full pores");
+
+  const PointSums<dim> sums(scene.bodies, scene.water, Tensor<1, dim>(), MPI_COMM_WORLD);
+  expect(sums.momentum[0], (1000. * 2. + 500. * 3.) * volume, 1e-8, "momentum of soil and water");
+  expect(sums.kinetic, 0.5 * (1000. * 4. + 500. * 9.) * volume, 1e-8, "kinetic energy of soil and water");
+  expect(sums.largest_porosity, 0.5, 1e-12, "porosity");
+  expect(kinetic_to_elastic_energy(scene.bodies, scene.water, MPI_COMM_WORLD) * sums.elastic / sums.kinetic,
+         1.,
+         1e-12,
+         "ratio of the energies");
+  out << dim << "D carried water: OK" << std::endl;
+}
+
+
+void run()
+{
+  std::ostream silent(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test_invariants<2>(out);
+  test_invariants<3>(out);
+  test_percentiles<2>(out);
+  test_percentiles<3>(out);
+  test_oscillation<2>(out);
+  test_oscillation<3>(out);
+  test_tie<2>(out);
+  test_tie<3>(out);
+  test_water<2>(out);
+  test_water<3>(out);
+  test_pressure_oscillation<2>(out);
+  test_pressure_oscillation<3>(out);
+  test_carried_water<2>(out);
+  test_carried_water<3>(out);
+}
+
+const UnitTest registered("output_measures", run);
+} // namespace test_output_measures

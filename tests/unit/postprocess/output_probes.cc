@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Values at places, columns above the ground, the front and the lasting numbers of points, of fields made by hand, on
+// one rank and on two.
+
+#include "../expect.h"
+
+#include <scree/materials/table.h>
+#include <scree/postprocess/columns.h>
+#include <scree/postprocess/place_values.h>
+#include <scree/seeding/seeding.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iostream>
+#include <set>
+
+#include "../unit_test.h"
+
+namespace test_output_probes
+{
+using namespace dealii;
+using namespace scree;
+
+/// A block of soil in a box from -0.3 m to 0.9 m with cells of 0.1 m, full of water.
+template <int dim>
+struct Block
+{
+  BackgroundGrid<dim> grid;
+  std::list<SoilBody<dim>> bodies;
+  std::list<WaterPhase<dim>> water;
+
+  static GridParameters box()
+  {
+    GridParameters parameters;
+    parameters.lower_corner.assign(dim, -0.3);
+    parameters.upper_corner.assign(dim, 0.9);
+    return parameters;
+  }
+
+  Block(const std::string &region, const double jitter)
+      : grid(box(), MPI_COMM_WORLD)
+  {
+    MaterialParameters material;
+    material.law = "linear elastic";
+    SeedingParameters seeding;
+    seeding.region          = region;
+    seeding.points_per_cell = 3;
+    seeding.jitter          = jitter;
+    bodies.emplace_back("Soil",
+                        1000.,
+                        2000.,
+                        make_material<dim>(material),
+                        PropertyLayout<dim>(0, false, WaterLayout<dim>(0, false).n_properties()),
+                        grid.triangulation(),
+                        grid.mapping());
+    SoilBody<dim> &soil = bodies.back();
+    seed(soil, seeding, grid.triangulation(), grid.cell_size());
+    water.emplace_back(1000., false, soil);
+    const auto &layout = water.back().layout;
+    for_each_point(soil.points, [&](const auto &point) {
+      double *properties                     = point.properties;
+      properties[layout.volume]              = 0.5 * properties[soil.layout.volume];
+      properties[layout.mass]                = 1000. * properties[layout.volume];
+      properties[layout.pressure]            = linear(point.location);
+      properties[soil.layout.velocity]       = 2. * linear(point.location);
+      properties[soil.layout.stress + 1]     = -3. * linear(point.location);
+      properties[layout.velocity + dim - 1u] = 7.;
+    });
+  }
+
+  static double linear(const Point<dim> &x)
+  {
+    double value = 1.;
+    for (unsigned int a = 0; a < dim; ++a)
+      value += (a + 1.) * x[a];
+    return value;
+  }
+};
+
+template <int dim>
+Point<dim> place(const double x, const double y)
+{
+  Point<dim> result;
+  for (unsigned int a = 0; a < dim; ++a)
+    result[a] = a == 0 ? x : y;
+  return result;
+}
+
+/// A linear field is found to rounding inside, at a wall, in a corner and a little above the surface.
+template <int dim>
+void test_places(std::ostream &out)
+{
+  const Block<dim> block("x < 0.5 && y < 0.3", 0.2);
+  const std::vector<Point<dim>> places{ place<dim>(0.123, 0.1), place<dim>(0.2, -0.3), place<dim>(-0.3, -0.3),
+                                        place<dim>(0.1, 0.3),   place<dim>(0.7, 0.1),  place<dim>(0.1, 0.4) };
+  const PlaceValues<dim> values(block.grid, places);
+  const auto soil = values.of_soil(block.bodies), water = values.of_water(block.water);
+  const auto names = PlaceValues<dim>::names_of_soil();
+  AssertDimension(names.size(), soil[0].size());
+  for (unsigned int i = 0; i < 4; ++i)
+    {
+      const double f = Block<dim>::linear(places[i]);
+      expect(soil[i][0], 2. * f, 1e-10, names[0]);
+      expect(soil[i][1], 0., 1e-10, names[1]);
+      expect(soil[i][dim + 1], -3. * f, 1e-10, names[dim + 1]);
+      expect(soil[i][names.size() - 2], f, 1e-10, names[names.size() - 2]);
+      expect(soil[i].back(), 0.5, 1e-10, names.back());
+      expect(water[i][0], f, 1e-10, "p");
+      expect(water[i].back(), 7., 1e-10, "velocity of the water");
+    }
+  for (unsigned int i = 4; i < 6; ++i)
+    AssertThrow(std::isnan(soil[i][0]) && std::isnan(water[i].back()), ExcMessage("There is no material."));
+  out << dim << "D places: OK" << std::endl;
+}
+
+
+/// A block of 0.6 m on the ground at -0.3 m, which ends at x = 0.5 m.
+template <int dim>
+void test_columns(std::ostream &out)
+{
+  const Block<dim> block("x < 0.5 && " + std::string(dim == 2 ? "y" : "z") + " < 0.3", 0.);
+  std::vector<std::vector<double>> places{ { 0.123 }, { -0.3 }, { 0.8 } };
+  if (dim == 3)
+    for (auto &one : places)
+      one.push_back(0.37);
+  for (const auto &lumps : { lumps_of(block.bodies), lumps_of(block.bodies, block.water, block.grid) })
+    {
+      const auto columns = ground_columns(lumps, places, block.grid);
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          expect(columns[i].height, 0.3, 1e-9, "height");
+          expect(columns[i].thickness, 0.6, 1e-9, "thickness");
+        }
+      expect(columns[2].thickness, 0., 0., "thickness beside the block");
+      AssertThrow(std::isnan(columns[2].height), ExcMessage("There is no surface."));
+
+      const auto [rear, front] = rear_and_front(lumps, 0.3, block.grid);
+      expect(rear, -0.3, 1e-12, "rear");
+      expect(front, 0.5, 1e-9, "front: half the thickness between the last column's centre and the next one's");
+      AssertThrow(std::isnan(rear_and_front(lumps, 0.7, block.grid).second), ExcMessage("It is nowhere as thick."));
+    }
+  out << dim << "D columns: OK" << std::endl;
+}
+
+
+/// A wedge from 0.6 m at x = -0.3 m to nothing at x = 0.9 m: thickness, height and front follow its slope.
+void test_wedge(std::ostream &out)
+{
+  const Block<2> block("y < -0.3 + 0.5 * (0.9 - x)", 0.);
+  const auto lumps  = lumps_of(block.bodies);
+  const auto column = ground_columns(lumps, { { 0.3 } }, block.grid)[0];
+  expect(column.thickness, 0.3, 0.005, "thickness");
+  expect(column.height, 0., 0.025, "height");
+  expect(rear_and_front(lumps, 0.2, block.grid).second, 0.5, 0.01, "front");
+  out << "wedge: OK" << std::endl;
+}
+
+
+/// Numbers stay unique and with their points through moves, sorts and changes of rank.
+template <int dim>
+void test_ids(std::ostream &out)
+{
+  Block<dim> block("x < 0.5 && y < 0.3", 0.);
+  auto &points     = block.bodies.back().points;
+  const auto slot  = block.water.back().layout.pressure; // keeps x at the start
+  const auto check = [&]() {
+    std::vector<double> keys; // of all ranks: number and start
+    for (unsigned int c = 0; c < points.cells().size(); ++c)
+      {
+        const auto ids = points.ids(c);
+        AssertDimension(ids.size(), points.cells()[c].n_points);
+        for (unsigned int p = 0; p < ids.size(); ++p)
+          keys.push_back(ids[p] + 1e-3 * points.cells()[c].properties_of(p)[slot]);
+      }
+    std::multiset<double> all;
+    for (const auto &of_rank : Utilities::MPI::all_gather(MPI_COMM_WORLD, keys))
+      all.insert(of_rank.begin(), of_rank.end());
+    std::set<long> numbers;
+    for (const double key : all)
+      numbers.insert(std::lround(std::floor(key + 0.5)));
+    AssertThrow(numbers.size() == all.size(), ExcMessage("Two points have one number."));
+    return all;
+  };
+  for_each_point(points, [&](const auto &point) { point.properties[slot] = point.location[0]; });
+  const auto before = check();
+  for (unsigned int step = 0; step < 6; ++step)
+    {
+      for_each_point(points, [&](const auto &point) {
+        point.location[0] += 0.04;
+        point.location[1] += point.location[0] > 0.3 ? 0.05 : 0.;
+      });
+      step % 3 == 2 ? points.sort() : points.hand_over();
+    }
+  AssertThrow(check() == before, ExcMessage("Points have exchanged their numbers."));
+  out << dim << "D numbers: OK" << std::endl;
+}
+
+
+void run()
+{
+  std::ostream nowhere(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : nowhere;
+  test_places<2>(out);
+  test_places<3>(out);
+  test_columns<2>(out);
+  test_columns<3>(out);
+  test_wedge(out);
+  test_ids<2>(out);
+  test_ids<3>(out);
+}
+
+const UnitTest registered("output_probes", run);
+} // namespace test_output_probes

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The pass from the nodes to the points, in batches, against the same pass written down point by point, step by step:
+// for every basis, transfer, F-bar and law, with cells of one point and batches that are not full. Nodes move at
+// random.
+
+#include <scree/materials/hencky_material.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
+#include <scree/tensor/invariants.h>
+#include <scree/tensor/matrix.h>
+#include <scree/transfer/transfer.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "../random_numbers.h"
+
+#include "../unit_test.h"
+
+namespace test_transfer_batches
+{
+using namespace dealii;
+using namespace scree;
+
+constexpr double time_step = 1e-3, density = 1000., pic_rate = 20.;
+
+/// A point as the reference has it.
+template <int dim>
+struct Reference
+{
+  std::vector<double> properties;
+  Point<dim> location;
+  Tensor<2, dim> increment;
+  double volume_change, stretch;
+};
+
+
+/// Velocity, place and gradient of a point from the nodes.
+template <int dim, int n>
+Reference<dim> moved(const CellPoints<dim> &cell,
+                     const unsigned int p,
+                     const BackgroundGrid<dim> &grid,
+                     const NodalField<dim> &field,
+                     const PropertyLayout<dim> &layout,
+                     const std::string &method)
+{
+  const double *old  = cell.properties_of(p);
+  const Point<dim> x = cell.reference_location_of(p);
+  Reference<dim> point{ std::vector<double>(old, old + layout.n_properties), cell.location_of(p), {}, 1., 1. };
+
+  const OpenKnots open = grid.open_knots(cell.cell);
+  const CellBasis<dim, n> basis(x, open);
+  Tensor<1, dim> velocity, change;
+  Tensor<2, dim> gradient, moment;
+  for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
+    {
+      const double *node    = field[grid.nodes(cell.cell)[i]];
+      unsigned int place[3] = { i % n, i / n % n, i / n / n };
+      double value          = 1.;
+      Tensor<1, dim> slope, offset;
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          value *= basis.value[a][place[a]];
+          offset[a] = grid.cell_size() * (CellBasis<dim, n>::node_positions(open, a)[place[a]] - x[a]);
+          slope[a]  = 1. / grid.cell_size();
+          for (unsigned int b = 0; b < dim; ++b)
+            slope[a] *= a == b ? basis.derivative[b][place[b]] : basis.value[b][place[b]];
+        }
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double v = node[NodalField<dim>::velocity + c];
+          velocity[c] += value * v;
+          change[c] += value * node[NodalField<dim>::velocity_change + c];
+          gradient[c] += v * slope;
+          moment[c] += value * v * offset;
+        }
+    }
+  const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
+  point.increment          = one + time_step * gradient;
+  point.volume_change      = determinant(point.increment);
+  point.location += time_step * velocity;
+  const bool keeps  = method == "FLIP" || method == "AFLIP";
+  const double keep = std::exp(-pic_rate * time_step);
+  for (unsigned int c = 0; c < dim; ++c)
+    point.properties[c] = keeps ? keep * (old[c] + change[c]) + (1 - keep) * velocity[c] : velocity[c];
+  Tensor<2, dim> affine = method == "APIC" ? moment : gradient;
+  const bool is_loose   = density * point.properties[layout.volume] > 1.2 * point.properties[layout.mass];
+  if (method == "AFLIP" || (method == "TPIC" && is_loose))
+    {
+      const Tensor<2, dim> carried = gradient * invert(point.increment);
+      if (carried.norm() < gradient.norm())
+        affine = carried;
+    }
+  if (method == "APIC" || method == "TPIC" || method == "AFLIP")
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      point.properties[layout.affine + c] = affine[c / dim][c % dim];
+  return point;
+}
+
+
+/// F-bar of a cell's points.
+template <int dim>
+void average(const std::string &f_bar, const PropertyLayout<dim> &layout, std::vector<Reference<dim>> &points)
+{
+  if (f_bar == "none")
+    return;
+  double volume = 0, change = 0, unloaded = 0;
+  const auto elastic = [&](Reference<dim> &point) { return &point.properties[layout.left_cauchy_green]; };
+  for (auto &point : points)
+    {
+      const double own = point.properties[layout.volume];
+      volume += own;
+      change += own * point.volume_change;
+      unloaded += own / std::sqrt(determinant_of_components<dim>(elastic(point)));
+    }
+  for (auto &point : points)
+    {
+      if (f_bar == "modified")
+        {
+          const double scale =
+              std::cbrt(Utilities::fixed_power<2>(volume / unloaded) / determinant_of_components<dim>(elastic(point)));
+          for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+            elastic(point)[c] *= scale;
+        }
+      point.stretch = std::cbrt(change / volume / point.volume_change);
+      point.increment *= point.stretch;
+      if (f_bar == "modified")
+        point.volume_change = change / volume;
+    }
+}
+
+
+/// Volume and stress of a point.
+template <int dim>
+void update(const Material<dim> &material,
+            const PropertyLayout<dim> &layout,
+            Reference<dim> &point,
+            UpdateReport &report)
+{
+  double *properties = point.properties.data();
+  properties[layout.volume] *= point.volume_change;
+  const double V0 = properties[layout.mass] / density, J = properties[layout.volume] / V0;
+  material.update({ 1,
+                    0,
+                    properties + layout.left_cauchy_green,
+                    properties + layout.stress,
+                    properties + layout.internal_variables },
+                  { &point.increment[0][0], &point.stretch, &J, &V0 },
+                  report);
+}
+
+
+/// How far two numbers differ, over a scale: that of stress is the minimum pressure of a law, 1 Pa, at least.
+double difference(const double a, const double b, const double scale)
+{
+  AssertThrow(std::isfinite(a) && std::isfinite(b), ExcMessage("not a number"));
+  return std::abs(a - b) / std::max({ scale, std::abs(a), std::abs(b) });
+}
+
+
+template <int dim>
+void start(SoilBody<dim> &body, RandomNumbers &random)
+{
+  for_each_point(body.points, [&](const auto &point) {
+    double *properties = point.properties, stress[6] = {};
+    const double pressure = random.log_uniform(500, 5e3);
+    set_k0_components(pressure, random.uniform(0.6, 1), dim - 1, stress);
+    body.material->initialise(stress,
+                              properties + body.layout.left_cauchy_green,
+                              properties + body.layout.stress,
+                              properties + body.layout.internal_variables);
+    for (unsigned int a = 0; a < dim; ++a)
+      properties[a] = random.uniform(-1, 1);
+    properties[body.layout.volume] *= random.uniform(0.9, 1.3); // Some are loose.
+  });
+}
+
+
+template <int dim>
+void shake_nodes(const BackgroundGrid<dim> &grid,
+                 const PointSet<dim> &points,
+                 NodalField<dim> &field,
+                 RandomNumbers &random)
+{
+  field.clear();
+  for (const auto &cell : points.cells())
+    for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+      for (unsigned int c = 1; c < NodalField<dim>::n_components; ++c)
+        if (double &value = field[grid.nodes(cell.cell)[i]][c]; value == 0.)
+          value = random.uniform(-1, 1) * (i % 7 == 0 ? 0.5 : 0.05);
+}
+
+
+/// What the batches have to serve, over all runs.
+struct Visited
+{
+  unsigned int cells_of_one_point = 0, partial_batches = 0;
+  UpdateReport report;
+};
+
+
+template <int dim>
+std::vector<std::vector<Reference<dim>>> reference_step(const SoilBody<dim> &body,
+                                                        const std::vector<CellPoints<dim>> &cells,
+                                                        const BackgroundGrid<dim> &grid,
+                                                        const NodalField<dim> &field,
+                                                        const std::string &method,
+                                                        const std::string &f_bar,
+                                                        const Material<dim> &one_by_one,
+                                                        Visited &visited)
+{
+  std::vector<std::vector<Reference<dim>>> expected;
+  for (const auto &cell : cells)
+    {
+      std::vector<Reference<dim>> points;
+      for (unsigned int p = 0; p < cell.n_points; ++p)
+        points.push_back(grid.n_nodes_1d() == 3 ? moved<dim, 3>(cell, p, grid, field, body.layout, method)
+                                                : moved<dim, 2>(cell, p, grid, field, body.layout, method));
+      average(f_bar, body.layout, points);
+      for (auto &point : points)
+        update(one_by_one, body.layout, point, visited.report);
+      visited.cells_of_one_point += cell.n_points == 1;
+      visited.partial_batches += cell.n_points % batch_size != 0;
+      expected.push_back(points);
+    }
+  return expected;
+}
+
+
+template <int dim>
+double largest_difference(const std::vector<CellPoints<dim>> &cells,
+                          const std::vector<std::vector<Reference<dim>>> &expected,
+                          const PropertyLayout<dim> &layout)
+{
+  double largest = 0;
+  for (unsigned int c = 0; c < cells.size(); ++c)
+    for (unsigned int p = 0; p < cells[c].n_points; ++p)
+      {
+        const Reference<dim> &wanted = expected[c][p];
+        double stress                = 1;
+        for (unsigned int i = 0; i < n_symmetric_components<dim>; ++i)
+          stress = std::max(stress, std::abs(wanted.properties[layout.stress + i]));
+        for (unsigned int i = 0; i < layout.n_properties; ++i)
+          {
+            const bool is_stress = i >= layout.stress && i < layout.internal_variables;
+            largest              = std::max(
+                largest, difference(cells[c].properties_of(p)[i], wanted.properties[i], is_stress ? stress : 1e-2));
+          }
+        largest = std::max(largest, cells[c].location_of(p).distance(wanted.location));
+      }
+  return largest;
+}
+
+
+template <int dim>
+double test(const std::string &basis,
+            const std::string &method,
+            const std::string &f_bar,
+            const std::string &law,
+            RandomNumbers &random,
+            Visited &visited)
+{
+  GridParameters grid_parameters;
+  grid_parameters.basis = basis;
+  grid_parameters.lower_corner.assign(dim, 0.);
+  grid_parameters.upper_corner.assign(dim, dim == 2 ? 0.9 : 0.5);
+  const BackgroundGrid<dim> grid(grid_parameters, MPI_COMM_WORLD);
+  TransferParameters transfer_parameters;
+  transfer_parameters.method   = method;
+  transfer_parameters.pic_rate = pic_rate;
+  StabilisationParameters stabilisation;
+  stabilisation.f_bar = f_bar;
+  Transfer<dim> transfer(grid, transfer_parameters, stabilisation);
+
+  MaterialParameters material;
+  material.law = law;
+  std::unique_ptr<Material<dim>> one_by_one;
+  if (law == "Nor-Sand")
+    one_by_one = std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(material.nor_sand));
+  else
+    one_by_one = std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(material.linear_elastic));
+  SeedingParameters seeding;
+  seeding.region = "x + 0.7 * y < 0.55";
+  if (dim == 3) // and a point in a cell by itself
+    seeding.region += " || max(max(abs(x - 0.4167), abs(y - 0.4167)), abs(z - 0.4167)) < 0.0166";
+  seeding.points_per_cell = 3;
+  SoilBody<dim> body(
+      "Soil",
+      density,
+      density,
+      make_material<dim>(material),
+      PropertyLayout<dim>(one_by_one->internal_quantities().size(), transfer_parameters.carries_affine_field()),
+      grid.triangulation(),
+      grid.mapping());
+  seed(body, seeding, grid.triangulation(), grid.cell_size());
+  start(body, random);
+
+  NodalField<dim> field(grid);
+  double largest = 0;
+  for (unsigned int step = 0; step < 8; ++step)
+    {
+      shake_nodes(grid, body.points, field, random);
+      const auto &cells   = body.points.cells();
+      const auto expected = reference_step(body, cells, grid, field, method, f_bar, *one_by_one, visited);
+      transfer.to_points(body, field, time_step);
+      largest = std::max(largest, largest_difference(cells, expected, body.layout));
+      body.points.hand_over();
+    }
+  return largest;
+}
+
+
+template <int dim>
+void test_all(RandomNumbers &random)
+{
+  for (const std::string law : { "linear elastic", "Nor-Sand" })
+    {
+      Visited visited;
+      double largest = 0;
+      for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC", "AFLIP" })
+        for (const std::string basis : { "spline", "linear" })
+          for (const std::string f_bar : { "none", "standard", "modified" })
+            if (basis == "spline" || f_bar == "modified")
+              largest = std::max(largest, test<dim>(basis, method, f_bar, law, random, visited));
+      const std::string name = std::to_string(dim) + "D, " + law;
+      AssertThrow(largest < 1e-9, ExcMessage(name + ": differs by " + std::to_string(largest * 1e12) + " e-12"));
+      // The scene must reach what it is for.
+      AssertThrow(visited.cells_of_one_point > 0 && visited.partial_batches > 0 &&
+                      (law != "Nor-Sand" || (visited.report.n_substeps > visited.report.n_updates &&
+                                             visited.report.plastic_dissipation > 0)),
+                  ExcMessage(name + ": a way was not taken"));
+      std::cout << name << ": all transfers, bases and F-bars as point by point: OK" << std::endl;
+    }
+}
+
+
+void run()
+{
+  RandomNumbers random;
+  test_all<2>(random);
+  test_all<3>(random);
+}
+
+const UnitTest registered("transfer_batches", run);
+} // namespace test_transfer_batches

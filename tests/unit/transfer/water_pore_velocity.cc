@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Velocities of water points with the porosity of their own place, for every transfer, on one rank and on two:
+// - soil and water lie anyhow and nodes move at random: the points' momentum is that of the nodes (FLIP, AFLIP:
+//   its change);
+// - a flux U that is the same in free water and in soil with a sharp face: points that move with U/n_p come from the
+//   nodes as they went there, and without gradient;
+// - soil that has just crossed a face of cells, whose nodes beyond it have no mass to speak of and any velocity: water
+//   there does not take it;
+// - uniform porosity gives the velocity of the nodes to rounding, water without soil gives it to the last digit.
+
+#include "../pattern.h"
+
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
+#include <scree/seeding/water_seeding.h>
+#include <scree/transfer/water_transfer.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "../unit_test.h"
+
+namespace test_water_pore_velocity
+{
+using namespace dealii;
+using namespace scree;
+
+namespace
+{
+  constexpr double time_step = 1.; // s: displacements of the size of velocities
+
+  template <int dim>
+  void shake(PointSet<dim> &points)
+  {
+    for_each_point(points, [&](const auto &point) {
+      const Point<dim> x = point.location;
+      for (unsigned int a = 0; a < dim; ++a)
+        point.location[a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
+    });
+    points.hand_over();
+  }
+
+  /// Water up to y = .44 m in a box of 6 cells an axis, with soil of porosity .4 where an expression says.
+  template <int dim>
+  class Scene
+  {
+  public:
+    Scene(const std::string &basis, const std::string &method, const std::string &soil_region)
+        : grid(grid_parameters(basis), MPI_COMM_WORLD)
+        , soil("Soil",
+               1500.,
+               2500.,
+               make_material<dim>(linear_elastic()),
+               PropertyLayout<dim>(0, false),
+               grid.triangulation(),
+               grid.mapping())
+        , water(1000., true, grid.triangulation(), grid.mapping())
+        , mixture(grid, points_of_soil)
+        , pores(grid)
+        , soil_field(grid)
+        , water_field(grid)
+    {
+      if (soil_region != "none")
+        {
+          SeedingParameters seeding;
+          seeding.region           = soil_region;
+          seeding.points_per_cell  = points_of_soil;
+          seeding.initial_porosity = 0.4;
+          seed(soil, seeding, grid.triangulation(), grid.cell_size());
+        }
+      water_parameters.region          = "y < 0.44";
+      water_parameters.points_per_cell = 3;
+      const std::string region         = soil_region == "none" ? "0" : soil_region;
+      seed_water(water, water_parameters, { { "Soil", region, 0.4, 1500. } }, grid.triangulation(), grid.cell_size());
+      transfer_parameters.method   = method;
+      transfer_parameters.pic_rate = 0;
+      soil.drag.emplace(water_parameters, 0.4);
+      transfer = std::make_unique<WaterTransfer<dim>>(grid, transfer_parameters, water_parameters, 1.);
+    }
+
+    /// Points to nodes, summed over ranks; soil at rest, water with its velocity; the nodes' change is their velocity.
+    void gather()
+    {
+      transfer->soil_to_grid(soil, mixture);
+      transfer->to_grid(water, mixture, water_field, pores);
+      for (const auto &cell : mixture.cells())
+        {
+          soil_field.activate_cell(cell.cell);
+          pores.activate_cell(cell.cell);
+          water_field.activate_cell(cell.cell);
+        }
+      for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+        if (mixture.cells()[record].grain_volume > 0.)
+          for (unsigned int i = 0, n = grid.n_nodes_1d(); i < grid.n_nodes_per_cell(); ++i)
+            pores[grid.nodes(mixture.cells()[record].cell)[i]][PoreField<dim>::grain_volume] +=
+                mixture.grain_volumes(record, i / n)[i % n];
+      pores.add_contributions();
+      water_field.add_contributions();
+      for (const unsigned int node : pores.active_nodes())
+        pores[node][PoreField<dim>::soil_share] =
+            soil_share(pores[node][PoreField<dim>::grain_volume], pores[node][PoreField<dim>::local_solid_volume]);
+      for (const unsigned int node : water_field.active_nodes())
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const double mass = water_field[node][Field::mass]; mass > 0.)
+            water_field[node][Field::velocity + c] /= mass;
+    }
+
+    /// Random velocities of soil and water at the nodes.
+    void move_nodes()
+    {
+      for (NodalField<dim> *field : { &soil_field, &water_field })
+        for (const unsigned int node : field->active_nodes())
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const Point<dim> place =
+                  grid.node_position(node) + (field == &soil_field ? 1. : 3.) * Point<dim>::unit_vector(c);
+              (*field)[node][Field::velocity + c] = (*field)[node][Field::velocity_change + c] = pattern(place);
+            }
+    }
+
+    void scatter()
+    {
+      soil_field.update_ghosts();
+      water_field.update_ghosts();
+      pores.update_ghosts();
+      transfer->to_points(
+          water,
+          { soil_field, water_field, pores },
+          mixture,
+          [](const unsigned int) { return std::array<double, (1 << dim)>(); },
+          [](const unsigned int) { return std::array<double, (1 << dim)>(); },
+          time_step);
+    }
+
+    static constexpr unsigned int points_of_soil = dim == 2 ? 4 : 2; // of a cell, along each axis
+
+    using Field = NodalField<dim>;
+    const BackgroundGrid<dim> grid;
+    SoilBody<dim> soil;
+    WaterPhase<dim> water;
+    WaterParameters water_parameters;
+    TransferParameters transfer_parameters;
+    std::unique_ptr<WaterTransfer<dim>> transfer;
+    Mixture<dim> mixture;
+    PoreField<dim> pores;
+    NodalField<dim> soil_field, water_field;
+
+  private:
+    static GridParameters grid_parameters(const std::string &basis)
+    {
+      GridParameters parameters;
+      parameters.basis = basis;
+      parameters.lower_corner.assign(dim, 0.);
+      parameters.upper_corner.assign(dim, 0.6);
+      return parameters;
+    }
+
+    static MaterialParameters linear_elastic()
+    {
+      MaterialParameters material;
+      material.law = "linear elastic";
+      return material;
+    }
+  };
+
+  std::string bounded(const double value, const double bound)
+  {
+    const double largest = Utilities::MPI::max(value, MPI_COMM_WORLD);
+    return largest <= bound ? "OK" : "WRONG by " + Utilities::to_string(largest);
+  }
+
+  /// Points' momentum less the nodes', over the sum of its parts' size.
+  template <int dim>
+  double momentum_error(const std::string &basis, const std::string &method)
+  {
+    Scene<dim> scene(basis, method, "x + 0.7 * y < 0.37");
+    shake(scene.soil.points);
+    shake(scene.water.points());
+    for_each_point(scene.water.points(), [&](const auto &point) {
+      for (unsigned int c = 0; c < dim; ++c)
+        point.properties[scene.water.layout.velocity + c] = 0.;
+    });
+    scene.gather();
+    scene.move_nodes();
+    scene.scatter();
+    std::vector<double> sums(dim + 1, 0.);
+    for_each_point(scene.water.points(), [&](const auto &point) {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double momentum =
+              point.properties[scene.water.layout.mass] * point.properties[scene.water.layout.velocity + c];
+          sums[c] += momentum;
+          sums[dim] += std::abs(momentum);
+        }
+    });
+    for (const unsigned int node : scene.water_field.active_nodes())
+      for (unsigned int c = 0; c < dim; ++c)
+        sums[c] -=
+            scene.water_field[node][NodalField<dim>::mass] * scene.water_field[node][NodalField<dim>::velocity + c];
+    Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
+    double error = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+      error = std::max(error, std::abs(sums[c]) / sums[dim]);
+    return error;
+  }
+
+  /// Largest difference of a point's velocity, or of what its gradient adds over a cell, from U/n_p, over U.
+  template <int dim>
+  double flux_error(const std::string &method)
+  {
+    const double flux = 0.02; // m/s
+    Scene<dim> scene("spline", method, "x < 0.25");
+    const auto &layout  = scene.water.layout;
+    const auto velocity = [&](const double x) { return x < 0.25 ? flux / 0.4 : flux; };
+    for_each_point(scene.water.points(), [&](const auto &point) {
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        point.properties[layout.affine + i] = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        point.properties[layout.velocity + c] = c == 0 ? velocity(point.location[0]) : 0.;
+    });
+    scene.gather();
+    std::vector<Point<dim>> places;
+    for_each_point(scene.water.points(), [&](const auto &point) { places.push_back(point.location); });
+    scene.scatter();
+    double error       = 0;
+    unsigned int index = 0;
+    for_each_point(scene.water.points(), [&](const auto &point) {
+      const Point<dim> place = places[index++];
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double expected = c == 0 ? velocity(place[0]) : 0.;
+          error                 = std::max(error, std::abs(point.properties[layout.velocity + c] - expected) / flux);
+          error                 = std::max(error, std::abs((point.location - place)[c] / time_step - expected) / flux);
+        }
+      if (method == "TPIC")
+        for (unsigned int i = 0; i < dim * dim; ++i)
+          error = std::max(error, std::abs(point.properties[layout.affine + i]) * scene.grid.cell_size() / flux);
+    });
+    return error;
+  }
+
+  /// Largest speed that water takes at nodes where it is at rest, and only soil of next to no mass moves, over its
+  /// speed.
+  template <int dim>
+  double light_soil_error(const std::string &method)
+  {
+    Scene<dim> scene("spline", method, "x < 0.3");
+    const double half_row = 0.5 * scene.grid.cell_size() / scene.points_of_soil;
+    for_each_point(scene.soil.points, [&](const auto &point) { point.location[0] += half_row + 1e-6; });
+    scene.soil.points.hand_over();
+    scene.gather();
+    const double cell_volume = Utilities::fixed_power<dim>(scene.grid.cell_size());
+    double n_light           = 0;
+    for (const unsigned int node : scene.soil_field.active_nodes())
+      if (const double grains = scene.pores[node][PoreField<dim>::grain_volume];
+          grains > 0. && grains < 1e-6 * cell_volume)
+        {
+          scene.soil_field[node][NodalField<dim>::velocity] = scene.soil_field[node][NodalField<dim>::velocity_change] =
+              1.;
+          ++n_light;
+        }
+    scene.scatter();
+    double error = Utilities::MPI::sum(n_light, MPI_COMM_WORLD) > 0. ? 0. : 1.;
+    for_each_point(scene.water.points(), [&](const auto &point) {
+      error = std::max(error, std::abs(point.properties[scene.water.layout.velocity]));
+    });
+    return error;
+  }
+
+  /// Largest difference of a point's velocity from that of the nodes there.
+  template <int dim>
+  double plain_error(const std::string &method, const std::string &soil_region)
+  {
+    Scene<dim> scene("spline", method, soil_region), same("spline", method, "none");
+    for (Scene<dim> *one : { &scene, &same })
+      {
+        shake(one->water.points());
+        one->gather();
+        one->move_nodes();
+      }
+    // Nodes of the same motion, of which one set knows nothing of soil.
+    scene.scatter();
+    same.scatter();
+    std::vector<double> velocities;
+    for_each_point(same.water.points(), [&](const auto &point) {
+      for (unsigned int c = 0; c < dim; ++c)
+        velocities.push_back(point.properties[same.water.layout.velocity + c]);
+    });
+    double error       = 0;
+    unsigned int index = 0;
+    for_each_point(scene.water.points(), [&](const auto &point) {
+      for (unsigned int c = 0; c < dim; ++c)
+        error = std::max(error, std::abs(point.properties[scene.water.layout.velocity + c] - velocities[index++]));
+    });
+    return error;
+  }
+
+  template <int dim>
+  void test(std::ostream &out)
+  {
+    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC", "AFLIP" })
+      {
+        out << dim << "D " << method << ": momentum " << bounded(momentum_error<dim>("spline", method), 1e-14);
+        if (method != "FLIP" && method != "AFLIP") // keep the points' own velocity
+          out << ", flux through a face " << bounded(flux_error<dim>(method), 1e-13);
+        out << ", light soil " << bounded(light_soil_error<dim>(method), 1e-8);
+        out << ", uniform soil " << bounded(plain_error<dim>(method, "x < 1"), 1e-14) << ", no soil "
+            << bounded(plain_error<dim>(method, "none"), 0.) << std::endl;
+      }
+    out << dim << "D linear basis: momentum " << bounded(momentum_error<dim>("linear", "TPIC"), 1e-14) << std::endl;
+  }
+} // namespace
+
+
+void run()
+{
+  std::ostream silent(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test<2>(out);
+  test<3>(out);
+}
+
+const UnitTest registered("water_pore_velocity", run);
+} // namespace test_water_pore_velocity
