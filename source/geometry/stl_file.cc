@@ -62,7 +62,7 @@ namespace scree
           std::istringstream words(line);
           std::string first;
           words >> first;
-          first = lower_case(first);
+          first              = lower_case(first);
           const auto require = [&](const bool possible, const std::string &remedy) {
             if (!possible)
               throw EntryError(name + "line " + std::to_string(number) + ' ' + remedy +

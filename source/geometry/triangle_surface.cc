@@ -104,14 +104,14 @@ namespace scree
     find_normals(name);
     std::vector<Triangle> joined;
     for (unsigned int t = 0; t < this->triangles.size(); ++t)
-      joined.push_back(corners_of(t));
+      joined.push_back(vertices_of(t));
     tree = BoxTree(joined);
     require_no_crossing(name);
     require_outward(name);
   }
 
 
-  Triangle TriangleSurface::corners_of(const unsigned int triangle) const
+  Triangle TriangleSurface::vertices_of(const unsigned int triangle) const
   {
     const Numbers &numbers = triangles[triangle];
     return { { corners[numbers[0]], corners[numbers[1]], corners[numbers[2]] } };
@@ -140,7 +140,7 @@ namespace scree
     std::map<std::pair<unsigned int, unsigned int>, std::vector<Side>> edges;
     for (unsigned int t = 0; t < triangles.size(); ++t)
       {
-        const Triangle of_triangle = corners_of(t);
+        const Triangle of_triangle = vertices_of(t);
         double longest             = 0.;
         for (unsigned int i = 0; i < 3; ++i)
           longest = std::max(longest, of_triangle[i].distance(of_triangle[(i + 1) % 3]));
@@ -182,7 +182,7 @@ namespace scree
     corner_normals.resize(corners.size());
     for (unsigned int t = 0; t < triangles.size(); ++t)
       {
-        const Triangle of_triangle = corners_of(t);
+        const Triangle of_triangle = vertices_of(t);
         face_normals.push_back(across(of_triangle) / across(of_triangle).norm());
         for (unsigned int i = 0; i < 3; ++i)
           {
@@ -207,7 +207,7 @@ namespace scree
     const double tolerance = same_place * size;
     for (unsigned int t = 0; t < triangles.size(); ++t)
       {
-        const Triangle of_t = corners_of(t);
+        const Triangle of_t = vertices_of(t);
         const Numbers &own  = triangles[t];
         // Each looks with its edges at all others; what two have at a common corner is left out.
         tree.visit_touching(box_around({ of_t }), [&](const unsigned int other) {
@@ -216,7 +216,7 @@ namespace scree
           };
           if (std::count_if(own.begin(), own.end(), is_common) > 1)
             return;
-          const Triangle of_other = corners_of(other);
+          const Triangle of_other = vertices_of(other);
           for (unsigned int i = 0; i < 3; ++i)
             if (const unsigned int next = (i + 1) % 3;
                 !is_common(own[i]) && !is_common(own[next]) && meets(of_t[i], of_t[next], of_other, tolerance))
@@ -248,7 +248,7 @@ namespace scree
           {
             const unsigned int one = waiting.back();
             waiting.pop_back();
-            const Triangle of_one = corners_of(one);
+            const Triangle of_one = vertices_of(one);
             volumes[part] += volume(bounds().lower, of_one[0], of_one[1], of_one[2]);
             for (const unsigned int next : neighbours[one])
               if (part_of[next] == none)
@@ -264,7 +264,7 @@ namespace scree
         double n_around       = 0.; // other parts
         for (unsigned int t = 0; t < triangles.size() && volumes.size() > 1; ++t)
           if (part_of[t] != part)
-            n_around += covered_part(place, corners_of(t));
+            n_around += covered_part(place, vertices_of(t));
         const bool is_hole = volumes[part] < 0.;
         if (std::lround(n_around) != (is_hole ? 1 : 0))
           throw EntryError(name + "its part at " + place_text(place) +
@@ -280,7 +280,7 @@ namespace scree
     std::pair<unsigned int, PlaceOfTriangle> best{ 0, {} };
     double smallest = std::numeric_limits<double>::infinity(); // square of the distance
     tree.visit_nearer(x, smallest, [&](const unsigned int triangle) {
-      const PlaceOfTriangle place = nearest_place(x, corners_of(triangle));
+      const PlaceOfTriangle place = nearest_place(x, vertices_of(triangle));
       if (const double square = place.place.distance_square(x); square < smallest)
         {
           smallest = square;

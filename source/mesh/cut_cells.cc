@@ -121,7 +121,7 @@ namespace scree
               for (unsigned int i = 0; i < n_gauss; ++i)
                 cut.weights[r * n_gauss + i] += of_row * along[0][i];
             }
-          for (unsigned int v = 0; v < cut.n_corners; ++v)
+          for (unsigned int v = 0; v < cut.n_vertices; ++v)
             {
               double hat = part * volume;
               for (unsigned int a = 0; a < dim; ++a)
@@ -181,7 +181,7 @@ namespace scree
         segment.area += size;
         segment.normal += area;
         visit_rule<dim>(rule, face, [&](const Point<dim> &x, const double part) {
-          for (unsigned int v = 0; v < cut.n_corners; ++v)
+          for (unsigned int v = 0; v < cut.n_vertices; ++v)
             segment.vertex_weights[v] += part * size * GeometryInfo<dim>::d_linear_shape_function(x, v);
           unsigned int i = 0;
           visit_nodes(grid, cut.cell, x, [&](const unsigned int, const double shape) {

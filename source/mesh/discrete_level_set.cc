@@ -23,7 +23,7 @@ namespace scree
   {
     for (unsigned int a = 0; a < dim; ++a)
       strides[a] = a == 0 ? 1 : n_1d * strides[a - 1];
-    for (unsigned int v = 0; v < n_corners; ++v)
+    for (unsigned int v = 0; v < n_vertices; ++v)
       {
         corner_offset[v] = 0;
         for (unsigned int a = 0; a < dim; ++a)
@@ -76,7 +76,7 @@ namespace scree
 
 
   template <int dim>
-  const SurfaceView<dim> &DiscreteLevelSet<dim>::at_corner(const CellPlace<dim> &corner)
+  const SurfaceView<dim> &DiscreteLevelSet<dim>::at_vertex(const CellPlace<dim> &corner)
   {
     // Corners of a surface that moves may lie outside the box.
     constexpr unsigned int n_bits = 64 / dim;
@@ -108,7 +108,7 @@ namespace scree
         Point<dim> middle = grid.fine_cells().box().corner(first);
         for (unsigned int a = 0; a < dim; ++a)
           middle[a] += 0.5 * width;
-        const double of_middle = is_moving() ? at_corner(inner).distance : surface.view(middle, far).distance;
+        const double of_middle = is_moving() ? at_vertex(inner).distance : surface.view(middle, far).distance;
         if (std::abs(of_middle) >= far)
           continue;
         const std::size_t begin = corners.size();
@@ -118,7 +118,7 @@ namespace scree
             CellPlace<dim> place = first;
             for (unsigned int a = 0; a < dim; ++a)
               place[a] += v / strides[a] % n_1d;
-            corners.push_back(at_corner(place));
+            corners.push_back(at_vertex(place));
             smallest = std::min(smallest, corners.back().distance);
             largest  = std::max(largest, corners.back().distance);
           }
@@ -146,7 +146,7 @@ namespace scree
           local[a] += (is_upper ? 0. : 1.) - part_of_cell[a];
         }
     SurfaceView<dim> result{};
-    for (unsigned int v = 0; v < n_corners; ++v)
+    for (unsigned int v = 0; v < n_vertices; ++v)
       {
         double weight = 1.;
         for (unsigned int a = 0; a < dim; ++a)
@@ -181,7 +181,7 @@ namespace scree
         if (is_moving() || !grid.fine_cells().is_owned(cell) || !is_near(cell.index))
           continue;
         const SurfaceView<dim> *of_cell = &corners[std::size_t(entry_of_cell[cell.index]) * n_of_cell];
-        for (unsigned int v = 0; v < n_corners; ++v)
+        for (unsigned int v = 0; v < n_vertices; ++v)
           if (const double distance = of_cell[v].distance; distance < 0. && -distance < width)
             {
               CellPlace<dim> place = cell.place;

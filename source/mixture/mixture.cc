@@ -71,8 +71,8 @@ namespace scree
     if (record == numbers::invalid_unsigned_int || records[record].water_volume <= 0)
       return;
     EnteringWater<dim> entering{ cell, {} };
-    for (unsigned int v = 0; v < entering.at_corner.size(); ++v)
-      entering.at_corner[v] = volume * GeometryInfo<dim>::d_linear_shape_function(place, v);
+    for (unsigned int v = 0; v < entering.at_vertex.size(); ++v)
+      entering.at_vertex[v] = volume * GeometryInfo<dim>::d_linear_shape_function(place, v);
     entering_water.push_back(entering);
   }
 

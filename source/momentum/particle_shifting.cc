@@ -42,17 +42,17 @@ namespace scree
   template <int dim>
   void ParticleShifting<dim>::find_inside(const Mixture<dim> &mixture)
   {
-    const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
+    const FreeSurface<dim> &surface = pressure.free_surface();
     volume_inside.zero_out_ghost_values();
     volume_inside = 0.;
     for (const MixtureCell<dim> &cell : mixture.cells())
       {
-        const unsigned int *corners = pressure.corners_of(cell.cell);
-        if (std::all_of(corners, corners + cell.n_corners, [&](const unsigned int corner) {
-              return surface.kind(corner) == PressureDofType::unknown;
+        const unsigned int *vertices = pressure.vertices_of(cell.cell);
+        if (std::all_of(vertices, vertices + cell.n_vertices, [&](const unsigned int vertex) {
+              return surface.kind(vertex) == PressureDofType::unknown;
             }))
-          for (unsigned int v = 0; v < cell.n_corners; ++v)
-            volume_inside.local_element(corners[v]) += surface.volume_in_cell(cell.cell, v);
+          for (unsigned int v = 0; v < cell.n_vertices; ++v)
+            volume_inside.local_element(vertices[v]) += surface.volume_in_cell(cell.cell, v);
       }
     volume_inside.compress(VectorOperation::add);
   }
@@ -61,18 +61,18 @@ namespace scree
   template <int dim>
   bool ParticleShifting<dim>::find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance)
   {
-    const FreeSurfaceLocator<dim> &surface = pressure.free_surface();
-    const double part                      = -std::expm1(-rate * time_step);
+    const FreeSurface<dim> &surface = pressure.free_surface();
+    const double part               = -std::expm1(-rate * time_step);
     find_inside(mixture);
     source = 0.;
-    for (const unsigned int corner : surface.wet_corners())
-      if (surface.kind(corner) == PressureDofType::unknown && surface.is_free_water(corner))
+    for (const unsigned int vertex : surface.wet_vertices())
+      if (surface.kind(vertex) == PressureDofType::unknown && surface.is_free_water(vertex))
         {
-          const double surplus = surface.fill(corner) - 1., volume = surface.volume_under(corner);
-          const bool inside = volume_inside.local_element(corner) > (1. - 1e-9) * volume;
-          // A lack beside the surface is the surface.
+          const double surplus = surface.fill(vertex) - 1., volume = surface.volume_under(vertex);
+          const bool inside = volume_inside.local_element(vertex) > (1. - 1e-9) * volume;
+          // At the free surface a deficit is expected: only an excess is corrected.
           if (surplus > closures::least_surplus || (inside && surplus < -closures::least_surplus))
-            source.local_element(corner) = part * surplus * volume / time_step;
+            source.local_element(vertex) = part * surplus * volume / time_step;
         }
     if (source.linfty_norm() == 0.)
       return false;
@@ -93,7 +93,7 @@ namespace scree
         {
           shifts->activate_cell(cell.cell);
           mixture.add_pressure_gradient(record,
-                                        multilinear_of<dim>(pressure.at_corners(potential, cell.cell)),
+                                        multilinear_of<dim>(pressure.at_vertices(potential, cell.cell)),
                                         -time_step * time_step,
                                         *shifts,
                                         0,

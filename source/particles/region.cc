@@ -120,9 +120,9 @@ namespace scree
     const auto is_open  = [&](const Point<dim> &x) { return ground == nullptr || ground->is_open(x); };
     const auto contains = [&](const Point<dim> &x) { return Region::contains(x) && is_open(x); };
     // Most cubes lie inside or outside with all corners.
-    constexpr unsigned int n_corners = 1 << dim;
+    constexpr unsigned int n_vertices = 1 << dim;
     unsigned int in_region = 0, in_open = 0, in_both = 0;
-    for (unsigned int v = 0; v < n_corners; ++v)
+    for (unsigned int v = 0; v < n_vertices; ++v)
       {
         const Point<dim> x = corner(lower, width, v);
         const bool region = Region::contains(x), open = is_open(x);
@@ -132,11 +132,11 @@ namespace scree
       }
     const Point<dim> middle = Region::middle(lower, width);
     const double volume     = Utilities::fixed_power<dim>(width);
-    if (in_both == n_corners && contains(middle))
+    if (in_both == n_vertices && contains(middle))
       return { volume, middle };
     if (map && map->is_layer())
       return part_by_lines(lower, width);
-    if (ground != nullptr && in_region + in_open < 2 * n_corners && in_region > 0 && in_open > 0)
+    if (ground != nullptr && in_region + in_open < 2 * n_vertices && in_region > 0 && in_open > 0)
       {
         auto simplices =
             part_where(simplices_of_cube(lower, width), [&](const Point<dim> &x) { return Region::contains(x); });

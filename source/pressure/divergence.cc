@@ -31,19 +31,19 @@ namespace scree
   void MixtureDivergence<dim>::Rule<n_1d>::find_shapes()
   {
     for (unsigned int q = 0; q < n_points; ++q)
-      for (unsigned int v = 0; v < n_corners; ++v)
+      for (unsigned int v = 0; v < n_vertices; ++v)
         shapes[q][v] = GeometryInfo<dim>::d_linear_shape_function(points[q], v);
   }
 
 
   template <int dim>
   MixtureDivergence<dim>::MixtureDivergence(const BackgroundGrid<dim> &grid,
-                                            const NodeNumbering<dim> &corners,
-                                            const FreeSurfaceLocator<dim> &surface,
+                                            const NodeNumbering<dim> &vertices,
+                                            const FreeSurface<dim> &surface,
                                             const double gravity,
                                             const CutCells<dim> *cut_cells)
       : grid(grid)
-      , corners(corners)
+      , vertices(vertices)
       , surface(surface)
       , square_of_slow(gravity / grid.cell_size())
       , cut_cells(cut_cells)
@@ -102,7 +102,7 @@ namespace scree
                                              const double scale,
                                              const OpenKnots open,
                                              const Flow<n> &flow,
-                                             AtCorners &integrals) const
+                                             AtVertices &integrals) const
   {
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const double inverse_width    = 1. / grid.cell_size();
@@ -119,7 +119,7 @@ namespace scree
         for (unsigned int c = 0; c < dim; ++c)
           divergence += slope(flow.rows[c], c);
         const double weighted = -scale * weights[q] * divergence;
-        for (unsigned int v = 0; v < n_corners; ++v)
+        for (unsigned int v = 0; v < n_vertices; ++v)
           integrals[v] += weighted * rule.shapes[q][v];
       }
   }
@@ -127,7 +127,8 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void MixtureDivergence<dim>::add_ground(const CutFacet<dim> &segment, const Flow<n> &flow, AtCorners &integrals) const
+  void
+  MixtureDivergence<dim>::add_ground(const CutFacet<dim> &segment, const Flow<n> &flow, AtVertices &integrals) const
   {
     double speed = -(segment.normal * cut_cells->velocity(segment)); // out of the open, from the ground
     for (unsigned int c = 0; c < dim; ++c)
@@ -135,7 +136,7 @@ namespace scree
         speed += segment.normal[c] * segment.shapes[i] * flow.rows[c][i / n][i % n];
     if (speed < 0. && !surface.has_unknown(segment.cell))
       return; // Water may leave ground that it does not press on.
-    for (unsigned int v = 0; v < n_corners; ++v)
+    for (unsigned int v = 0; v < n_vertices; ++v)
       integrals[v] += segment.area * speed * segment.vertex_weights[v];
   }
 
@@ -148,8 +149,8 @@ namespace scree
                                                                                     const PoreField<dim> &pores) const
   {
     constexpr unsigned int velocity = NodalField<dim>::velocity;
-    // The mixture's velocity is made at the nodes: an interpolated fraction of grains would lend that of heavy nodes to
-    // light ones, whose soil is fast where points have just entered a cell.
+    // Form the mixture's velocity at the nodes: interpolating the fraction of grains separately gives light nodes,
+    // whose soil is fast where points have just entered a cell, the wrong weight.
     Flow<n> flow;
     for (unsigned int c = 0; c < dim; ++c)
       gather<dim, n>(
@@ -169,7 +170,7 @@ namespace scree
                                                const NodalField<dim> &soil,
                                                const NodalField<dim> &water,
                                                const PoreField<dim> &pores,
-                                               CornerVector &sums)
+                                               VertexVector &sums)
   {
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -179,7 +180,7 @@ namespace scree
         const Flow<n> flow   = flow_in<n>(cell.cell, soil, water, pores);
         const OpenKnots open = grid.open_knots(cell.cell);
         const double scale   = cell_volume * std::min(cell.fill, 1.);
-        AtCorners integrals{};
+        AtVertices integrals{};
         if (const CutCell<dim> *cut = cut_cells ? cut_cells->find(cell.cell) : nullptr)
           {
             add_integrals<n>(cut_rule, cut->weights.data(), scale, open, flow, integrals);
@@ -190,8 +191,8 @@ namespace scree
           add_integrals<n>(rule_in(cell), whole.weights.data(), scale, open, flow, integrals);
         else
           add_integrals<n>(whole, whole.weights.data(), scale, open, flow, integrals);
-        for (unsigned int v = 0; v < n_corners; ++v)
-          sums.local_element(corners.nodes(cell.cell)[v]) += integrals[v];
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          sums.local_element(vertices.nodes(cell.cell)[v]) += integrals[v];
       }
   }
 
@@ -201,7 +202,7 @@ namespace scree
                                          const NodalField<dim> &soil,
                                          const NodalField<dim> &water,
                                          const PoreField<dim> &pores,
-                                         CornerVector &sums)
+                                         VertexVector &sums)
   {
     sums = 0.;
     if (grid.n_nodes_1d() == 2)

@@ -85,12 +85,12 @@ namespace scree
       , bulk_modulus(water.bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
-      , corners(numbered(grid))
-      , surface(grid, corners, walls, gravity, cut_cells)
-      , gaps(grid, corners, surface)
-      , divergence(grid, corners, surface, gravity.norm(), cut_cells)
-      , solver(grid, corners, parameters)
-      , memory(corners, parameters.fading, water, grid.cell_size())
+      , vertices(numbered(grid))
+      , surface(grid, vertices, walls, gravity, cut_cells)
+      , gaps(grid, vertices, surface)
+      , divergence(grid, vertices, surface, gravity.norm(), cut_cells)
+      , solver(grid, vertices, parameters)
+      , memory(vertices, parameters.fading, water, grid.cell_size())
   {
     reinit_vectors();
   }
@@ -99,16 +99,16 @@ namespace scree
   template <int dim>
   NodeNumbering<dim> PorePressure<dim>::numbered(const BackgroundGrid<dim> &grid)
   {
-    NodeNumbering<dim> corners(Basis::linear);
-    corners.distribute(grid.fine_cells());
-    return corners;
+    NodeNumbering<dim> vertices(Basis::linear);
+    vertices.distribute(grid.fine_cells());
+    return vertices;
   }
 
 
   template <int dim>
   void PorePressure<dim>::reinit()
   {
-    corners.distribute(grid.fine_cells());
+    vertices.distribute(grid.fine_cells());
     surface.reinit();
     gaps.reinit();
     solver.reinit();
@@ -120,7 +120,7 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::reinit_vectors()
   {
-    for (CornerVector *vector : { &pressure, &change, &source })
+    for (VertexVector *vector : { &pressure, &change, &source })
       reinit(*vector);
   }
 
@@ -136,12 +136,12 @@ namespace scree
 
 
   template <int dim>
-  typename PorePressure<dim>::AtCorners PorePressure<dim>::at_corners(const CornerVector &values,
-                                                                      const unsigned int cell) const
+  typename PorePressure<dim>::AtVertices PorePressure<dim>::at_vertices(const VertexVector &values,
+                                                                        const unsigned int cell) const
   {
-    AtCorners result;
+    AtVertices result;
     for (unsigned int v = 0; v < result.size(); ++v)
-      result[v] = values.local_element(corners.nodes(cell)[v]);
+      result[v] = values.local_element(vertices.nodes(cell)[v]);
     return result;
   }
 
@@ -165,10 +165,9 @@ namespace scree
               if (cell.inertial > 0)
                 cell.drag += porosity * cell.inertial * mean_slip(grid, mixture, record, soil, water);
               cell.drag *= cell.drag_share * porosity;
-              const double C = cell.drag * time_step;
-              mobility       = cell.is_rigid
-                                   ? V_w * V_w / (b + C) // an endless mass a
-                                   : (V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C)) / (a * b + C * (a + b));
+              const double C       = cell.drag * time_step;
+              const double squares = V_s * V_s * (b + C) + 2. * V_s * V_w * C + V_w * V_w * (a + C);
+              mobility = cell.is_rigid ? V_w * V_w / (b + C) : squares / (a * b + C * (a + b)); // rigid: a is endless
             }
           cell.mobility = mobility / (cell_volume * std::min(cell.fill, 1.));
         }
@@ -184,7 +183,7 @@ namespace scree
         mixture,
         surface,
         time_step,
-        [&](const unsigned int corner) { return storage * surface.water_volume(corner); },
+        [&](const unsigned int vertex) { return storage * surface.water_volume(vertex); },
         tau);
   }
 
@@ -222,9 +221,9 @@ namespace scree
                                         const NodalField<dim> &water,
                                         const PoreField<dim> &pores)
   {
-    for (const unsigned int corner : surface.wet_corners())
-      if (surface.kind(corner) != PressureDofType::dry)
-        pressure.local_element(corner) += change.local_element(corner);
+    for (const unsigned int vertex : surface.wet_vertices())
+      if (surface.kind(vertex) != PressureDofType::dry)
+        pressure.local_element(vertex) += change.local_element(vertex);
     pressure.update_ghost_values();
     memory.find_forgotten(mixture, surface, pressure, [&](const unsigned int cell) {
       return largest_difference(grid, cell, soil, water, pores);
@@ -234,8 +233,8 @@ namespace scree
 
   template <int dim>
   void PorePressure<dim>::solve_potential(const Mixture<dim> &mixture,
-                                          const CornerVector &source,
-                                          CornerVector &potential,
+                                          const VertexVector &source,
+                                          VertexVector &potential,
                                           Budget<dim> &balance)
   {
     // It moves a part of a surplus only; what this misses is left to the next steps.

@@ -9,7 +9,7 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  PressureMemory<dim>::PressureMemory(const NodeNumbering<dim> &corners,
+  PressureMemory<dim>::PressureMemory(const NodeNumbering<dim> &vertices,
                                       const double steepness,
                                       const WaterParameters &water,
                                       const double cell_size)
@@ -17,8 +17,8 @@ namespace scree
       , water_density(water.density)
       , viscosity(water.viscosity)
       , cell_size(cell_size)
-      , changed(corners)
-      , corners(corners)
+      , changed(vertices)
+      , vertices(vertices)
   {
     reinit();
   }
@@ -27,22 +27,22 @@ namespace scree
   template <int dim>
   void PressureMemory<dim>::reinit()
   {
-    start.reinit(corners.partitioner());
+    start.reinit(vertices.partitioner());
     changed.reinit();
   }
 
 
   template <int dim>
-  void PressureMemory<dim>::fade(const FreeSurfaceLocator<dim> &surface, CornerVector &pressure)
+  void PressureMemory<dim>::fade(const FreeSurface<dim> &surface, VertexVector &pressure)
   {
     if (!is_on())
       return;
     start.zero_out_ghost_values();
-    for (const unsigned int corner : surface.wet_corners())
-      if (surface.kind(corner) == PressureDofType::unknown)
+    for (const unsigned int vertex : surface.wet_vertices())
+      if (surface.kind(vertex) == PressureDofType::unknown)
         {
-          start.local_element(corner) = pressure.local_element(corner);
-          pressure.local_element(corner) *= 1. - surface.forgotten(corner);
+          start.local_element(vertex) = pressure.local_element(vertex);
+          pressure.local_element(vertex) *= 1. - surface.forgotten(vertex);
         }
     start.update_ghost_values();
   }
@@ -61,8 +61,8 @@ namespace scree
 
   template <int dim>
   void PressureMemory<dim>::find_forgotten(const Mixture<dim> &mixture,
-                                           const FreeSurfaceLocator<dim> &surface,
-                                           const CornerVector &pressure,
+                                           const FreeSurface<dim> &surface,
+                                           const VertexVector &pressure,
                                            const SpeedOfCell &difference)
   {
     if (!is_on())
@@ -72,9 +72,9 @@ namespace scree
       if (cell.water_volume > 0)
         {
           changed.activate_cell(cell.cell);
-          const unsigned int *nodes = corners.nodes(cell.cell);
+          const unsigned int *nodes = vertices.nodes(cell.cell);
           double change = 0, size = 0, largest = 0;
-          for (unsigned int v = 0; v < cell.n_corners; ++v)
+          for (unsigned int v = 0; v < cell.n_vertices; ++v)
             if (surface.kind(nodes[v]) == PressureDofType::unknown)
               {
                 const double before = start.local_element(nodes[v]), after = pressure.local_element(nodes[v]);
@@ -85,7 +85,7 @@ namespace scree
               }
           if (change > 0.)
             change *= made_by_motion(difference(cell.cell), largest);
-          for (unsigned int v = 0; v < cell.n_corners; ++v)
+          for (unsigned int v = 0; v < cell.n_vertices; ++v)
             {
               changed[nodes[v]][changes] += change;
               changed[nodes[v]][sizes] += size;
@@ -97,13 +97,13 @@ namespace scree
 
 
   template <int dim>
-  typename PressureMemory<dim>::AtCorners PressureMemory<dim>::forgotten_at(const unsigned int *corners_of_cell) const
+  typename PressureMemory<dim>::AtVertices PressureMemory<dim>::forgotten_at(const unsigned int *vertices_of_cell) const
   {
     constexpr double most = 0.8;
-    AtCorners result{};
+    AtVertices result{};
     if (is_on())
       for (unsigned int v = 0; v < result.size(); ++v)
-        if (const double *sums = changed[corners_of_cell[v]]; sums[changes] > 0.)
+        if (const double *sums = changed[vertices_of_cell[v]]; sums[changes] > 0.)
           {
             const double rate = steepness * sums[changes] / sums[sizes];
             result[v]         = std::min(most, rate * rate);

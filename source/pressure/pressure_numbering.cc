@@ -8,9 +8,9 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  PressureNumbering<dim>::PressureNumbering(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &corners)
+  PressureNumbering<dim>::PressureNumbering(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &vertices)
       : grid(grid)
-      , corners(corners)
+      , vertices(vertices)
   {
     reinit();
   }
@@ -19,7 +19,7 @@ namespace scree
   template <int dim>
   void PressureNumbering<dim>::reinit()
   {
-    const auto &nodes = *corners.partitioner();
+    const auto &nodes = *vertices.partitioner();
     number_of_corner.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), numbers::invalid_unsigned_int);
     numbers_of_ranks.reset();
   }
@@ -30,14 +30,14 @@ namespace scree
   {
     bool serve = numbers_of_ranks != nullptr;
     for (const MixtureCell<dim> &cell : mixture.cells())
-      for (unsigned int v = 0; v < n_corners && serve && cell.water_volume > 0; ++v)
-        serve = number_of_corner[corners.nodes(cell.cell)[v]] != numbers::invalid_unsigned_int;
+      for (unsigned int v = 0; v < n_vertices && serve && cell.water_volume > 0; ++v)
+        serve = number_of_corner[vertices.nodes(cell.cell)[v]] != numbers::invalid_unsigned_int;
     return Utilities::MPI::min(int(serve), grid.triangulation().get_communicator()) == 1;
   }
 
 
   template <int dim>
-  std::vector<unsigned int> PressureNumbering<dim>::mark_corners(const Mixture<dim> &mixture, CornerVector &marks) const
+  std::vector<unsigned int> PressureNumbering<dim>::mark_corners(const Mixture<dim> &mixture, VertexVector &marks) const
   {
     constexpr unsigned int margin = 2;
     std::vector<unsigned int> marked_cells;
@@ -45,15 +45,15 @@ namespace scree
       if (cell.water_volume > 0)
         marked_cells.push_back(cell.cell);
     const auto is_touched = [&](const unsigned int cell) {
-      return std::any_of(corners.nodes(cell), corners.nodes(cell) + n_corners, [&](const unsigned int corner) {
-        return marks.local_element(corner) != 0.;
+      return std::any_of(vertices.nodes(cell), vertices.nodes(cell) + n_vertices, [&](const unsigned int vertex) {
+        return marks.local_element(vertex) != 0.;
       });
     };
     for (unsigned int layer = 0; layer <= margin; ++layer)
       {
         for (const unsigned int cell : marked_cells)
-          for (unsigned int v = 0; v < n_corners; ++v)
-            marks.local_element(corners.nodes(cell)[v]) += 1.;
+          for (unsigned int v = 0; v < n_vertices; ++v)
+            marks.local_element(vertices.nodes(cell)[v]) += 1.;
         marks.compress(VectorOperation::add);
         if (layer == margin)
           break;
@@ -69,13 +69,13 @@ namespace scree
 
 
   template <int dim>
-  IndexSet PressureNumbering<dim>::number_marked(CornerVector &marks) const
+  IndexSet PressureNumbering<dim>::number_marked(VertexVector &marks) const
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const auto begin = marks.begin(), end = begin + corners.n_owned();
+    const auto begin = marks.begin(), end = begin + vertices.n_owned();
     const auto is_marked = [](const double mark) { return mark > 0.; };
     // Trilinos needs a row of every rank.
-    AssertThrow(corners.n_owned() > 0, ExcMessage("A rank has no node of its own. Remedy: fewer ranks."));
+    AssertThrow(vertices.n_owned() > 0, ExcMessage("A rank has no node of its own. Remedy: fewer ranks."));
     if (std::none_of(begin, end, is_marked))
       *begin = 1.;
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
@@ -93,33 +93,33 @@ namespace scree
   {
     if (numbers_serve(mixture))
       return false;
-    CornerVector global(corners.partitioner()); // marks at first, then numbers
+    VertexVector global(vertices.partitioner()); // marks at first, then numbers
     const std::vector<unsigned int> numbered_cells = mark_corners(mixture, global);
     const IndexSet owned                           = number_marked(global);
-    const auto number_of                           = [&](const unsigned int corner) {
-      return static_cast<types::global_dof_index>(global.local_element(corner));
+    const auto number_of                           = [&](const unsigned int vertex) {
+      return static_cast<types::global_dof_index>(global.local_element(vertex));
     };
     const auto for_corners_of_cells = [&](const auto &act) {
       for (const unsigned int cell : numbered_cells)
-        std::for_each(corners.nodes(cell), corners.nodes(cell) + n_corners, act);
+        std::for_each(vertices.nodes(cell), vertices.nodes(cell) + n_vertices, act);
     };
     IndexSet ghosts(owned.size());
-    for_corners_of_cells([&](const unsigned int corner) {
-      if (corner >= corners.n_owned())
-        ghosts.add_index(number_of(corner));
+    for_corners_of_cells([&](const unsigned int vertex) {
+      if (vertex >= vertices.n_owned())
+        ghosts.add_index(number_of(vertex));
     });
     numbers_of_ranks =
         std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, grid.triangulation().get_communicator());
 
     std::fill(number_of_corner.begin(), number_of_corner.end(), numbers::invalid_unsigned_int);
     corner_of_number.assign(owned.n_elements() + ghosts.n_elements(), numbers::invalid_unsigned_int);
-    const auto take = [&](const unsigned int corner) {
-      number_of_corner[corner]                   = numbers_of_ranks->global_to_local(number_of(corner));
-      corner_of_number[number_of_corner[corner]] = corner;
+    const auto take = [&](const unsigned int vertex) {
+      number_of_corner[vertex]                   = numbers_of_ranks->global_to_local(number_of(vertex));
+      corner_of_number[number_of_corner[vertex]] = vertex;
     };
-    for (unsigned int corner = 0; corner < corners.n_owned(); ++corner)
-      if (global.local_element(corner) >= 0.)
-        take(corner);
+    for (unsigned int vertex = 0; vertex < vertices.n_owned(); ++vertex)
+      if (global.local_element(vertex) >= 0.)
+        take(vertex);
     for_corners_of_cells(take);
     return true;
   }

@@ -9,15 +9,15 @@ namespace scree
 
   template <int dim>
   PressureOperator<dim>::PressureOperator(const BackgroundGrid<dim> &grid,
-                                          const NodeNumbering<dim> &corners,
+                                          const NodeNumbering<dim> &vertices,
                                           const PressureNumbering<dim> &numbering)
       : grid(grid)
-      , corners(corners)
+      , vertices(vertices)
       , numbering(numbering)
   {
     // Hat functions on the unit cell: one-dimensional mass and stiffness, multiplied.
-    for (unsigned int v = 0; v < n_corners; ++v)
-      for (unsigned int w = 0; w < n_corners; ++w)
+    for (unsigned int v = 0; v < n_vertices; ++v)
+      for (unsigned int w = 0; w < n_vertices; ++w)
         {
           double sum = 0, mass = 1;
           for (unsigned int a = 0; a < dim; ++a)
@@ -32,7 +32,7 @@ namespace scree
               mass *= ((v ^ w) >> a & 1) == 0 ? 1. / 3. : 1. / 6.;
             }
           laplacian[v][w]   = sum;
-          fluctuation[v][w] = mass - 1. / (n_corners * n_corners);
+          fluctuation[v][w] = mass - 1. / (n_vertices * n_vertices);
         }
   }
 
@@ -47,18 +47,18 @@ namespace scree
 
   template <int dim>
   void PressureOperator<dim>::assemble(const Mixture<dim> &mixture,
-                                       const FreeSurfaceLocator<dim> &surface,
+                                       const FreeSurface<dim> &surface,
                                        const double time_step,
-                                       const std::function<double(unsigned int corner)> &storage,
+                                       const std::function<double(unsigned int vertex)> &storage,
                                        const double projection)
   {
     unknown.assign(numbering.n_local(), false);
     diagonal.assign(numbering.partitioner()->locally_owned_size(), 0.);
     for (unsigned int i = 0; i < diagonal.size(); ++i)
-      if (surface.kind(numbering.corner(i)) == PressureDofType::unknown)
+      if (surface.kind(numbering.vertex(i)) == PressureDofType::unknown)
         {
           unknown[i]  = true;
-          diagonal[i] = storage(numbering.corner(i));
+          diagonal[i] = storage(numbering.vertex(i));
         }
 
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
@@ -77,8 +77,8 @@ namespace scree
           largest_mobility        = std::max(largest_mobility, cell.mobility);
           cell.projection         = projection * mixed.volume * std::min(mixed.fill, 1.);
           const CellMatrix own    = matrix(cell);
-          const unsigned int *all = corners.nodes(mixed.cell);
-          for (unsigned int v = 0; v < n_corners; ++v)
+          const unsigned int *all = vertices.nodes(mixed.cell);
+          for (unsigned int v = 0; v < n_vertices; ++v)
             {
               cell.numbers[v] = numbering.number(all[v]);
               is_anchored     = is_anchored || surface.kind(all[v]) != PressureDofType::unknown || storage(all[v]) > 0.;
@@ -86,8 +86,8 @@ namespace scree
                 continue;
               unknown[cell.numbers[v]] = true;
               whole_diagonal.local_element(cell.numbers[v]) += own[v][v];
-              // A corner beside the surface follows the unknown one; this keeps the matrix symmetric.
-              for (unsigned int w = 0; w < n_corners; ++w)
+              // A vertex beside the surface follows the unknown one; this keeps the matrix symmetric.
+              for (unsigned int w = 0; w < n_vertices; ++w)
                 if (surface.kind(all[w]) == PressureDofType::surface)
                   beside_surface.local_element(cell.numbers[v]) += own[v][w] * surface.ratio(all[w], all[v]);
             }
@@ -110,23 +110,23 @@ namespace scree
 
 
   template <int dim>
-  void PressureOperator<dim>::vmult(CornerVector &target, const CornerVector &source) const
+  void PressureOperator<dim>::vmult(VertexVector &target, const VertexVector &source) const
   {
     target = 0.;
     source.update_ghost_values();
     for (const Cell &cell : wet_cells)
       {
-        std::array<double, n_corners> values;
-        for (unsigned int v = 0; v < n_corners; ++v)
+        std::array<double, n_vertices> values;
+        for (unsigned int v = 0; v < n_vertices; ++v)
           values[v] = unknown[cell.numbers[v]] ? source.local_element(cell.numbers[v]) : 0.;
-        for (unsigned int v = 0; v < n_corners; ++v)
+        for (unsigned int v = 0; v < n_vertices; ++v)
           if (unknown[cell.numbers[v]])
             {
               double flux = 0, projected = 0;
-              for (unsigned int w = 0; w < n_corners; ++w)
+              for (unsigned int w = 0; w < n_vertices; ++w)
                 flux += laplacian[v][w] * values[w];
               if (cell.projection > 0)
-                for (unsigned int w = 0; w < n_corners; ++w)
+                for (unsigned int w = 0; w < n_vertices; ++w)
                   projected += fluctuation[v][w] * values[w];
               target.local_element(cell.numbers[v]) += cell.mobility * flux + cell.projection * projected;
             }
@@ -142,7 +142,7 @@ namespace scree
   void PressureOperator<dim>::hold(const std::vector<char> &is_held)
   {
     all_unknown = unknown;
-    CornerVector marks(numbering.partitioner());
+    VertexVector marks(numbering.partitioner());
     for (unsigned int i = 0; i < is_held.size(); ++i)
       marks.local_element(i) = is_held[i];
     marks.update_ghost_values();

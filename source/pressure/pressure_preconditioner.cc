@@ -16,24 +16,24 @@ namespace scree
   {
     const MPI_Comm communicator = system.communicator();
     using Cell                  = typename PressureOperator<dim>::Cell;
-    constexpr auto n_corners    = PressureOperator<dim>::n_corners;
+    constexpr auto n_vertices   = PressureOperator<dim>::n_vertices;
     for (unsigned int i = 0; i < system.n_owned(); ++i)
       if (system.is_unknown(i))
         unknowns.push_back(i);
     if (Utilities::MPI::sum(unknowns.size(), communicator) == 0)
-      return; // all corners are held for now
+      return; // all vertices are held for now
     // A rank without a row would be refused: it has one that nothing depends on.
     const bool has_none  = unknowns.empty();
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
         communicator, has_none ? 1 : unknowns.size())[Utilities::MPI::this_mpi_process(communicator)];
-    CornerVector rows(system.numbers().partitioner()); // of the matrix, by number; doubles hold them exactly
+    VertexVector rows(system.numbers().partitioner()); // of the matrix, by number; doubles hold them exactly
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       rows.local_element(unknowns[k]) = owned.nth_index_in_set(k);
     rows.update_ghost_values();
 
-    // Calls visit(v, row of v) for the unknown corners of a cell.
+    // Calls visit(v, row of v) for the unknown vertices of a cell.
     const auto for_unknowns = [&](const Cell &cell, const auto &visit) {
-      for (unsigned int v = 0; v < n_corners; ++v)
+      for (unsigned int v = 0; v < n_vertices; ++v)
         if (system.is_unknown(cell.numbers[v]))
           visit(v, types::global_dof_index(rows.local_element(cell.numbers[v])));
     };
@@ -103,7 +103,7 @@ namespace scree
 
 
   template <int dim>
-  void PressurePreconditioner<dim>::vmult(CornerVector &preconditioned, const CornerVector &remainder)
+  void PressurePreconditioner<dim>::vmult(VertexVector &preconditioned, const VertexVector &remainder)
   {
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       source.local_element(k) = system.is_unknown(unknowns[k]) ? remainder.local_element(unknowns[k]) : 0.;

@@ -14,7 +14,7 @@ namespace scree
   namespace
   {
     /// Of this rank's numbers.
-    double local_square(const CornerVector &vector)
+    double local_square(const VertexVector &vector)
     {
       return std::inner_product(vector.begin(), vector.end(), vector.begin(), 0.);
     }
@@ -27,11 +27,11 @@ namespace scree
 
   template <int dim>
   PressureSolver<dim>::PressureSolver(const BackgroundGrid<dim> &grid,
-                                      const NodeNumbering<dim> &corners,
+                                      const NodeNumbering<dim> &vertices,
                                       const PressureParameters &parameters)
       : grid(grid)
-      , numbering(grid, corners)
-      , system(grid, corners, numbering)
+      , numbering(grid, vertices)
+      , system(grid, vertices, numbering)
       , maximum_iterations(parameters.maximum_iterations)
   {
   }
@@ -48,15 +48,15 @@ namespace scree
 
   template <int dim>
   void PressureSolver<dim>::assemble(const Mixture<dim> &mixture,
-                                     const FreeSurfaceLocator<dim> &surface,
+                                     const FreeSurface<dim> &surface,
                                      const double time_step,
-                                     const std::function<double(unsigned int corner)> &storage,
+                                     const std::function<double(unsigned int vertex)> &storage,
                                      const double projection)
   {
     if (numbering.update(mixture))
       {
         system.reinit();
-        for (CornerVector *vector :
+        for (VertexVector *vector :
              { &source, &solution, &scratch, &remainder, &preconditioned, &product, &direction, &direction_product })
           vector->reinit(numbering.partitioner());
         is_worn = true;
@@ -66,12 +66,12 @@ namespace scree
 
 
   template <int dim>
-  void PressureSolver<dim>::take(const CornerVector &from, CornerVector &to) const
+  void PressureSolver<dim>::take(const VertexVector &from, VertexVector &to) const
   {
     to = 0.;
     for (unsigned int i = 0; i < system.n_owned(); ++i)
       if (system.is_unknown(i))
-        to.local_element(i) = from.local_element(numbering.corner(i));
+        to.local_element(i) = from.local_element(numbering.vertex(i));
   }
 
 
@@ -161,10 +161,10 @@ namespace scree
 
 
   template <int dim>
-  SolveReport PressureSolver<dim>::solve(const CornerVector &rhs,
-                                         const CornerVector &pressure,
+  SolveReport PressureSolver<dim>::solve(const VertexVector &rhs,
+                                         const VertexVector &pressure,
                                          const double relative_tolerance,
-                                         CornerVector &change)
+                                         VertexVector &change)
   {
     take(pressure, solution);
     system.vmult(scratch, solution);
@@ -178,21 +178,21 @@ namespace scree
     SolveReport report;
     converge(report);
     for (unsigned int i = 0; i < system.n_owned(); ++i)
-      change.local_element(numbering.corner(i)) = system.is_unknown(i) ? solution.local_element(i) : 0.;
+      change.local_element(numbering.vertex(i)) = system.is_unknown(i) ? solution.local_element(i) : 0.;
     return report;
   }
 
 
   template <int dim>
-  void PressureSolver<dim>::solve_held(const std::vector<char> &is_held, CornerVector &residual, SolveReport &report)
+  void PressureSolver<dim>::solve_held(const std::vector<char> &is_held, VertexVector &residual, SolveReport &report)
   {
-    CornerVector held(numbering.partitioner()), &right_side = residual;
+    VertexVector held(numbering.partitioner()), &right_side = residual;
     right_side = source;
     for (unsigned int i = 0; i < is_held.size(); ++i)
       held.local_element(i) = is_held[i] ? solution.local_element(i) : 0.;
     system.vmult(scratch, held);
 
-    // The held corners leave the system like those of a drained wall.
+    // The held vertices leave the system like those of a drained wall.
     system.hold(is_held);
     for (unsigned int i = 0; i < is_held.size(); ++i)
       {
@@ -214,14 +214,14 @@ namespace scree
 
   template <int dim>
   std::pair<SolveReport, unsigned int>
-  PressureSolver<dim>::enforce_cavitation_bound(const double least, const CornerVector &pressure, CornerVector &change)
+  PressureSolver<dim>::enforce_cavitation_bound(const double least, const VertexVector &pressure, VertexVector &change)
   {
-    constexpr unsigned int most_sweeps = 5; // Corners below after them are held without another solve.
+    constexpr unsigned int most_sweeps = 5; // Vertices below after them are held without another solve.
     const MPI_Comm communicator        = grid.triangulation().get_communicator();
     std::pair<SolveReport, unsigned int> result;
     std::vector<char> is_held(system.n_owned(), false);
-    CornerVector residual;
-    const auto bound = [&](const unsigned int i) { return least - pressure.local_element(numbering.corner(i)); };
+    VertexVector residual;
+    const auto bound = [&](const unsigned int i) { return least - pressure.local_element(numbering.vertex(i)); };
     for (unsigned int sweep = 0;; ++sweep)
       {
         bool has_changed = false;
@@ -243,7 +243,7 @@ namespace scree
       }
     result.second = std::count(is_held.begin(), is_held.end(), true);
     for (unsigned int i = 0; i < system.n_owned(); ++i)
-      change.local_element(numbering.corner(i)) = system.is_unknown(i) ? solution.local_element(i) : 0.;
+      change.local_element(numbering.vertex(i)) = system.is_unknown(i) ? solution.local_element(i) : 0.;
     return result;
   }
 

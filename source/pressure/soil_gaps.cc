@@ -10,10 +10,10 @@ namespace scree
 
   template <int dim>
   SoilGaps<dim>::SoilGaps(const BackgroundGrid<dim> &grid,
-                          const NodeNumbering<dim> &corners,
-                          const FreeSurfaceLocator<dim> &surface)
+                          const NodeNumbering<dim> &vertices,
+                          const FreeSurface<dim> &surface)
       : grid(grid)
-      , corners(corners)
+      , vertices(vertices)
       , surface(surface)
       , at_nodes(grid.numbering())
   {
@@ -30,15 +30,15 @@ namespace scree
   template <int dim>
   void SoilGaps<dim>::add_faces(const unsigned int record, const MixtureCell<dim> &cell)
   {
-    const unsigned int *of_cell = corners.nodes(cell.cell);
-    std::array<unsigned int, n_sides> n_unknown{}; // corners
-    for (unsigned int v = 0; v < cell.n_corners; ++v)
+    const unsigned int *of_cell = vertices.nodes(cell.cell);
+    std::array<unsigned int, n_sides> n_unknown{}; // vertices
+    for (unsigned int v = 0; v < cell.n_vertices; ++v)
       if (surface.kind(of_cell[v]) == PressureDofType::unknown)
         for (unsigned int a = 0; a < dim; ++a)
           ++n_unknown[2 * a + (v >> a & 1u)];
     const bool is_full = cell.fill >= closures::full_cell_beside_gap;
     for (unsigned int side = 0; side < n_sides; ++side)
-      if (n_unknown[side] == 0 && n_unknown[side ^ 1u] == cell.n_corners / 2)
+      if (n_unknown[side] == 0 && n_unknown[side ^ 1u] == cell.n_vertices / 2)
         {
           const double off = cell.centre()[side / 2] - 0.5;
           faces.push_back(

@@ -101,7 +101,7 @@ namespace scree
           add_moments(shape, grains, moments);
           if (parts != nullptr)
             parts->add_soil(shape.x, grains, volume);
-          add_row<dim>(grains * corner_values(shape.x), sums.grains_at_corner);
+          add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
           sums.soil_mass += mass;
           sums.grain_volume += grains;
           sums.pore_volume += pores_of_point;
@@ -150,7 +150,8 @@ namespace scree
           std::array<double, dim> rise;
           for (unsigned int a = 0; a < dim; ++a)
             rise[a] = pressure_slope * width * properties[layout.pressure_gradient + a];
-          add_to_corners<dim>(shape.x, volume, properties[layout.pressure], rise, properties[layout.forgotten], totals);
+          add_to_vertices<dim>(
+              shape.x, volume, properties[layout.pressure], rise, properties[layout.forgotten], totals);
           totals.water_mass += mass;
         });
         mixture.cells()[record] = totals;
@@ -171,8 +172,8 @@ namespace scree
   double WaterTransfer<dim>::move_water(WaterPhase<dim> &water,
                                         const MixtureNodes<dim> &nodes,
                                         const Mixture<dim> &mixture,
-                                        const PressureOfCell<dim> &corner_pressure,
-                                        const ForgottenOfCell<dim> &corner_forgotten,
+                                        const PressureOfCell<dim> &vertex_pressure,
+                                        const ForgottenOfCell<dim> &vertex_forgotten,
                                         const double time_step) const
   {
     const double keep = kept_velocity(method, pic_rate, time_step);
@@ -181,9 +182,9 @@ namespace scree
     costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
-        CellPressure<dim> pressure{ multilinear_of<dim>(corner_pressure(cell.cell)), {} };
-        if (corner_forgotten)
-          pressure.forgotten = multilinear_of<dim>(corner_forgotten(cell.cell));
+        CellPressure<dim> pressure{ multilinear_of<dim>(vertex_pressure(cell.cell)), {} };
+        if (vertex_forgotten)
+          pressure.forgotten = multilinear_of<dim>(vertex_forgotten(cell.cell));
         largest.include(
             move_cell<n, method>(water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step, keep));
         if (const SoilBody<dim> *soil = water.carrier())

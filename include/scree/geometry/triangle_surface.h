@@ -42,7 +42,7 @@ namespace scree
     using Numbers = std::array<unsigned int, 3>;
 
     /// Places of a triangle's corners.
-    Triangle corners_of(const unsigned int triangle) const;
+    Triangle vertices_of(const unsigned int triangle) const;
 
     /// Numbers the corners.
     void join_corners(const std::vector<Triangle> &triangles);

@@ -14,17 +14,17 @@ namespace scree
   template <int dim>
   struct CutCell
   {
-    static constexpr unsigned int n_corners = 1 << dim;
-    static constexpr unsigned int n_gauss   = 4; // an axis: Lagrange's cubics through them span what is integrated
-    static constexpr unsigned int n_points  = dealii::Utilities::pow(n_gauss, dim);
-    using AtCorners                         = std::array<double, n_corners>;
+    static constexpr unsigned int n_vertices = 1 << dim;
+    static constexpr unsigned int n_gauss    = 4; // an axis: Lagrange's cubics through them span what is integrated
+    static constexpr unsigned int n_points   = dealii::Utilities::pow(n_gauss, dim);
+    using AtVertices                         = std::array<double, n_vertices>;
 
     unsigned int cell    = 0;  ///< active cell index
     double open_fraction = 0.; ///< of the volume
     /// Of the Gauss points of the whole cell (first axis fastest), over its volume: they integrate polynomials of third
     /// degree an axis exactly over the open part. Some are negative.
     std::array<double, n_points> weights{};
-    AtCorners open_hats{}; ///< integrals of the corners' linear functions over the open part, over the cell's volume
+    AtVertices open_hats{}; ///< integrals of the corners' linear functions over the open part, over the cell's volume
 
     unsigned int first_segment = 0, n_segments = 0; ///< of the ground in it
     bool may_change = false;                        ///< whether ground that moves is near
@@ -37,10 +37,10 @@ namespace scree
     unsigned int cell = 0; ///< active cell index
     unsigned int part = 0; ///< of RigidBoundary
 
-    double area = 0.;                                  ///< what its normals add up to, m^(dim-1)
-    dealii::Tensor<1, dim> normal;                     ///< unit, mean over the segment, out of the open
-    typename CutCell<dim>::AtCorners vertex_weights{}; ///< means of the corners' linear functions over the segment
-    std::vector<double> shapes;                        ///< the same of the velocity's functions
+    double area = 0.;                                   ///< what its normals add up to, m^(dim-1)
+    dealii::Tensor<1, dim> normal;                      ///< unit, mean over the segment, out of the open
+    typename CutCell<dim>::AtVertices vertex_weights{}; ///< means of the corners' linear functions over the segment
+    std::vector<double> shapes;                         ///< the same of the velocity's functions
   };
 
   /// The cells of this rank that are not all open: cut by rigid ground, beside it, or below it.

@@ -76,8 +76,8 @@ namespace scree
     Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const;
 
   private:
-    static constexpr unsigned int n_corners = 1u << dim;
-    static constexpr unsigned int none      = dealii::numbers::invalid_unsigned_int;
+    static constexpr unsigned int n_vertices = 1u << dim;
+    static constexpr unsigned int none       = dealii::numbers::invalid_unsigned_int;
 
     bool is_moving() const
     {
@@ -91,7 +91,7 @@ namespace scree
     void sample();
 
     /// The surface from a corner of the lattice.
-    const SurfaceView<dim> &at_corner(const CellPlace<dim> &corner);
+    const SurfaceView<dim> &at_vertex(const CellPlace<dim> &corner);
 
     const BackgroundGrid<dim> &grid;
     const LevelSet<dim> &surface;
@@ -99,7 +99,7 @@ namespace scree
     const unsigned int n_1d;               // corners a cell and axis: a lattice that moves has two cells there
     const unsigned int n_of_cell;          // corners
     std::array<unsigned int, dim> strides; // of a cell's corners along the axes
-    std::array<unsigned int, n_corners> corner_offset;        // of the corners of one cell of the lattice
+    std::array<unsigned int, n_vertices> corner_offset;       // of the corners of one cell of the lattice
     CellPlace<dim> whole_cells{};                             // that the surface has moved
     dealii::Tensor<1, dim> part_of_cell;                      // the rest, from 0 to 1
     std::unordered_map<std::uint64_t, SurfaceView<dim>> seen; // corners are shared by cells

@@ -37,9 +37,6 @@ namespace scree
     /// Depth, cells, of a pressure vertex below the free surface; less counts as so much.
     constexpr double least_vertex_depth = 0.25;
 
-    /// Bound of the extrapolation of the pressure from shallow vertices, -.
-    constexpr double steepest_extrapolation = 3.;
-
     /// Solid fraction of the filled volume about a vertex from which on it counts as soil: excludes stray points in a
     /// jet. Without it water between bodies of soil makes energy, 13.5 %.
     constexpr double least_solid_fraction = 0.2;
@@ -88,9 +85,10 @@ namespace scree
   }
 
   /// Drag on the water of a cell's soil over that on water that fills its pores: in proportion to the water's volume,
-  /// as the force of the pressure on it is, within the scatter of points. Bounded by 1, soil consolidates 4 % too fast,
-  /// since a surplus then flows faster and a lack does not flow more slowly. Water outside the soil has no part in it:
-  /// that of the room that soil leaves of a full cell, but none where grains lack that no water has taken the place of.
+  /// as the force of the pressure on it is, within the scatter of points. Bounded by 1 it is biased low, as an
+  /// excess of water gets no extra drag while a deficit gets less, and soil consolidates 4 % too fast. Water outside
+  /// the soil has no part in it: that of the room that soil leaves of a full cell, but none where grains lack that no
+  /// water has taken the place of.
   inline double
   drag_share_of(const double cell_volume, const double grains, const double pore_volume, const double water_volume)
   {

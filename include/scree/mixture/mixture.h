@@ -21,8 +21,8 @@ namespace scree
   template <int dim>
   struct MixtureCell
   {
-    static constexpr unsigned int n_corners = 1 << dim;
-    using AtCorners                         = std::array<double, n_corners>;
+    static constexpr unsigned int n_vertices = 1 << dim;
+    using AtVertices                         = std::array<double, n_vertices>;
 
     unsigned int cell;                         ///< active cell index
     double volume;                             ///< of the cell, without what rigid ground fills, m^3
@@ -33,10 +33,10 @@ namespace scree
     double drag        = 0;                    ///< of saturated soil in slow flow, sum V R; then dt^-1 C, N s/m
     double inertial    = 0;                    ///< what sum V R grows by with |q|: sum V_grains b, N s^2/m^2
 
-    // Sums weighted with the linear functions of the corners.
-    AtCorners grains_at_corner{}, water_at_corner{}; ///< volume, m^3
-    AtCorners pressure_at_corner{};                  ///< volume of water times pressure there, Pa m^3
-    AtCorners forgotten_at_corner{};                 ///< volume of water times what its pressure has lost, m^3
+    // Sums weighted with the linear functions of the vertices.
+    AtVertices grains_at_vertex{}, water_at_vertex{}; ///< volume, m^3
+    AtVertices pressure_at_vertex{};                  ///< volume of water times pressure there, Pa m^3
+    AtVertices forgotten_at_vertex{};                 ///< volume of water times what its pressure has lost, m^3
 
     double drag_share           = 0; ///< of the drag of soil full of water, see drag_share_of()
     double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
@@ -55,20 +55,20 @@ namespace scree
     {
       dealii::Point<dim> moment;
       double volume = 0;
-      for (unsigned int v = 0; v < n_corners; ++v)
+      for (unsigned int v = 0; v < n_vertices; ++v)
         {
-          const double filled = water_at_corner[v] + effective_saturation * grains_at_corner[v];
+          const double filled = water_at_vertex[v] + effective_saturation * grains_at_vertex[v];
           volume += filled;
           moment += filled * dealii::GeometryInfo<dim>::unit_cell_vertex(v);
         }
       return dealii::Point<dim>(moment / volume);
     }
 
-    /// Volume of grains at a corner that are wet as far as water fills the pores, m^3; with the effective saturation
+    /// Volume of grains at a vertex that are wet as far as water fills the pores, m^3; with the effective saturation
     /// more of them are. The last twentieth of the pores may be empty, as strain opens them.
-    double wet_grains_at(const unsigned int corner) const
+    double wet_grains_at(const unsigned int vertex) const
     {
-      return std::min(1., water_volume / (0.95 * pore_volume)) * grains_at_corner[corner];
+      return std::min(1., water_volume / (0.95 * pore_volume)) * grains_at_vertex[vertex];
     }
 
     /// Effective saturation, fill and share of the drag from the volumes.
@@ -80,11 +80,11 @@ namespace scree
     }
   };
 
-  /// The pressure at a cell's corners, Pa, in deal.II's order.
+  /// The pressure at a cell's vertices, Pa, in deal.II's order.
   template <int dim>
   using PressureOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
 
-  /// What the next step does not start from of the pressure at a cell's corners, in the same order, 0 to 1; empty: the
+  /// What the next step does not start from of the pressure at a cell's vertices, in the same order, 0 to 1; empty: the
   /// pressure is kept.
   template <int dim>
   using ForgottenOfCell = std::function<std::array<double, (1 << dim)>(const unsigned int cell)>;
@@ -94,7 +94,7 @@ namespace scree
   template <int dim>
   using Multilinear = std::array<double, (1 << dim)>;
 
-  /// The multilinear function with the given values at the corners (deal.II's order).
+  /// The multilinear function with the given values at the vertices (deal.II's order).
   template <int dim>
   inline Multilinear<dim> multilinear_of(std::array<double, (1 << dim)> values)
   {
@@ -105,12 +105,12 @@ namespace scree
     return values;
   }
 
-  /// Water on its way into a cell, weighted with the linear functions of the corners, m^3.
+  /// Water on its way into a cell, weighted with the linear functions of the vertices, m^3.
   template <int dim>
   struct EnteringWater
   {
     unsigned int cell; ///< active cell index
-    typename MixtureCell<dim>::AtCorners at_corner;
+    typename MixtureCell<dim>::AtVertices at_vertex;
   };
 
   /// Soil and water in the cells that hold points: sums of each cell, and the moments V phi_i x^m of grains and water,
@@ -139,8 +139,8 @@ namespace scree
     void finish();
 
     /// Counts a volume of water, m^3, about a place of a cell, from 0 to 1 along each axis, for which there is no point
-    /// yet: where an inflow is between two layers. It fills the cell's corners, if points have brought water there, and
-    /// has no other effect.
+    /// yet: where an inflow is between two layers. It fills the cell's vertices, if points have brought water there,
+    /// and has no other effect.
     void add_entering(const unsigned int cell, const dealii::Point<dim> &place, const double volume);
 
     /// What add_entering() has been told.

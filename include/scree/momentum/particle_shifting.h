@@ -10,20 +10,20 @@
 namespace scree
 {
   /// Moves points of free water from where they crowd to where they are few: positions only, by a tenth of a cell at
-  /// most. Inside the water surplus and lack count; beside its surface the surplus alone, since there a corner that is
+  /// most. Inside the water surplus and lack count; beside its surface the surplus alone, since there a vertex that is
   /// not full is no lack of water. Water at rest stays.
   template <int dim>
   class ParticleShifting
   {
   public:
-    /// @param rate at which the surplus of a corner decays, 1/s; 0: points are not moved
+    /// @param rate at which the surplus of a vertex decays, 1/s; 0: points are not moved
     ParticleShifting(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      PorePressure<dim> &pressure,
                      const dealii::Tensor<1, dim> &gravity,
                      const double rate);
 
-    /// Fits what lives on nodes and corners to the grid's current partition. Collective.
+    /// Fits what lives on nodes and vertices to the grid's current partition. Collective.
     void reinit();
 
     /// Moves points of water's own, after the step's solve and before they are sorted. Collective.
@@ -35,10 +35,10 @@ namespace scree
                Budget<dim> &balance);
 
   private:
-    /// Finds the corners all of whose cells have unknown pressures only: their volume under psi of such cells.
+    /// Finds the vertices all of whose cells have unknown pressures only: their volume under psi of such cells.
     void find_inside(const Mixture<dim> &mixture);
 
-    /// A flow that takes its part of the surplus out of each corner, L chi = (1 - exp(-rate dt)) (F - 1) integral psi /
+    /// A flow that takes its part of the surplus out of each vertex, L chi = (1 - exp(-rate dt)) (F - 1) integral psi /
     /// dt. Returns whether there is any surplus. Collective.
     bool find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance);
 
@@ -57,7 +57,7 @@ namespace scree
     PorePressure<dim> &pressure;
     const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s
-    CornerVector volume_inside, source, potential;
+    VertexVector volume_inside, source, potential;
     std::optional<NodeValues<dim, 2 * dim>> shifts; // of soil, not used, and of water, m
   };
 } // namespace scree

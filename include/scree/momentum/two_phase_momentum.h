@@ -53,7 +53,7 @@ namespace scree
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;
 
-    /// Any mass for rigid soil, so that it takes part in drag: as it is held, the mass does not matter.
+    /// Gives rigid soil a dummy mass, so that the drag block is defined; its velocity is prescribed.
     void assign_rigid_mass(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 
     /// Turns the sums at a node's pores into drag times step and the fraction of grains.

@@ -9,8 +9,8 @@
 
 namespace scree
 {
-  /// The volume that the mixture's flow draws from the corners: integrals of -psi div u, where u = (1-n) v_s + n v_w is
-  /// formed at the nodes. In partly full cells with soil they are over the part that material fills: beyond it the
+  /// The volume that the mixture's flow draws from the vertices: integrals of -psi div u, where u = (1-n) v_s + n v_w
+  /// is formed at the nodes. In partly full cells with soil they are over the part that material fills: beyond it the
   /// nodes' few points tell next to nothing of u, and soil that answers a pressure that heeds it makes energy without
   /// bound. In cells that rigid ground cuts they are over the open part, and what u carries through the ground is
   /// drawn, too: the pressure has to stop it. Ground that moves into the open gives the volume that it takes.
@@ -21,22 +21,22 @@ namespace scree
     /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
     MixtureDivergence(const BackgroundGrid<dim> &grid,
-                      const NodeNumbering<dim> &corners,
-                      const FreeSurfaceLocator<dim> &surface,
+                      const NodeNumbering<dim> &vertices,
+                      const FreeSurface<dim> &surface,
                       const double gravity,
                       const CutCells<dim> *cut_cells);
 
-    /// Sets `sums`, m^3/s, at the corners of wet cells from the velocities and the volume fraction of grains at the
-    /// nodes, whose ghosts hold values. Collective: owned corners hold the whole.
+    /// Sets `sums`, m^3/s, at the vertices of wet cells from the velocities and the volume fraction of grains at the
+    /// nodes, whose ghosts hold values. Collective: owned vertices hold the whole.
     void integrate(const Mixture<dim> &mixture,
                    const NodalField<dim> &soil,
                    const NodalField<dim> &water,
                    const PoreField<dim> &pores,
-                   CornerVector &sums);
+                   VertexVector &sums);
 
     /// Sets the cells' factors of the soil's volume, from the velocities at the end of a step of `time_step` s.
     ///
-    /// A solve balances flow at corners, and may leave a cell closing at a rate d although water fills its pores: what
+    /// A solve balances flow at vertices, and may leave a cell closing at a rate d although water fills its pores: what
     /// one cell takes too much its neighbour takes too little. Soil that falls on a wall would be pressed together by
     /// this for ever. So the part of d that water cannot leave by, the drag's share C/(C + m_w) for the drag C of the
     /// step, is no strain where it is fast: times d^2/(d^2 + g/h). A slow one is left in, as consolidation needs it.
@@ -49,8 +49,8 @@ namespace scree
                              const double time_step) const;
 
   private:
-    static constexpr unsigned int n_corners = 1 << dim;
-    using AtCorners                         = std::array<double, n_corners>;
+    static constexpr unsigned int n_vertices = 1 << dim;
+    using AtVertices                         = std::array<double, n_vertices>;
 
     /// Gauss points of the unit cell, n_1d along an axis.
     template <unsigned int n_1d>
@@ -60,7 +60,7 @@ namespace scree
 
       std::array<dealii::Point<dim>, n_points> points;
       std::array<double, n_points> weights;
-      std::array<std::array<double, n_corners>, n_points> shapes;
+      std::array<std::array<double, n_vertices>, n_points> shapes;
 
       Rule();
 
@@ -98,16 +98,16 @@ namespace scree
                          const NodalField<dim> &soil,
                          const NodalField<dim> &water,
                          const PoreField<dim> &pores,
-                         CornerVector &sums);
+                         VertexVector &sums);
 
-    /// Adds `scale` times the integrals over a cell to those of its corners.
+    /// Adds `scale` times the integrals over a cell to those of its vertices.
     template <int n, unsigned int n_1d>
     void add_integrals(const Rule<n_1d> &rule,
                        const double *weights,
                        const double scale,
                        const OpenKnots open,
                        const Flow<n> &flow,
-                       AtCorners &integrals) const;
+                       AtVertices &integrals) const;
 
     /// Where material is taken to be in a partly full cell with soil: to reach from its centre as far to either side as
     /// the cell does to the nearer one along each axis, exact where it fills the cell from one side. Returns how far
@@ -125,11 +125,11 @@ namespace scree
 
     /// Adds what flows through a segment of the ground, beside its own motion.
     template <int n>
-    void add_ground(const CutFacet<dim> &segment, const Flow<n> &flow, AtCorners &integrals) const;
+    void add_ground(const CutFacet<dim> &segment, const Flow<n> &flow, AtVertices &integrals) const;
 
     const BackgroundGrid<dim> &grid;
-    const NodeNumbering<dim> &corners;
-    const FreeSurfaceLocator<dim> &surface;
+    const NodeNumbering<dim> &vertices;
+    const FreeSurface<dim> &surface;
     const double square_of_slow;    // g/h, 1/s^2
     const CutCells<dim> *cut_cells; // may be null
     const Rule<2> whole;            // exact for slopes of quadratics times linear functions

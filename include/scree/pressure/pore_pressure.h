@@ -11,14 +11,14 @@
 
 namespace scree
 {
-  /// The pore pressure p at the corners of the cells: where the water ends, p at the start of a step, and the system
+  /// The pore pressure p at the vertices of the cells: where the water ends, p at the start of a step, and the system
   /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (Kularathna et al. 2021; Yuan et al. 2023), with the drag in
   /// L.
   template <int dim>
   class PorePressure
   {
   public:
-    using AtCorners = std::array<double, (1 << dim)>;
+    using AtVertices = std::array<double, (1 << dim)>;
 
     /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
@@ -30,7 +30,7 @@ namespace scree
                  const CutCells<dim> *cut_cells,
                  dealii::TimerOutput &timer);
 
-    /// Fits the corners to the grid's current partition. Collective.
+    /// Fits the vertices to the grid's current partition. Collective.
     void reinit();
 
     /// Fits it to ground that has moved, on the mesh as it was. Collective.
@@ -75,8 +75,8 @@ namespace scree
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
     /// @param potential what it holds is the first guess; its ghosts hold values afterwards
     void solve_potential(const Mixture<dim> &mixture,
-                         const CornerVector &source,
-                         CornerVector &potential,
+                         const VertexVector &source,
+                         VertexVector &potential,
                          Budget<dim> &balance);
 
     /// Whether the next step forgets anything of the pressure.
@@ -85,37 +85,37 @@ namespace scree
       return memory.is_on();
     }
 
-    /// Pressure at the corners of a cell with points, Pa, in deal.II's order; its change; what the next step forgets of
-    /// it, 0 to 1; any other vector.
-    AtCorners pressure_of(const unsigned int cell) const
+    /// Pressure at the vertices of a cell with points, Pa, in deal.II's order; its change; what the next step forgets
+    /// of it, 0 to 1; any other vector.
+    AtVertices pressure_of(const unsigned int cell) const
     {
-      return at_corners(pressure, cell);
+      return at_vertices(pressure, cell);
     }
-    AtCorners change_of(const unsigned int cell) const
+    AtVertices change_of(const unsigned int cell) const
     {
-      return at_corners(change, cell);
+      return at_vertices(change, cell);
     }
-    AtCorners forgotten_of(const unsigned int cell) const
+    AtVertices forgotten_of(const unsigned int cell) const
     {
-      return memory.forgotten_at(corners_of(cell));
+      return memory.forgotten_at(vertices_of(cell));
     }
-    AtCorners at_corners(const CornerVector &values, const unsigned int cell) const;
+    AtVertices at_vertices(const VertexVector &values, const unsigned int cell) const;
 
-    const FreeSurfaceLocator<dim> &free_surface() const
+    const FreeSurface<dim> &free_surface() const
     {
       return surface;
     }
 
-    /// The corners of a cell of this rank, in deal.II's order.
-    const unsigned int *corners_of(const unsigned int cell) const
+    /// The vertices of a cell of this rank, in deal.II's order.
+    const unsigned int *vertices_of(const unsigned int cell) const
     {
-      return corners.nodes(cell);
+      return vertices.nodes(cell);
     }
 
-    /// Makes room for a number a corner.
-    void reinit(CornerVector &vector) const
+    /// Makes room for a number a vertex.
+    void reinit(VertexVector &vector) const
     {
-      vector.reinit(corners.partitioner());
+      vector.reinit(vertices.partitioner());
     }
 
   private:
@@ -135,13 +135,13 @@ namespace scree
     const double relative_tolerance, projection, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
-    NodeNumbering<dim> corners;
-    FreeSurfaceLocator<dim> surface;
+    NodeNumbering<dim> vertices;
+    FreeSurface<dim> surface;
     SoilGaps<dim> gaps;
     MixtureDivergence<dim> divergence;
     PressureSolver<dim> solver;
     PressureMemory<dim> memory;
-    CornerVector pressure, change, source;
+    VertexVector pressure, change, source;
   };
 } // namespace scree
 

@@ -11,23 +11,23 @@ namespace scree
 {
   /// What part of a step's pressure the next one starts from.
   ///
-  /// p^n is a spring: a solve leaves a part of the divergence in partly full cells, p builds up over several steps, and
-  /// gives back what an impact has lost. Then p changes by a good part of itself in each step. So the next step
+  /// Reusing p^n stores energy: a solve leaves a part of the divergence in partly full cells, p builds up over several
+  /// steps, and returns what an impact has lost. Then p changes by a good part of itself in each step. So the next step
   /// starts from (1 - f) p, f = min(.8, (s r)^2), with r = sum m |p - p^n| / sum max(|p|, |p^n|) over the unknown
-  /// corners of the cells around a corner. m^2 = min(1, 100 rho_w v^2/p) min(1, rho_w v h/mu) of a cell, with the
-  /// largest p of its corners and v the differences of the mixture's velocity between its nodes, says whether what
+  /// vertices of the cells around a vertex. m^2 = min(1, 100 rho_w v^2/p) min(1, rho_w v h/mu) of a cell, with the
+  /// largest p of its vertices and v the differences of the mixture's velocity between its nodes, says whether what
   /// moves could have made p: where soil bears a load or water seeps, and where viscosity makes the differences, p is
-  /// kept however it changes. f varies smoothly, as a step of it between corners is a force of its own.
+  /// kept however it changes. f varies smoothly, as a step of it between vertices is a force of its own.
   template <int dim>
   class PressureMemory
   {
   public:
-    using AtCorners   = std::array<double, (1 << dim)>;
+    using AtVertices  = std::array<double, (1 << dim)>;
     using SpeedOfCell = std::function<double(const unsigned int cell)>;
 
     /// @param steepness s; 0: nothing is forgotten
     /// @param cell_size h, m
-    PressureMemory(const NodeNumbering<dim> &corners,
+    PressureMemory(const NodeNumbering<dim> &vertices,
                    const double steepness,
                    const WaterParameters &water,
                    const double cell_size);
@@ -37,25 +37,25 @@ namespace scree
       return steepness > 0.;
     }
 
-    /// Fits the memory to the grid's current corners.
+    /// Fits the memory to the grid's current vertices.
     void reinit();
 
-    /// Takes what the points forget from a pressure at unknown corners, Pa, which has no ghosts yet.
-    void fade(const FreeSurfaceLocator<dim> &surface, CornerVector &pressure);
+    /// Takes what the points forget from a pressure at unknown vertices, Pa, which has no ghosts yet.
+    void fade(const FreeSurface<dim> &surface, VertexVector &pressure);
 
     /// Finds what is to be forgotten of the `pressure` at the end of the step, Pa, whose ghosts hold values.
     /// Collective.
     /// @param difference v^2 of a cell, m^2/s^2
     void find_forgotten(const Mixture<dim> &mixture,
-                        const FreeSurfaceLocator<dim> &surface,
-                        const CornerVector &pressure,
+                        const FreeSurface<dim> &surface,
+                        const VertexVector &pressure,
                         const SpeedOfCell &difference);
 
-    /// f at corners (local indices of a cell's).
-    AtCorners forgotten_at(const unsigned int *corners_of_cell) const;
+    /// f at vertices (local indices of a cell's).
+    AtVertices forgotten_at(const unsigned int *vertices_of_cell) const;
 
   private:
-    /// Sums over the cells around a corner, Pa.
+    /// Sums over the cells around a vertex, Pa.
     enum Sums : unsigned int
     {
       changes,
@@ -68,9 +68,9 @@ namespace scree
     double made_by_motion(const double difference, const double largest) const;
 
     const double steepness, water_density, viscosity, cell_size;
-    CornerVector start;         // p^n before anything is forgotten
+    VertexVector start;         // p^n before anything is forgotten
     NodeValues<dim, 2> changed; // Sums
-    const NodeNumbering<dim> &corners;
+    const NodeNumbering<dim> &vertices;
   };
 } // namespace scree
 

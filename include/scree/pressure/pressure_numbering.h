@@ -9,18 +9,18 @@
 
 namespace scree
 {
-  /// Numbers of the corners at which the pressure may be unknown: those of the wet cells and of the cells next to them,
-  /// so that one numbering serves many steps.
+  /// Numbers of the vertices at which the pressure may be unknown: those of the wet cells and of the cells next to
+  /// them, so that one numbering serves many steps.
   template <int dim>
   class PressureNumbering
   {
   public:
-    PressureNumbering(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &corners);
+    PressureNumbering(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &vertices);
 
     /// Forgets what belongs to another partition of the mesh.
     void reinit();
 
-    /// Hands out new numbers if a wet cell has a corner without one. Collective.
+    /// Hands out new numbers if a wet cell has a vertex without one. Collective.
     /// @return whether it did
     bool update(const Mixture<dim> &mixture);
 
@@ -30,13 +30,13 @@ namespace scree
       return numbers_of_ranks;
     }
 
-    /// The local number of a corner of a wet cell.
-    unsigned int number(const unsigned int corner) const
+    /// The local number of a vertex of a wet cell.
+    unsigned int number(const unsigned int vertex) const
     {
-      return number_of_corner[corner];
+      return number_of_corner[vertex];
     }
 
-    unsigned int corner(const unsigned int number) const
+    unsigned int vertex(const unsigned int number) const
     {
       return corner_of_number[number];
     }
@@ -48,20 +48,20 @@ namespace scree
     }
 
   private:
-    static constexpr unsigned int n_corners = 1 << dim;
+    static constexpr unsigned int n_vertices = 1 << dim;
 
-    /// Whether all corners of wet cells of all ranks have numbers. Collective.
+    /// Whether all vertices of wet cells of all ranks have numbers. Collective.
     bool numbers_serve(const Mixture<dim> &mixture) const;
 
-    /// Marks the corners of wet cells and of those around them, `margin` cells deep, on owned corners and ghosts;
-    /// returns this rank's cells whose corners are marked. Collective.
-    std::vector<unsigned int> mark_corners(const Mixture<dim> &mixture, CornerVector &marks) const;
+    /// Marks the vertices of wet cells and of those around them, `margin` cells deep, on owned vertices and ghosts;
+    /// returns this rank's cells whose vertices are marked. Collective.
+    std::vector<unsigned int> mark_corners(const Mixture<dim> &mixture, VertexVector &marks) const;
 
-    /// Turns the marks of owned corners into global numbers, -1 elsewhere; returns the range of this rank. Collective.
-    dealii::IndexSet number_marked(CornerVector &marks) const;
+    /// Turns the marks of owned vertices into global numbers, -1 elsewhere; returns the range of this rank. Collective.
+    dealii::IndexSet number_marked(VertexVector &marks) const;
 
     const BackgroundGrid<dim> &grid;
-    const NodeNumbering<dim> &corners;
+    const NodeNumbering<dim> &vertices;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> numbers_of_ranks;
     std::vector<unsigned int> number_of_corner, corner_of_number; // local indices; owned numbers first
   };

@@ -11,24 +11,24 @@ namespace scree
 {
   /// The matrix L of the pressure's system, applied cell by cell and never stored.
   ///
-  /// L = dt sum kappa K with the Laplacian K of one cell and the mobility kappa of the mixture's cells; corners beside
+  /// L = dt sum kappa K with the Laplacian K of one cell and the mobility kappa of the mixture's cells; vertices beside
   /// the surface enter through the unknown ones. Vectors are by local number of a PressureNumbering.
   template <int dim>
   class PressureOperator
   {
   public:
-    static constexpr unsigned int n_corners = 1 << dim;
-    using CellMatrix                        = std::array<std::array<double, n_corners>, n_corners>;
+    static constexpr unsigned int n_vertices = 1 << dim;
+    using CellMatrix                         = std::array<std::array<double, n_vertices>, n_vertices>;
 
     struct Cell
     {
-      std::array<unsigned int, n_corners> numbers;
+      std::array<unsigned int, n_vertices> numbers;
       double mobility;   ///< dt kappa h^(dim-2), m^3/(Pa s)
       double projection; ///< m^3/(Pa s)
     };
 
     PressureOperator(const BackgroundGrid<dim> &grid,
-                     const NodeNumbering<dim> &corners,
+                     const NodeNumbering<dim> &vertices,
                      const PressureNumbering<dim> &numbering);
 
     /// Fits the vectors to new numbers.
@@ -36,13 +36,13 @@ namespace scree
 
     /// Sets the matrix, as PressureSolver::assemble(). Collective.
     void assemble(const Mixture<dim> &mixture,
-                  const FreeSurfaceLocator<dim> &surface,
+                  const FreeSurface<dim> &surface,
                   const double time_step,
-                  const std::function<double(unsigned int corner)> &storage,
+                  const std::function<double(unsigned int vertex)> &storage,
                   const double projection);
 
     /// Sets `target` to L `source` at the owned numbers. Collective.
-    void vmult(CornerVector &target, const CornerVector &source) const;
+    void vmult(VertexVector &target, const VertexVector &source) const;
 
     /// Takes the owned numbers that are held out of the unknown ones, like those of a drained wall. Collective.
     void hold(const std::vector<char> &is_held);
@@ -66,7 +66,7 @@ namespace scree
       return whole_diagonal.local_element(number);
     }
 
-    /// What surface corners and storage add to it.
+    /// What surface vertices and storage add to it.
     double added_to_diagonal(const unsigned int number) const
     {
       return diagonal[number];
@@ -77,12 +77,12 @@ namespace scree
       return wet_cells;
     }
 
-    /// What a cell adds to L, by its corners.
+    /// What a cell adds to L, by its vertices.
     CellMatrix matrix(const Cell &cell) const
     {
       CellMatrix own;
-      for (unsigned int v = 0; v < n_corners; ++v)
-        for (unsigned int w = 0; w < n_corners; ++w)
+      for (unsigned int v = 0; v < n_vertices; ++v)
+        for (unsigned int w = 0; w < n_vertices; ++w)
           own[v][w] = cell.mobility * laplacian[v][w] + cell.projection * fluctuation[v][w];
       return own;
     }
@@ -99,15 +99,15 @@ namespace scree
 
   private:
     const BackgroundGrid<dim> &grid;
-    const NodeNumbering<dim> &corners;
+    const NodeNumbering<dim> &vertices;
     const PressureNumbering<dim> &numbering;
     CellMatrix laplacian, fluctuation; // of the unit cell
 
     std::vector<Cell> wet_cells;
     std::vector<char> unknown, all_unknown; // by number; the second: before hold()
-    std::vector<double> diagonal;           // what surface corners and storage add, by owned number
-    CornerVector beside_surface;            // what the surface corners do
-    CornerVector whole_diagonal;            // of the owned unknown numbers, m^3/(Pa s)
+    std::vector<double> diagonal;           // what surface vertices and storage add, by owned number
+    VertexVector beside_surface;            // what the surface vertices do
+    VertexVector whole_diagonal;            // of the owned unknown numbers, m^3/(Pa s)
   };
 } // namespace scree
 

@@ -11,7 +11,7 @@
 
 namespace scree
 {
-  /// Preconditioner of the corners that were unknown when it was made: algebraic multigrid, or of small systems on few
+  /// Preconditioner of the vertices that were unknown when it was made: algebraic multigrid, or of small systems on few
   /// ranks a direct solver of each rank's block.
   template <int dim>
   class PressurePreconditioner
@@ -20,9 +20,9 @@ namespace scree
     /// Stores the matrix and factorises it. Collective.
     explicit PressurePreconditioner(const PressureOperator<dim> &system);
 
-    /// Sets `preconditioned` to what the preconditioner makes of `remainder`: corners that have become unknown since it
-    /// was made get that over their own diagonal, the others that are not unknown 0. Collective.
-    void vmult(CornerVector &preconditioned, const CornerVector &remainder);
+    /// Sets `preconditioned` to what the preconditioner makes of `remainder`: vertices that have become unknown since
+    /// it was made get that over their own diagonal, the others that are not unknown 0. Collective.
+    void vmult(VertexVector &preconditioned, const VertexVector &remainder);
 
   private:
     void choose();
@@ -35,7 +35,7 @@ namespace scree
     dealii::TrilinosWrappers::PreconditionBase *chosen = nullptr; // null: there was no unknown
 
     std::vector<unsigned int> unknowns; // owned numbers of the rows
-    CornerVector source, result;        // by row
+    VertexVector source, result;        // by row
   };
 } // namespace scree
 

@@ -20,7 +20,7 @@ namespace scree
     bool made_preconditioner  = false;
   };
 
-  /// The system for the change of the pressure, L dp = b, on the corners of the cells that hold water.
+  /// The system for the change of the pressure, L dp = b, on the vertices of the cells that hold water.
   ///
   /// The matrix (PressureOperator) is applied cell by cell and never stored, but for the algebraic multigrid
   /// preconditioner of the conjugate gradients, which is kept over steps and made anew when it gets worse. The
@@ -30,7 +30,7 @@ namespace scree
   {
   public:
     PressureSolver(const BackgroundGrid<dim> &grid,
-                   const NodeNumbering<dim> &corners,
+                   const NodeNumbering<dim> &vertices,
                    const PressureParameters &parameters);
     ~PressureSolver();
 
@@ -38,35 +38,35 @@ namespace scree
     void reinit();
 
     /// Sets the matrix. Collective.
-    /// @param storage what the diagonal of a corner gains: of compressible water, m^3/(Pa s)
+    /// @param storage what the diagonal of a vertex gains: of compressible water, m^3/(Pa s)
     /// @param projection tau of the pressure projection over the step, 1/(Pa s); 0: none
     void assemble(const Mixture<dim> &mixture,
-                  const FreeSurfaceLocator<dim> &surface,
+                  const FreeSurface<dim> &surface,
                   const double time_step,
-                  const std::function<double(unsigned int corner)> &storage,
+                  const std::function<double(unsigned int vertex)> &storage,
                   const double projection);
 
-    /// Solves for the change of the pressure, Pa, at the unknown corners (0 at the others); `rhs`, m^3/s, is read at
-    /// owned unknown corners. Starts from what `change` holds, and ends when the residual is below this part of the
+    /// Solves for the change of the pressure, Pa, at the unknown vertices (0 at the others); `rhs`, m^3/s, is read at
+    /// owned unknown vertices. Starts from what `change` holds, and ends when the residual is below this part of the
     /// right-hand side. What `pressure` drives sets the size below which a
     /// residual is rounding. Collective; throws if the solver does not converge.
     SolveReport
-    solve(const CornerVector &rhs, const CornerVector &pressure, const double relative_tolerance, CornerVector &change);
+    solve(const VertexVector &rhs, const VertexVector &pressure, const double relative_tolerance, VertexVector &change);
 
     /// Keeps the pressure from falling below `least`, Pa: where the solution of solve(), in `change`, would take it
     /// there, it is prescribed, and the mixture opens; it is set free again where the mixture would close, L dp < b.
-    /// A primal-dual active set (Hintermueller, Ito & Kunisch 2002): nothing is solved if no corner is below. To be
+    /// A primal-dual active set (Hintermueller, Ito & Kunisch 2002): nothing is solved if no vertex is below. To be
     /// called right after solve(). Collective; throws as solve().
-    /// @return what the solves took; the owned corners that are held at `least`
+    /// @return what the solves took; the owned vertices that are held at `least`
     std::pair<SolveReport, unsigned int>
-    enforce_cavitation_bound(const double least, const CornerVector &pressure, CornerVector &change);
+    enforce_cavitation_bound(const double least, const VertexVector &pressure, VertexVector &change);
 
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void update_preconditioner_age(const SolveReport &report);
 
   private:
-    /// Sets `to` to the values of the owned unknown corners, and to 0 elsewhere.
-    void take(const CornerVector &from, CornerVector &to) const;
+    /// Sets `to` to the values of the owned unknown vertices, and to 0 elsewhere.
+    void take(const VertexVector &from, VertexVector &to) const;
 
     /// What iterate() came to.
     struct Iterations
@@ -84,16 +84,16 @@ namespace scree
     void converge(SolveReport &report);
 
     /// Solves with `solution` prescribed where `is_held`, by owned number; `residual` is L dp - b then, at all.
-    void solve_held(const std::vector<char> &is_held, CornerVector &residual, SolveReport &report);
+    void solve_held(const std::vector<char> &is_held, VertexVector &residual, SolveReport &report);
 
     const BackgroundGrid<dim> &grid;
     PressureNumbering<dim> numbering;
     PressureOperator<dim> system;
     const unsigned int maximum_iterations;
 
-    CornerVector source, solution, scratch; // by number
+    VertexVector source, solution, scratch; // by number
     // Of iterate(): what is left of the source, that preconditioned, that times L; the step's direction, that times L.
-    CornerVector remainder, preconditioned, product, direction, direction_product;
+    VertexVector remainder, preconditioned, product, direction, direction_product;
     double tolerance = 0; // of the last solve's residual, m^3/s
 
     std::unique_ptr<PressurePreconditioner<dim>> preconditioner;

@@ -13,19 +13,17 @@ namespace scree
   ///
   /// Nodes that two bodies act on move with both. Where these come together, cells at the gap tell of a strain that
   /// their soil does not have: up to a cell before they touch, it would be pressed together and throw them back. So the
-  /// closing of a gap is no strain of the soil beside it.
+  /// closing of a gap does not count as compression of the soil beside it.
   ///
-  /// A side of a cell with soil is a face if the corners opposite are within the water and those on it at its surface
+  /// A side of a cell with soil is a face if the vertices opposite are within the water and those on it at its surface
   /// or beyond. Soil is beside a gap if a face of its cell looks at another one across a cell without soil, or from one
   /// partly full cell to the next; in a partly full cell only if what fills it lies away from the face.
   template <int dim>
   class SoilGaps
   {
   public:
-    /// @param corners the numbering of linear functions on the grid
-    SoilGaps(const BackgroundGrid<dim> &grid,
-             const NodeNumbering<dim> &corners,
-             const FreeSurfaceLocator<dim> &surface);
+    /// @param vertices the numbering of linear functions on the grid
+    SoilGaps(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &vertices, const FreeSurface<dim> &surface);
 
     /// Fits the gaps to the grid's current nodes.
     void reinit();
@@ -77,8 +75,8 @@ namespace scree
     }
 
     const BackgroundGrid<dim> &grid;
-    const NodeNumbering<dim> &corners;
-    const FreeSurfaceLocator<dim> &surface;
+    const NodeNumbering<dim> &vertices;
+    const FreeSurface<dim> &surface;
     NodeValues<dim, n_slots> at_nodes; // Slots
     std::vector<Face> faces;
     std::vector<char> beside; // by record

@@ -136,7 +136,7 @@ namespace scree
       return pairs;
     }
 
-    /// The other way round.
+    /// Scatter: stores the lanes to the records.
     template <typename OfBatches, typename OfPairs>
     DEAL_II_ALWAYS_INLINE inline void split(const OfPairs &pairs, OfBatches &first, OfBatches &second)
     {

@@ -162,7 +162,7 @@ namespace scree
           batches[c][l] = records[l][c];
     }
 
-    /// The other way round. Lanes that share a record have to hold the same numbers.
+    /// Scatter: stores the lanes to the records. Lanes that share a record must hold equal values.
     template <unsigned int n>
     DEAL_II_ALWAYS_INLINE inline void store_records(const Batch *batches, const RecordPointers<double> &records)
     {

@@ -16,13 +16,13 @@ namespace scree
   /// A number for each corner of a cell, in registers: numbers that are stored one by one and read as a vector wait for
   /// each other.
   template <int dim>
-  using CornerRow = std::conditional_t<dim == 2, NodeRow, EightDoubles>;
+  using VertexRow = std::conditional_t<dim == 2, NodeRow, EightDoubles>;
 
   /// `upper` at the corners on the upper face of an axis, `lower` at the others.
   template <int dim>
-  DEAL_II_ALWAYS_INLINE inline CornerRow<dim> on_faces(const unsigned int axis, const double lower, const double upper)
+  DEAL_II_ALWAYS_INLINE inline VertexRow<dim> on_faces(const unsigned int axis, const double lower, const double upper)
   {
-    CornerRow<dim> row;
+    VertexRow<dim> row;
     for (unsigned int v = 0; v < (1 << dim); ++v)
       row[v] = v >> axis & 1 ? upper : lower;
     return row;
@@ -30,9 +30,9 @@ namespace scree
 
   /// The linear functions of a cell's corners at one of its points.
   template <int dim>
-  DEAL_II_ALWAYS_INLINE inline CornerRow<dim> corner_values(const dealii::Point<dim> &x)
+  DEAL_II_ALWAYS_INLINE inline VertexRow<dim> vertex_values(const dealii::Point<dim> &x)
   {
-    CornerRow<dim> values = on_faces<dim>(0, 1. - x[0], x[0]);
+    VertexRow<dim> values = on_faces<dim>(0, 1. - x[0], x[0]);
     for (unsigned int a = 1; a < dim; ++a)
       values *= on_faces<dim>(a, 1. - x[a], x[a]);
     return values;
@@ -40,9 +40,9 @@ namespace scree
 
   /// Adds a row to sums of a cell.
   template <int dim>
-  DEAL_II_ALWAYS_INLINE inline void add_row(const CornerRow<dim> &row, typename MixtureCell<dim>::AtCorners &sums)
+  DEAL_II_ALWAYS_INLINE inline void add_row(const VertexRow<dim> &row, typename MixtureCell<dim>::AtVertices &sums)
   {
-    CornerRow<dim> sum;
+    VertexRow<dim> sum;
     std::memcpy(&sum, sums.data(), sizeof(sum));
     sum += row;
     std::memcpy(sums.data(), &sum, sizeof(sum));
@@ -99,23 +99,23 @@ namespace scree
   /// @param forgotten part of the pressure that the step does not start from
   /// @param rise of the pressure along each axis over the cell's width, Pa
   template <int dim>
-  DEAL_II_ALWAYS_INLINE inline void add_to_corners(const dealii::Point<dim> &x,
-                                                   const double volume,
-                                                   const double pressure,
-                                                   const std::array<double, dim> &rise,
-                                                   const double forgotten,
-                                                   MixtureCell<dim> &sums)
+  DEAL_II_ALWAYS_INLINE inline void add_to_vertices(const dealii::Point<dim> &x,
+                                                    const double volume,
+                                                    const double pressure,
+                                                    const std::array<double, dim> &rise,
+                                                    const double forgotten,
+                                                    MixtureCell<dim> &sums)
   {
     double pressure_at_lower = pressure;
     for (unsigned int a = 0; a < dim; ++a)
       pressure_at_lower -= rise[a] * x[a];
-    CornerRow<dim> pressure_at_corner = on_faces<dim>(0, pressure_at_lower, pressure_at_lower + rise[0]);
+    VertexRow<dim> pressure_at_vertex = on_faces<dim>(0, pressure_at_lower, pressure_at_lower + rise[0]);
     for (unsigned int a = 1; a < dim; ++a)
-      pressure_at_corner += on_faces<dim>(a, 0., rise[a]);
-    const CornerRow<dim> volume_at_corner = volume * corner_values(x);
-    add_row<dim>(volume_at_corner, sums.water_at_corner);
-    add_row<dim>(volume_at_corner * pressure_at_corner, sums.pressure_at_corner);
-    add_row<dim>(volume_at_corner * forgotten, sums.forgotten_at_corner);
+      pressure_at_vertex += on_faces<dim>(a, 0., rise[a]);
+    const VertexRow<dim> volume_at_vertex = volume * vertex_values(x);
+    add_row<dim>(volume_at_vertex, sums.water_at_vertex);
+    add_row<dim>(volume_at_vertex * pressure_at_vertex, sums.pressure_at_vertex);
+    add_row<dim>(volume_at_vertex * forgotten, sums.forgotten_at_vertex);
   }
 } // namespace scree
 

@@ -215,10 +215,10 @@ namespace scree
         x[face / 2]  = section;
         if (const CellIterator *cell = cell_at(x))
           {
-            const auto at_corners = pressure((*cell)->active_cell_index());
+            const auto at_vertices = pressure((*cell)->active_cell_index());
             const Point<dim> in_cell((x - (*cell)->vertex(0)) / grid.cell_size());
-            for (unsigned int v = 0; v < at_corners.size(); ++v)
-              force += place.volume / spacing * at_corners[v] * GeometryInfo<dim>::d_linear_shape_function(in_cell, v);
+            for (unsigned int v = 0; v < at_vertices.size(); ++v)
+              force += place.volume / spacing * at_vertices[v] * GeometryInfo<dim>::d_linear_shape_function(in_cell, v);
           }
       }
     return force * (mean_velocity * normal);

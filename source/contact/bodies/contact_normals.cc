@@ -17,7 +17,7 @@ namespace scree
     constexpr unsigned int regression = 2;
     constexpr double margin           = 0.1;
 
-    /// Gaps as close, cell widths, are the same, whatever rounding says: symmetry leaves both normals.
+    /// Gaps within this, cell widths, count as equal, which keeps symmetric set-ups symmetric.
     constexpr double tie = 1e-6;
 
     /// Cosine of the angle from which on two normals are those of different faces.

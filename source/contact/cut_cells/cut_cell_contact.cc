@@ -70,7 +70,7 @@ namespace scree
     for (unsigned int s = 0; s < segments.size(); ++s)
       {
         Point<dim> middle; // in the unit cell
-        for (unsigned int v = 0; v < CutCell<dim>::n_corners; ++v)
+        for (unsigned int v = 0; v < CutCell<dim>::n_vertices; ++v)
           middle += segments[s].vertex_weights[v] * GeometryInfo<dim>::unit_cell_vertex(v);
         middles[s] = fine.box().corner(fine.cells()[fine.of_index(segments[s].cell)].place) + grid.cell_size() * middle;
         surface_numbers[s] = find_surface(segments[s], middle);
@@ -173,7 +173,7 @@ namespace scree
   }
 
   template <int dim>
-  void CutCellContact<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface)
+  void CutCellContact<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurface<dim> &surface)
   {
     if (!contacts)
       return;
@@ -263,7 +263,7 @@ namespace scree
   void CutCellContact<dim>::correct(const MixtureNodes<dim> &nodes,
                                     const Mixture<dim> &mixture,
                                     const TwoPhaseMomentum<dim> &step,
-                                    const FreeSurfaceLocator<dim> &surface,
+                                    const FreeSurface<dim> &surface,
                                     const double time_step,
                                     Budget<dim> &balance)
   {
@@ -286,7 +286,7 @@ namespace scree
       });
     for (OfSegment &segment : of_segments)
       segment.corrected_soil = segment.corrected_water = Tensor<1, dim>();
-    constexpr double coarser = 10.; // the next predictor finds what is left; nothing at rest or in motion is worse
+    constexpr double coarser = 10.; // suffices: the next predictor removes the remainder
     project(nodes, step, coarser * relative_tolerance, balance);
     for (const GroundContact<dim> &contact : contacts->contacts())
       {

@@ -48,9 +48,9 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
       const PrincipalValues trial = strain;
       double plastic_shear_strain = 0;
       PrincipalValues stress, again_stress;
-      const unsigned long long n_corners = report.n_vertices + report.n_separated;
-      const Response response            = law.return_map(strain, &plastic_shear_strain, 1, stress, report);
-      const bool at_corner               = report.n_vertices + report.n_separated > n_corners;
+      const unsigned long long n_vertices = report.n_vertices + report.n_separated;
+      const Response response             = law.return_map(strain, &plastic_shear_strain, 1, stress, report);
+      const bool at_vertex                = report.n_vertices + report.n_separated > n_vertices;
       (response == Response::elastic ? n_elastic : n_plastic) += 1;
 
       double scale = bulk * size + parameters.cohesion, dissipation = 0, volume_strain = 0;
@@ -62,7 +62,7 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
       largest_yield        = std::max(largest_yield, law.yield(stress) / scale);
       smallest_dissipation = std::min(smallest_dissipation, dissipation / (scale * size));
       AssertThrow(plastic_shear_strain >= 0, ExcMessage(name + ": plastic shear strain is negative"));
-      if (at_corner)
+      if (at_vertex)
         continue;
 
       // The returned stress is that of the returned strain, and returns to itself.

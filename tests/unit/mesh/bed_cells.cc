@@ -163,7 +163,7 @@ void test_planes()
           expect((segment.normal + plane.normal).norm(), 0., 1e-10, "normal");
           // Hats and shapes are exact for what is linear: the ground's mean distance is 0.
           double by_hats = 0, by_shapes = 0;
-          for (unsigned int v = 0; v < CutCell<dim>::n_corners; ++v)
+          for (unsigned int v = 0; v < CutCell<dim>::n_vertices; ++v)
             by_hats += segment.vertex_weights[v] *
                        plane
                            .view(lower_corner(grid, segment.cell) +

@@ -161,11 +161,11 @@ void test(const std::string &basis, std::ostream &out)
   WaterBoundaryParameters wall_parameters;
   wall_parameters.top = "impermeable";
   const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
-  FreeSurfaceLocator<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr);
-  CornerVector pressure(corners.partitioner());
+  FreeSurface<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr);
+  VertexVector pressure(corners.partitioner());
   surface.locate(mixture, pressure);
   double error = 0, unknowns = 0;
-  for (const unsigned int corner : surface.wet_corners())
+  for (const unsigned int corner : surface.wet_vertices())
     if (surface.kind(corner) == PressureDofType::unknown)
       {
         ++unknowns;
@@ -219,12 +219,12 @@ void test(const std::string &basis, std::ostream &out)
   const double trace = dim == 2 ? 3. : 6.;
   const auto drawn   = [&](const bool moves_as_one) {
     set_motion(moves_as_one, 1.);
-    CornerVector sums(corners.partitioner());
+    VertexVector sums(corners.partitioner());
     divergence.integrate(mixture, soil_field, water_field, pores, sums);
-    CornerVector expected(corners.partitioner());
+    VertexVector expected(corners.partitioner());
     for (const auto &cell : mixture.cells())
       if (cell.water_volume > 0 && !moves_as_one)
-        for (unsigned int v = 0; v < cell.n_corners; ++v)
+        for (unsigned int v = 0; v < cell.n_vertices; ++v)
           expected.local_element(corners.nodes(cell.cell)[v]) -=
               trace * std::min(cell.fill, 1.) * Utilities::fixed_power<dim>(grid.cell_size()) *
               GeometryInfo<dim>::d_linear_shape_function(middle_of_box(cell), v);
@@ -265,8 +265,8 @@ void test(const std::string &basis, std::ostream &out)
     cell.mobility = 1e-3 * (1. + 0.5 * pattern(corners.position(corners.nodes(cell.cell)[0])));
   constexpr double relative_tolerance = 1e-12;
   PressureSolver<dim> solver(grid, corners, PressureParameters());
-  CornerVector source(corners.partitioner()), change(corners.partitioner());
-  for (const unsigned int corner : surface.wet_corners())
+  VertexVector source(corners.partitioner()), change(corners.partitioner());
+  for (const unsigned int corner : surface.wet_vertices())
     if (surface.kind(corner) == PressureDofType::unknown)
       source.local_element(corner) = surface.volume_under(corner);
   double work[2];

@@ -28,7 +28,7 @@ namespace scree
     dealii::Tensor<1, dim> normal;  ///< unit, out of the open
     dealii::Tensor<1, dim> speed;   ///< m/s, beside the ground's own, before any impulse
     dealii::Tensor<1, dim> base;    ///< N s: what the ground has taken in this step already
-    dealii::Tensor<1, dim> impulse; ///< N s: what it takes beside that; the search begins with it
+    dealii::Tensor<1, dim> impulse; ///< N s, additional; holds the initial guess on entry
     HeldMotion held = HeldMotion::none; ///< what has been found: none where it lifts off, across where it slides
 
     /// What the ground holds while the contact presses and does not slide.

@@ -48,7 +48,7 @@ namespace scree
     }
 
     /// Begins a step, once it is known which cells have water and unknown pressures: nothing is given yet.
-    void begin_step(const Mixture<dim> &mixture, const FreeSurfaceLocator<dim> &surface);
+    void begin_step(const Mixture<dim> &mixture, const FreeSurface<dim> &surface);
 
     /// Adds to the force, N, on water at the nodes what the ground that holds water gives to their `motion` in a
     /// viscous solve: -C (u - u_ground) for the mean velocity u over a segment, with C such that water slips as if the
@@ -76,7 +76,7 @@ namespace scree
     void correct(const MixtureNodes<dim> &nodes,
                  const Mixture<dim> &mixture,
                  const TwoPhaseMomentum<dim> &step,
-                 const FreeSurfaceLocator<dim> &surface,
+                 const FreeSurface<dim> &surface,
                  const double time_step,
                  Budget<dim> &balance);
 
