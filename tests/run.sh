@@ -14,7 +14,7 @@ fi
 
 # For the tests alone: the layout of sources and scripts, and rasters of other formats.
 # shellcheck disable=SC2034  # read in setup.sh
-test_packages="clang-format shellcheck libgdal-dev"
+test_packages="clang-format shellcheck pyflakes3 libgdal-dev"
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/../doc/setup.sh"
 

@@ -86,7 +86,7 @@ def verdict(rows):
         Claim(f"The step does not matter up to Courant number 0.9: {ratio(rows, 'Courant number 0.9'):.3g} times the error, 0.3 "
               f"{ratio(rows, 'Courant number 0.3'):.3g} times.",
               abs(ratio(rows, "Courant number 0.9") - 1) < 0.05 and abs(ratio(rows, "Courant number 0.3") - 1) < 0.05, quick=False),
-        Claim(f"Core-seconds for the same error, over those of the defaults: " + listed(found) + ". But for the number of points the "
+        Claim("Core-seconds for the same error, over those of the defaults: " + listed(found) + ". But for the number of points the "
               f"defaults are on the front within the noise of times: nothing else takes less than {min(others.values()):.2g} of their time.",
               min(others.values()) > 0.7, quick=False),
     ]
