@@ -14,9 +14,8 @@ STATES = {"stable": "#7fbf7f", "wrong": "#9ecae1", "oscillating": "#ffd966", "en
 
 
 def save(figure, target):
-    """Writes target.svg and target.png."""
+    """Writes target.svg."""
     figure.savefig(target.with_suffix(".svg"), metadata={"Date": None})
-    figure.savefig(target.with_suffix(".png"), dpi=110)
     plt.close(figure)
 
 

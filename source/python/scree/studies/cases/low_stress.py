@@ -3,7 +3,7 @@
 height, for 2 sqrt(height/g).
 State: `measures.BOUNDS`; the oscillation of p' is the time mean of `Stress oscillation`, and the number: the stiffer the soil over its weight, the more of it.
 No options are compared: all cells count as default cells.
-`low_stress_before.csv` and `.png` are the same runs before rows and pictures that are due within a tenth of a step of each other were met in one step: a picture was due
+`low_stress_before.csv` and `.svg` are the same runs before rows and pictures that are due within a tenth of a step of each other were met in one step: a picture was due
 less than 1e-11 s after a row, and a step as short as that turned the divergence that the last one had left into a shock of p. It broke all that is saturated. (The states of that table are
 by the bound of then, .5 for p'.)"""
 import math
