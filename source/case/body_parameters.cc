@@ -44,7 +44,7 @@ namespace scree
 
   bool BodyParameters::is_rigid() const
   {
-    return material.law_kind() == LawKind::rigid;
+    return material.is_rigid();
   }
 
 

@@ -30,39 +30,14 @@ namespace scree
     };
 
 
-    constexpr char degrees[]           = "degrees (1 rad = 57.3 degrees)";
-    constexpr char pascal[]            = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)";
     constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
     constexpr char diameter_unit[]     = "m (1 mm = 1e-3 m)";
 
 
     void ask_of_law(const MaterialParameters &material, const std::string &body, Questions &questions)
     {
-      const LawKind law = material.law_kind();
-      if (law == LawKind::linear_elastic)
-        questions.ask(
-            body + "/Linear elastic", "Young's modulus", material.linear_elastic.young_modulus, 1e4, 1e12, pascal);
-      if (law == LawKind::mohr_coulomb)
-        {
-          const std::string subsection     = body + "/Mohr-Coulomb";
-          const MohrCoulombParameters &law = material.mohr_coulomb;
-          questions.ask(subsection, "Young's modulus", law.young_modulus, 1e4, 1e12, pascal);
-          questions.ask(subsection, "Friction angle", law.friction_angle, 5, 60, degrees);
-          questions.ask(subsection, "Dilation angle", law.dilation_angle, 0.8, 40, degrees);
-          questions.ask(subsection, "Cohesion", law.cohesion, 50, 1e8, pascal);
-        }
-      if (law == LawKind::nor_sand)
-        {
-          const std::string subsection = body + "/Nor-Sand";
-          const NorSandParameters &law = material.nor_sand;
-          questions.ask(subsection, "Shear modulus", law.shear_modulus, 1e4, 1e10, pascal);
-          questions.ask(subsection,
-                        "Critical stress ratio M",
-                        law.critical_stress_ratio,
-                        0.4,
-                        2,
-                        "none: q/p' at critical state, 6 sin(phi)/(3 - sin(phi)) of a friction angle phi");
-        }
+      for (const UsualRange &range : material.chosen().usual_ranges())
+        questions.ask(material.path(body), range.entry, range.value, range.lowest, range.highest, range.unit);
     }
   } // namespace
 
@@ -74,7 +49,7 @@ namespace scree
       {
         questions.ask(
             body.name, "Grain density", body.seeding.grain_density, 500, 2e4, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
-        questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, pascal);
+        questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, unit_of_pressure);
         ask_of_law(body.material, body.name, questions);
         questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
         questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
@@ -86,7 +61,7 @@ namespace scree
                     std::atan(walls[face].friction_coefficient) * 180 / dealii::numbers::PI,
                     2,
                     60,
-                    degrees);
+                    unit_of_angle);
     if (parameters.has_water)
       {
         const WaterParameters &water = parameters.water;
@@ -94,7 +69,7 @@ namespace scree
         questions.ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1, conductivity_unit);
         questions.ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3, diameter_unit);
         questions.ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
-        questions.ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, pascal);
+        questions.ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, unit_of_pressure);
       }
     return questions.list;
   }

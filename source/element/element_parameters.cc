@@ -57,11 +57,8 @@ namespace scree
                   "it must be positive, the paths start from compression.");
     require_entry(K0 > 0, "", "K0", K0, "it must be positive, the paths start from compression.");
     material.check("");
-    require_entry(material.law_kind() != LawKind::rigid,
-                  "",
-                  "Material",
-                  material.law,
-                  "a rigid point has no path. Write a law that deforms.");
+    require_entry(
+        !material.is_rigid(), "", "Material", material.law, "a rigid point has no path. Write a law that deforms.");
   }
 
 

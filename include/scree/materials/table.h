@@ -3,31 +3,23 @@
 #ifndef scree_materials_table_h
 #define scree_materials_table_h
 
-#include <scree/materials/laws/linear_elastic.h>
-#include <scree/materials/material.h>
-#include <scree/materials/laws/mohr_coulomb.h>
-#include <scree/materials/laws/nor_sand.h>
+#include <scree/materials/law_entries.h>
 
-#include <memory>
+#include <map>
 
 namespace scree
 {
-  /// The laws that entry "Material" knows.
-  enum class LawKind
-  {
-    linear_elastic,
-    mohr_coulomb,
-    nor_sand,
-    rigid
-  };
-
   /// Entry "Material" and the subsections of all laws; those of laws that are not chosen are read but not used.
-  struct MaterialParameters
+  class MaterialParameters
   {
+  public:
     std::string law = "Nor-Sand";
-    LinearElasticParameters linear_elastic;
-    MohrCoulombParameters mohr_coulomb;
-    NorSandParameters nor_sand;
+
+    /// With the default values of all laws.
+    MaterialParameters();
+    MaterialParameters(const MaterialParameters &other);
+    MaterialParameters(MaterialParameters &&) = default;
+    MaterialParameters &operator=(MaterialParameters other);
 
     /// Declare entry and subsections inside whatever subsection `prm` has entered.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -35,8 +27,24 @@ namespace scree
     /// Check the chosen law; `subsection` is the path of the enclosing subsection for messages, e.g. "Soil".
     void check(const std::string &subsection) const;
 
-    /// Throws dealii::ExcMessage if there is no law of that name.
-    LawKind law_kind() const;
+    /// Whether the body does not move: it has no law.
+    bool is_rigid() const;
+
+    /// The entries of the chosen law. Throws dealii::ExcMessage if there is no law of that name.
+    const LawEntries &chosen() const;
+
+    /// The entries of any law by their struct, such as MohrCoulombParameters.
+    template <typename Entries>
+    Entries &of() const
+    {
+      for (auto &[name, entries] : all)
+        if (auto *found = dynamic_cast<EntriesWith<Entries> *>(entries.get()))
+          return found->parameters;
+      throw dealii::ExcMessage("This law is not registered.");
+    }
+
+    /// The subsection of the chosen law, in the body's `subsection`.
+    std::string path(const std::string &subsection) const;
 
     /// Entry and value of the modulus that limits elastic strains, in the body's `subsection`, as messages begin.
     std::string modulus_text(const std::string &subsection) const;
@@ -44,9 +52,12 @@ namespace scree
     /// Throws EntryError that names the entry of the law, in the body's `subsection`, which makes waves so fast that a
     /// run is too long, and the `remedy`.
     [[noreturn]] void throw_too_stiff(const std::string &subsection, const std::string &remedy) const;
+
+  private:
+    std::map<std::string, std::unique_ptr<LawEntries>> all; // by the laws' names
   };
 
-  /// The law `parameters.law` names. Throws dealii::ExcMessage if there is none of that name.
+  /// The law that `parameters.law` names. Throws dealii::ExcMessage if there is none of that name.
   template <int dim>
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters);
 } // namespace scree

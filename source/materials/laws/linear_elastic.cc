@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
+#include <scree/materials/batch_material.h>
 #include <scree/materials/laws/linear_elastic.h>
 
 using namespace dealii;
@@ -23,6 +24,33 @@ namespace scree
                   poisson_ratio,
                   "it must lie between -1 and 0.5, both excluded; 0.49 is nearly incompressible.");
   }
+
+
+  LawEntry LinearElasticParameters::modulus() const
+  {
+    return { "Young's modulus", young_modulus };
+  }
+
+
+  LawEntry LinearElasticParameters::stiffest() const
+  {
+    return modulus();
+  }
+
+
+  std::vector<UsualRange> LinearElasticParameters::usual_ranges() const
+  {
+    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure } };
+  }
+
+
+  namespace
+  {
+    const RegisterLaw
+        registered_linear_elastic("linear elastic",
+                                  "Linear elastic",
+                                  std::make_unique<EntriesOf<LinearElasticParameters, BatchMaterial, LinearElastic>>());
+  } // namespace
 
 
   LinearElastic::LinearElastic(const LinearElasticParameters &parameters)

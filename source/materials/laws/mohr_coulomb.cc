@@ -2,6 +2,7 @@
 
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/mohr_coulomb_return.h>
+#include <scree/materials/principal_batch_material.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -68,6 +69,36 @@ namespace scree
                   tension_cut_off,
                   "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex(*this)) + " Pa; lower it.");
   }
+
+
+  LawEntry MohrCoulombParameters::modulus() const
+  {
+    return { "Young's modulus", young_modulus };
+  }
+
+
+  LawEntry MohrCoulombParameters::stiffest() const
+  {
+    return modulus();
+  }
+
+
+  std::vector<UsualRange> MohrCoulombParameters::usual_ranges() const
+  {
+    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
+             { "Friction angle", friction_angle, 5, 60, unit_of_angle },
+             { "Dilation angle", dilation_angle, 0.8, 40, unit_of_angle },
+             { "Cohesion", cohesion, 50, 1e8, unit_of_pressure } };
+  }
+
+
+  namespace
+  {
+    const RegisterLaw registered_mohr_coulomb(
+        "Mohr-Coulomb",
+        "Mohr-Coulomb",
+        std::make_unique<EntriesOf<MohrCoulombParameters, PrincipalBatchMaterial, MohrCoulomb>>());
+  } // namespace
 
 
   MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters)

@@ -2,6 +2,7 @@
 
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/nor_sand_return.h>
+#include <scree/materials/batch_material.h>
 
 using namespace dealii;
 
@@ -83,6 +84,38 @@ namespace scree
                   "1 is rock without pores; sand lies between 1.3 and 2.");
     require_entry(minimum_pressure > 0, subsection, "Minimum pressure", minimum_pressure, positive + " 1 Pa does.");
   }
+
+
+  LawEntry NorSandParameters::modulus() const
+  {
+    return { "Shear modulus", shear_modulus };
+  }
+
+
+  LawEntry NorSandParameters::stiffest() const
+  {
+    constexpr double pressure = 1e5; // Pa, of a few metres of soil
+    return shear_modulus > pressure / swelling_index ? modulus() : LawEntry{ "Swelling index", swelling_index };
+  }
+
+
+  std::vector<UsualRange> NorSandParameters::usual_ranges() const
+  {
+    return { { "Shear modulus", shear_modulus, 1e4, 1e10, unit_of_pressure },
+             { "Critical stress ratio M",
+               critical_stress_ratio,
+               0.4,
+               2,
+               "none: q/p' at critical state, 6 sin(phi)/(3 - sin(phi)) of a friction angle phi" } };
+  }
+
+
+  namespace
+  {
+    const RegisterLaw registered_nor_sand("Nor-Sand",
+                                          "Nor-Sand",
+                                          std::make_unique<EntriesOf<NorSandParameters, BatchMaterial, NorSand>>());
+  } // namespace
 
 
   NorSand::NorSand(const NorSandParameters &parameters)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <scree/materials/law_entries.h>
 #include <scree/materials/laws/rigid.h>
 
 #include <algorithm>
@@ -9,6 +10,39 @@ using namespace dealii;
 
 namespace scree
 {
+  namespace
+  {
+    class RigidEntries : public LawEntries
+    {
+    public:
+      std::unique_ptr<LawEntries> clone() const override
+      {
+        return std::make_unique<RigidEntries>();
+      }
+      void add_parameters(ParameterHandler &) override
+      {
+      }
+      void check(const std::string &) const override
+      {
+      }
+      LawEntry modulus() const override
+      {
+        return { "Material", 0. };
+      }
+      std::unique_ptr<Material<2>> make_2d() const override
+      {
+        return std::make_unique<Rigid<2>>();
+      }
+      std::unique_ptr<Material<3>> make_3d() const override
+      {
+        return std::make_unique<Rigid<3>>();
+      }
+    };
+
+    const RegisterLaw registered_rigid("rigid", "", std::make_unique<RigidEntries>());
+  } // namespace
+
+
   template <int dim>
   void Rigid<dim>::update(const MaterialPoints<dim> &, const MaterialMotion<dim> &, UpdateReport &) const
   {

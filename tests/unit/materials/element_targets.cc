@@ -2,6 +2,7 @@
 
 // Nor-Sand against an independent implementation: triaxial compression and simple shear, each number to 1 %.
 
+#include <scree/materials/laws/nor_sand.h>
 #include <scree/element/element_driver.h>
 
 #include <iomanip>
@@ -18,10 +19,10 @@ ElementDriver
 run(const std::string &path, const double specific_volume, const double confining_pressure, const double final_strain)
 {
   ElementParameters parameters;
-  parameters.path_name                                 = path;
-  parameters.confining_pressure                        = confining_pressure;
-  parameters.final_strain                              = final_strain;
-  parameters.material.nor_sand.initial_specific_volume = specific_volume;
+  parameters.path_name                                                = path;
+  parameters.confining_pressure                                       = confining_pressure;
+  parameters.final_strain                                             = final_strain;
+  parameters.material.of<NorSandParameters>().initial_specific_volume = specific_volume;
   ElementDriver driver(parameters);
   driver.run();
   AssertThrow(driver.report().n_unresolved == 0, ExcMessage("Unresolved returns."));

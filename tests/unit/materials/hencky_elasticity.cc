@@ -2,6 +2,9 @@
 
 // Energy is the potential of the stress; plane strain is three dimensions without the third.
 
+#include <scree/materials/laws/nor_sand.h>
+#include <scree/materials/laws/mohr_coulomb.h>
+#include <scree/materials/laws/linear_elastic.h>
 #include <scree/materials/table.h>
 
 #include <deal.II/base/exceptions.h>
@@ -90,9 +93,11 @@ void run()
 {
   RandomNumbers random;
   const MaterialParameters parameters;
-  test_potential("linear elastic", LinearElastic(parameters.linear_elastic), { { 0.01, -0.02, 0.015 } }, random);
-  test_potential("Mohr-Coulomb", MohrCoulomb(parameters.mohr_coulomb), { { -0.01, -0.01, -0.01 } }, random);
-  test_potential("Nor-Sand", NorSand(parameters.nor_sand), { { -2e-3, -2e-3, -2e-3 } }, random);
+  test_potential(
+      "linear elastic", LinearElastic(parameters.of<LinearElasticParameters>()), { { 0.01, -0.02, 0.015 } }, random);
+  test_potential(
+      "Mohr-Coulomb", MohrCoulomb(parameters.of<MohrCoulombParameters>()), { { -0.01, -0.01, -0.01 } }, random);
+  test_potential("Nor-Sand", NorSand(parameters.of<NorSandParameters>()), { { -2e-3, -2e-3, -2e-3 } }, random);
   for (const std::string name : { "linear elastic", "Mohr-Coulomb", "Nor-Sand" })
     test_plane_strain(name, random);
 }

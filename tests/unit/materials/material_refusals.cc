@@ -2,6 +2,8 @@
 
 // Motions, starts and parameters that cannot be: an exception that says why, never a hang or a quiet wrong number.
 
+#include <scree/materials/laws/nor_sand.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 #include <scree/materials/table.h>
 
 #include <deal.II/base/exceptions.h>
@@ -98,13 +100,19 @@ void test_parameters()
         },
         "subsection Soil/" + law + ", entry \"" + entry + "\"");
   };
-  check("Nor-Sand", "Potential constant N bar", [](auto &p) { p.nor_sand.potential_constant = 0.4; });
-  check("Nor-Sand", "Compression index", [](auto &p) { p.nor_sand.compression_index = 0.001; });
-  check("Nor-Sand", "Critical stress ratio M", [](auto &p) { p.nor_sand.critical_stress_ratio = 0; });
-  check("Nor-Sand", "Initial specific volume", [](auto &p) { p.nor_sand.initial_specific_volume = 1; });
-  check("Mohr-Coulomb", "Dilation angle", [](auto &p) { p.mohr_coulomb.dilation_angle = 40; });
-  check("Mohr-Coulomb", "Tension cut-off", [](auto &p) { p.mohr_coulomb.tension_cut_off = 1; });
-  check("Mohr-Coulomb", "Poisson's ratio", [](auto &p) { p.mohr_coulomb.poisson_ratio = 0.5; });
+  check("Nor-Sand", "Potential constant N bar", [](auto &p) {
+    p.template of<NorSandParameters>().potential_constant = 0.4;
+  });
+  check("Nor-Sand", "Compression index", [](auto &p) { p.template of<NorSandParameters>().compression_index = 0.001; });
+  check("Nor-Sand", "Critical stress ratio M", [](auto &p) {
+    p.template of<NorSandParameters>().critical_stress_ratio = 0;
+  });
+  check("Nor-Sand", "Initial specific volume", [](auto &p) {
+    p.template of<NorSandParameters>().initial_specific_volume = 1;
+  });
+  check("Mohr-Coulomb", "Dilation angle", [](auto &p) { p.template of<MohrCoulombParameters>().dilation_angle = 40; });
+  check("Mohr-Coulomb", "Tension cut-off", [](auto &p) { p.template of<MohrCoulombParameters>().tension_cut_off = 1; });
+  check("Mohr-Coulomb", "Poisson's ratio", [](auto &p) { p.template of<MohrCoulombParameters>().poisson_ratio = 0.5; });
 }
 
 

@@ -2,6 +2,7 @@
 
 // Sand pulled apart bears nothing until the gap is closed again, to the volume where it came apart.
 
+#include <scree/materials/laws/nor_sand.h>
 #include <scree/materials/table.h>
 
 #include <deal.II/base/exceptions.h>
@@ -38,7 +39,8 @@ void run()
   };
 
   // From 10 kPa to the minimum pressure the sand swells by kappa ln(10 kPa/1 Pa).
-  const double contact = parameters.nor_sand.swelling_index * std::log(pressure / parameters.nor_sand.minimum_pressure);
+  const double contact = parameters.of<NorSandParameters>().swelling_index *
+                         std::log(pressure / parameters.of<NorSandParameters>().minimum_pressure);
   for (unsigned int i = 0; i < 400; ++i)
     {
       stretch(step);

@@ -3,6 +3,7 @@
 // Walls: what each does to the velocity of a node, of soil and of water; walls oblique to the axes and Coulomb's law; a
 // gate; a block that slides on friction; points that leave.
 
+#include <scree/materials/laws/linear_elastic.h>
 #include <scree/boundary/constraints.h>
 #include <scree/run/simulation.h>
 
@@ -179,19 +180,19 @@ void test_constraints(std::ostream &out)
 /// A block of elastic soil, 0.4 m x 0.2 m, on the bottom of a wide box.
 void set_block(Parameters &parameters)
 {
-  parameters.output_directory                = "results";
-  parameters.output.graphics                 = "none";
-  parameters.output.screen                   = "nothing";
-  parameters.end_time                        = 0.2;
-  parameters.transfer.pic_rate               = 0;
-  parameters.stabilisation.f_bar             = "none";
-  parameters.grid.upper_corner               = { 2., 0.5 };
-  auto &body                                 = parameters.bodies[0];
-  body.material.law                          = "linear elastic";
-  body.material.linear_elastic.young_modulus = 1e6;
-  body.material.linear_elastic.poisson_ratio = 0.;
-  body.seeding.grain_density                 = 2000;
-  body.seeding.region                        = "x > 0.3 && x < 0.7 && y < 0.2";
+  parameters.output_directory                               = "results";
+  parameters.output.graphics                                = "none";
+  parameters.output.screen                                  = "nothing";
+  parameters.end_time                                       = 0.2;
+  parameters.transfer.pic_rate                              = 0;
+  parameters.stabilisation.f_bar                            = "none";
+  parameters.grid.upper_corner                              = { 2., 0.5 };
+  auto &body                                                = parameters.bodies[0];
+  body.material.law                                         = "linear elastic";
+  body.material.of<LinearElasticParameters>().young_modulus = 1e6;
+  body.material.of<LinearElasticParameters>().poisson_ratio = 0.;
+  body.seeding.grain_density                                = 2000;
+  body.seeding.region                                       = "x > 0.3 && x < 0.7 && y < 0.2";
 }
 
 /// The rows of the statistics, by column.

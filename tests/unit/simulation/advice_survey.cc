@@ -3,6 +3,7 @@
 // What an advice finds in the points of a case: sizes, counts, stiffness and fall of the centre of mass, against hand
 // calculation; the same on 1 and 2 ranks.
 
+#include <scree/materials/laws/linear_elastic.h>
 #include <scree/advice/measure.h>
 #include <scree/advice/survey.h>
 
@@ -29,14 +30,14 @@ void make_block(Parameters &parameters)
   parameters.grid.lower_corner.assign(dim, 0.);
   parameters.grid.upper_corner.assign(dim, 2.);
 
-  auto &body                                 = parameters.bodies[0];
-  body.material.law                          = "linear elastic";
-  body.material.linear_elastic.young_modulus = 1e6;
-  body.material.linear_elastic.poisson_ratio = 0.2;
-  body.seeding.grain_density                 = 2500;
-  body.seeding.initial_porosity              = 0.4;
-  body.seeding.points_per_cell               = 2;
-  body.seeding.region                        = dim == 2 ? "x < 1 && y < 1" : "x < 1 && y < 1 && z < 1";
+  auto &body                                                = parameters.bodies[0];
+  body.material.law                                         = "linear elastic";
+  body.material.of<LinearElasticParameters>().young_modulus = 1e6;
+  body.material.of<LinearElasticParameters>().poisson_ratio = 0.2;
+  body.seeding.grain_density                                = 2500;
+  body.seeding.initial_porosity                             = 0.4;
+  body.seeding.points_per_cell                              = 2;
+  body.seeding.region                                       = dim == 2 ? "x < 1 && y < 1" : "x < 1 && y < 1 && z < 1";
 }
 
 template <int dim>

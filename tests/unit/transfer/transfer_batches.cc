@@ -5,6 +5,8 @@
 // random.
 
 #include <scree/materials/hencky_material.h>
+#include <scree/materials/laws/nor_sand.h>
+#include <scree/materials/laws/linear_elastic.h>
 #include <scree/materials/table.h>
 #include <scree/seeding/seeding.h>
 #include <scree/tensor/invariants.h>
@@ -280,9 +282,10 @@ double test(const std::string &basis,
   material.law = law;
   std::unique_ptr<Material<dim>> one_by_one;
   if (law == "Nor-Sand")
-    one_by_one = std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(material.nor_sand));
+    one_by_one = std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(material.of<NorSandParameters>()));
   else
-    one_by_one = std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(material.linear_elastic));
+    one_by_one =
+        std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(material.of<LinearElasticParameters>()));
   SeedingParameters seeding;
   seeding.region = "x + 0.7 * y < 0.55";
   if (dim == 3) // and a point in a cell by itself

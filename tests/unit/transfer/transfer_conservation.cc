@@ -14,6 +14,7 @@
 // which is B only where the nodes' motion is linear. PIC and FLIP carry no spin at all, and PIC loses what it cannot
 // carry at each step.
 
+#include <scree/materials/laws/linear_elastic.h>
 #include <scree/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -93,13 +94,13 @@ std::pair<double, double> fly(const std::string &method, const std::string &basi
   parameters.transfer.pic_rate   = 0;
   parameters.stabilisation.f_bar = "none";
 
-  auto &body                                 = parameters.bodies[0];
-  body.material.law                          = "linear elastic";
-  body.material.linear_elastic.young_modulus = 1e5;
-  body.seeding.grain_density                 = 1000;
-  body.seeding.points_per_cell               = dim == 2 ? 3 : 2;
-  const std::string in_2d                    = "(x - 0.7)^2 + (y - 0.6)^2";
-  body.seeding.region                        = dim == 2 ? in_2d + " < 0.3^2" : in_2d + " + (z - 0.6)^2 < 0.25^2";
+  auto &body                                                = parameters.bodies[0];
+  body.material.law                                         = "linear elastic";
+  body.material.of<LinearElasticParameters>().young_modulus = 1e5;
+  body.seeding.grain_density                                = 1000;
+  body.seeding.points_per_cell                              = dim == 2 ? 3 : 2;
+  const std::string in_2d                                   = "(x - 0.7)^2 + (y - 0.6)^2";
+  body.seeding.region = dim == 2 ? in_2d + " < 0.3^2" : in_2d + " + (z - 0.6)^2 < 0.25^2";
   // A flight of 1.2 m or more, linear stretching, two turns a second.
   body.seeding.initial_velocity = "3 - 12 * (y - 0.6) + x - 0.7; 2 + 12 * (x - 0.7) - 0.5 * (y - 0.6)";
   if (dim == 3)

@@ -4,6 +4,7 @@
 #define scree_materials_laws_linear_elastic_h
 
 #include <scree/materials/law.h>
+#include <scree/materials/law_entries.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -22,6 +23,11 @@ namespace scree
 
     /// Throws EntryError if a value is impossible.
     void check(const std::string &subsection) const;
+
+    /// See LawEntries.
+    LawEntry modulus() const;
+    LawEntry stiffest() const;
+    std::vector<UsualRange> usual_ranges() const;
   };
 
   /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (Hencky 1928; de Souza Neto,

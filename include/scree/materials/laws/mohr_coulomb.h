@@ -21,6 +21,11 @@ namespace scree
 
     /// Throws EntryError if a combination is impossible.
     void check(const std::string &subsection) const;
+
+    /// See LawEntries.
+    LawEntry modulus() const;
+    LawEntry stiffest() const;
+    std::vector<UsualRange> usual_ranges() const;
   };
 
 

@@ -4,6 +4,7 @@
 #define scree_materials_laws_nor_sand_h
 
 #include <scree/materials/law.h>
+#include <scree/materials/law_entries.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -33,6 +34,11 @@ namespace scree
 
     /// Throws EntryError if a combination is impossible.
     void check(const std::string &subsection) const;
+
+    /// See LawEntries.
+    LawEntry modulus() const;
+    LawEntry stiffest() const;
+    std::vector<UsualRange> usual_ranges() const;
   };
 
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_materials_law_entries_h
+#define scree_materials_law_entries_h
+
+#include <scree/materials/material.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// As the log writes them where it questions a value.
+  constexpr char unit_of_angle[]    = "degrees (1 rad = 57.3 degrees)";
+  constexpr char unit_of_pressure[] = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)";
+
+  /// An entry of a law and its value.
+  struct LawEntry
+  {
+    std::string name;
+    double value;
+  };
+
+  /// An entry, its value, and the range beyond which the log questions its unit.
+  struct UsualRange
+  {
+    std::string entry;
+    double value, lowest, highest;
+    std::string unit;
+  };
+
+  /// The entries of a law for one body, and the law that they make. Each law registers its own by RegisterLaw.
+  class LawEntries
+  {
+  public:
+    virtual ~LawEntries() = default;
+
+    virtual std::unique_ptr<LawEntries> clone() const = 0;
+
+    /// Declares the entries inside the subsection of the law.
+    virtual void add_parameters(dealii::ParameterHandler &prm) = 0;
+
+    /// Throws EntryError if a combination is impossible; `subsection` is the path of the law's.
+    virtual void check(const std::string &subsection) const = 0;
+
+    /// The modulus that limits elastic strains, Pa.
+    virtual LawEntry modulus() const = 0;
+
+    /// The entry that makes waves fast.
+    virtual LawEntry stiffest() const
+    {
+      return modulus();
+    }
+
+    virtual std::vector<UsualRange> usual_ranges() const
+    {
+      return {};
+    }
+
+    virtual std::unique_ptr<Material<2>> make_2d() const = 0;
+    virtual std::unique_ptr<Material<3>> make_3d() const = 0;
+  };
+
+  /// Those that are a struct `Parameters` with the members of a law's struct (see MohrCoulombParameters).
+  template <typename Parameters>
+  class EntriesWith : public LawEntries
+  {
+  public:
+    Parameters parameters;
+
+    void add_parameters(dealii::ParameterHandler &prm) override
+    {
+      parameters.add_parameters(prm);
+    }
+    void check(const std::string &subsection) const override
+    {
+      parameters.check(subsection);
+    }
+    LawEntry modulus() const override
+    {
+      return parameters.modulus();
+    }
+    LawEntry stiffest() const override
+    {
+      return parameters.stiffest();
+    }
+    std::vector<UsualRange> usual_ranges() const override
+    {
+      return parameters.usual_ranges();
+    }
+  };
+
+  /// Those of a law that Points<dim, Law> brings to several points at a time.
+  template <typename Parameters, template <int, typename> class Points, typename Law>
+  class EntriesOf : public EntriesWith<Parameters>
+  {
+  public:
+    std::unique_ptr<LawEntries> clone() const override
+    {
+      return std::make_unique<EntriesOf>(*this);
+    }
+    std::unique_ptr<Material<2>> make_2d() const override
+    {
+      return std::make_unique<Points<2, Law>>(Law(this->parameters));
+    }
+    std::unique_ptr<Material<3>> make_3d() const override
+    {
+      return std::make_unique<Points<3, Law>>(Law(this->parameters));
+    }
+  };
+
+  /// A law that entry "Material" knows.
+  struct RegisteredLaw
+  {
+    std::string name;                    ///< value of the entry
+    std::string subsection;              ///< of its entries; empty: it has none
+    std::unique_ptr<LawEntries> entries; ///< with default values
+  };
+
+  /// All laws, in the order of their names.
+  const std::vector<RegisteredLaw> &registered_laws();
+
+  /// Adds a law; its source file has one as a static constant.
+  class RegisterLaw
+  {
+  public:
+    RegisterLaw(const std::string &name, const std::string &subsection, std::unique_ptr<LawEntries> entries);
+  };
+} // namespace scree
+
+#endif
