@@ -124,7 +124,7 @@ namespace scree
     for (Group &group : groups)
       {
         const TimedPart part(timer, TimerSection::nodes);
-        budget += group.momentum.solve(group.soil.field, time_step); // m v = m v + dt f
+        budget += group.momentum.solve(group.soil.field, time_step); // m v = m v + dt (f + m g)
         budget.load_impulse += group.soil.load_impulse(time_step);
         group.soil.field.update_ghosts();
       }

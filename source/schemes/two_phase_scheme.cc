@@ -192,7 +192,7 @@ namespace scree
     Budget<dim> &budget = report.balance;
 
     sum_at_nodes(time_step);
-    momentum.predict(nodes, time_step, budget); // A v* = m v + dt (f - G p^n)
+    momentum.predict(nodes, time_step, budget); // A v* = m v + dt (f + m g - G p^n)
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
     contact.predict(nodes, mixture, momentum, time_step, budget);
