@@ -12,7 +12,6 @@ namespace scree
   TwoPhaseScheme<dim>::TwoPhaseScheme(const Model<dim> &model, TimerOutput &timer)
       : grid(model.grid)
       , forces(model.forces)
-      , water_density(model.water_parameters.density)
       , fluidisation_porosity(model.water_parameters.fluidisation_porosity)
       , water(model.water)
       // Without gravity nothing falls; where water is compressible, closing is strain; what soil gains would be water
@@ -42,7 +41,7 @@ namespace scree
                  timer)
       , wall_gaps(grid, *model.constraints[0])
       , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
-      , momentum(grid, *model.constraints[0], wall_gaps, forces, water_density, timer)
+      , momentum(grid, *model.constraints[0], wall_gaps, forces, model.water_parameters.density, timer)
       , viscosity(grid, model.water_parameters, model.bodies, water, timer)
       , contact(grid,
                 model.ground,

@@ -65,7 +65,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const BodyForces<dim> &forces;
-    const double water_density, fluidisation_porosity;
+    const double fluidisation_porosity;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
     const bool limits_volumetric_strain;                            // that soil loses where a solve leaves it closing
