@@ -3,7 +3,7 @@
 #
 # Everything between a fresh Debian 12 and a build: packages, environment, build/. Called (sh doc/setup.sh) or sourced by
 # doc/quickstart.sh and tests/run.sh; leaves the variable `root` (this repository) and the function configure_scree behind.
-# Installs the packages in the variable test_packages, too.
+# Installs the packages in the variable test_packages, too, and hands the words of configure_options to CMake.
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 if [ ! -f "$root/doc/setup.sh" ]; then
@@ -109,4 +109,5 @@ configure_scree()
     ${CI:+-DSCREE_WARNINGS_AS_ERRORS=ON} "$@"
 }
 
-configure_scree build Release && cmake --build "$root/build" --target scree || exit 1
+# shellcheck disable=SC2086  # a list of words
+configure_scree build Release ${configure_options:-} && cmake --build "$root/build" --target scree || exit 1

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """modules.py ROOT ORDER: every include of scree's own files below ROOT goes down the order of modules.
 
-ORDER is a text (doc/developer.md) with one line "a, b <- c <- d", lowest modules first, and lines "e -> a, b" for modules beside it.
+ORDER is a text (doc/developer/index.md) with one line "a, b <- c <- d", lowest modules first, and lines "e -> a, b" for modules beside it.
 """
 
 import pathlib

@@ -11,4 +11,4 @@ cd "$1" || exit 1
 count=$(find source tests -name '*.py' | wc -l)
 echo "$count files"
 [ "$count" -gt 50 ] || exit 1
-pyflakes3 source/python tests
+pyflakes3 source/python tests doc/conf.py

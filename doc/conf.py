@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Settings of Sphinx for the pages of this folder: cmake --build build --target site."""
+
+import pathlib
+import re
+
+from docutils import nodes
+from sphinx import addnodes
+
+FOLDER = pathlib.Path(__file__).parent
+VERSION = re.search(r"^project\(scree VERSION ([0-9.]+)", (FOLDER.parent / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
+
+project = "Scree"
+author = "The Scree maintainers"
+release = VERSION.group(1) if VERSION else ""
+
+extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinxcontrib.bibtex"]
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 3
+bibtex_bibfiles = ["references.bib"]
+bibtex_default_style = "plain"
+# Code in the pages is C++, shell, Python, cases of Scree (text) and nothing else.
+highlight_language = "text"
+# The former manual and what became of its parts.
+exclude_patterns = ["manual.md", "verification.md", "step.md", "studies/reference"]
+
+html_theme = "furo"
+html_title = f"Scree {release}"
+html_copy_source = False
+html_show_copyright = False
+html_show_sphinx = False
+
+
+def add_list_of_studies(_, name, source):
+    """scree-study writes studies/pages/README.md, for readers of the repository; here its pages get their place in the contents."""
+    if name == "studies/pages/README":
+        source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\n*\n```\n"
+
+
+def hand_out_files(app, tree):
+    """Links to cases, sources and texts outside this folder become downloads; to folders, plain text."""
+    page = pathlib.Path(app.env.doc2path(app.env.docname)).parent
+    for link in list(tree.findall(addnodes.pending_xref)):
+        target = page / link["reftarget"].split("#")[0]
+        if link.get("reftype") != "myst" or not target.exists() or FOLDER in target.resolve().parents and target.suffix == ".md":
+            continue
+        if target.is_dir():
+            link.replace_self(nodes.inline("", "", *link.children))
+        else:
+            link.replace_self(addnodes.download_reference("", "", *link.children, refdoc=app.env.docname, reftarget=link["reftarget"].split("#")[0],
+                                                          refdomain=None, reftype="myst", refexplicit=True, refwarn=False))
+
+
+def setup(app):
+    app.connect("source-read", add_list_of_studies)
+    # Before Sphinx collects the files of a page, which it does with priority 500.
+    app.connect("doctree-read", hand_out_files, priority=100)
