@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """modules.py ROOT ORDER: every include of scree's own files below ROOT goes down the order of modules.
 
-ORDER is a text (doc/developer/index.md) with one line "a, b <- c <- d", lowest modules first, and lines "e -> a, b" for modules beside it.
+ORDER is a text (doc/developer/index.md) with a chain "a, b <- c <- d", lowest modules first, whose further lines begin with
+"<-", and lines "e -> a, b" for modules beside it.
 """
 
 import pathlib
@@ -12,9 +13,9 @@ import sys
 def read_order(text):
     """{module: the modules that it may know}."""
     known, below = {}, set()
-    chain = re.search(r"^\w[\w, ]*(<- [\w, ]+)+$", text, re.MULTILINE)
+    chain = re.search(r"^\w[\w, ]*(\s*<- [\w, ]+)+$", text, re.MULTILINE)
     if not chain:
-        sys.exit("there is no line \"a, b <- c\" with the order of the modules")
+        sys.exit("there is no chain \"a, b <- c\" with the order of the modules")
     for level in chain.group().split("<-"):
         modules = set(re.findall(r"\w+", level))
         known.update({module: set(below) for module in modules})
