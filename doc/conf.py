@@ -21,8 +21,8 @@ bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "plain"
 # Code in the pages is C++, shell, Python, cases of Scree (text) and nothing else.
 highlight_language = "text"
-# The former manual and what became of its parts.
-exclude_patterns = ["manual.md", "verification.md", "step.md", "studies/reference"]
+# Texts that are parts of pages, data, and the former manual.
+exclude_patterns = ["parameters/intro", "studies/reference", "manual.md", "verification.md", "step.md"]
 
 html_theme = "furo"
 html_title = f"Scree {release}"
