@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Settings of Sphinx for the pages of this folder: cmake --build build --target site."""
 
+import os
 import pathlib
 import re
 
 from docutils import nodes
 from sphinx import addnodes
 
-FOLDER = pathlib.Path(__file__).parent
+FOLDER = pathlib.Path(__file__).resolve().parent
 VERSION = re.search(r"^project\(scree VERSION ([0-9.]+)", (FOLDER.parent / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
 
 project = "Scree"
@@ -38,13 +39,15 @@ def add_list_of_studies(_, name, source):
 
 
 def hand_out_files(app, tree):
-    """Links to cases, sources and texts outside this folder become downloads; to folders, plain text."""
+    """Links to the list of cases go to its page here; to other files outside this folder become downloads; to folders, plain text."""
     page = pathlib.Path(app.env.doc2path(app.env.docname)).parent
     for link in list(tree.findall(addnodes.pending_xref)):
         target = page / link["reftarget"].split("#")[0]
         if link.get("reftype") != "myst" or not target.exists() or FOLDER in target.resolve().parents and target.suffix == ".md":
             continue
-        if target.is_dir():
+        if target.resolve() == FOLDER.parent / "prm" / "README.md":
+            link["reftarget"] = os.path.relpath(FOLDER / "cases.md", page)
+        elif target.is_dir():
             link.replace_self(nodes.inline("", "", *link.children))
         else:
             link.replace_self(addnodes.download_reference("", "", *link.children, refdoc=app.env.docname, reftarget=link["reftarget"].split("#")[0],
