@@ -56,6 +56,16 @@ def test_list_of_cases():
         assert "Output directory" in read_entries(case), case
 
 
+def test_first_run():
+    """The blocks of doc/first_run.md are the case that it writes, but for the comment at its head."""
+    page = (CASES.parent / "doc" / "first_run.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```text\n( *(?:set|subsection) .*?)```", page, re.DOTALL)
+    case = (CASES / "slopes" / "first_slope.prm").read_text(encoding="utf-8")
+    wanted = [line for line in case.splitlines() if line and not line.startswith("#")]
+    assert [line for line in "".join(blocks).splitlines() if line] == wanted
+
+
 test_entries()
 test_includes()
 test_list_of_cases()
+test_first_run()
