@@ -12,7 +12,6 @@ import sys
 OLD_PAGES = {
     "README.md",
     "CONTRIBUTING.md",
-    "CHANGELOG.md",
     "doc/manual.md",
     "doc/verification.md",
     "doc/developer.md",

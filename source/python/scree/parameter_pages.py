@@ -7,6 +7,7 @@ import json
 import pathlib
 import re
 import subprocess
+import textwrap
 
 from scree.command import ROOT, Command, program
 
@@ -49,53 +50,80 @@ def split_unit(documentation):
 
 
 def limits(noun, low, high):
-    if low in LARGEST and high in LARGEST:
-        return noun
     if high in LARGEST:
-        return f"{noun} above 0" if low == "1e-12" else f"{noun} from {low}"
-    return f"{noun} up to {high}" if low in LARGEST else f"{noun} from {low} to {high}"
+        return noun if low in LARGEST else f"{noun} above 0" if low == "1e-12" else f"{noun} from {low}"
+    if low in LARGEST:
+        return f"{noun} up to {high}"
+    return f"{noun} above 0, at most {high}" if low == "1e-12" else f"{noun} from {low} to {high}"
 
 
-def values(pattern, documentation, default):
+def kind_of_text(description, default):
+    """What a text that the program reads itself stands for."""
+    if default == "auto":
+        return "number or `auto`"
+    for words, kind in (("expression", "expression"), ("coordinate", "number"), ("Names", "names"), ("name of", "name")):
+        if words.lower() in description.lower():
+            return kind
+    return "text"
+
+
+def values(pattern, description, default):
     """What an entry accepts, in words."""
     if number := re.fullmatch(r"\[(Double|Integer)(?: range)? (\S+?)\.\.\.(\S+) \(inclusive\)\]", pattern):
         return limits("number" if number.group(1) == "Double" else "whole number", number.group(2), number.group(3))
-    if selection := re.fullmatch(r"\[Selection (.*?) ?\]", pattern):
-        return ", ".join(f"`{word}`" for word in selection.group(1).split("|"))
+    if words := words_of(pattern):
+        return ", ".join(f"`{word}`" for word in words)
     if numbers := re.fullmatch(r"\[List of <\[Double.*?\]> of length (\d+)\.\.\.(\d+) \(inclusive\)\]", pattern):
         low, high = numbers.groups()
-        return f"{low} numbers" if low == high else "none, 2 or 3 numbers" if low == "0" else f"{low} or {high} numbers"
+        return f"{low} numbers" if low == high else "2 or 3 numbers"
     if pattern.startswith("[List of"):
         return "names"
     if pattern.startswith("[FileName"):
         return "path of a file"
-    if pattern == "[Bool]":
-        return "`true`, `false`"
-    if pattern in ("[Double]", "[Integer]"):
-        return "number" if pattern == "[Double]" else "whole number"
-    if "ANGLE" in documentation or "PRESSURE" in documentation:
-        return "a wall"
-    if default == "auto":
-        return "number or `auto`"
-    return "expression" if "expression" in documentation else "text"
+    return "`true`, `false`" if pattern == "[Bool]" else kind_of_text(description, default)
 
 
-def sentences(text):
-    """The sentences of a text, each on a line of its own."""
-    return re.sub(r"(?<=[a-z0-9)\"\]])\. (?=[A-Z0-9\"a-z])", ".\n", text)
+def words_of(pattern):
+    """The words of a selection."""
+    selection = re.fullmatch(r"\[Selection (.*?) ?\]", pattern)
+    return selection.group(1).split("|") if selection else []
+
+
+def sentences(text, words):
+    """The sentences of a description, each on a line of its own; those about one of the words are items of a list."""
+    lines, in_list = [], False
+    for sentence in re.split(r"(?<=[A-Za-z0-9)\"\]])\. (?=[A-Za-z0-9\"])", text.rstrip(".")):
+        word = next((word for word in [*words, "auto", "none"] if sentence.startswith(word + ": ")), None)
+        if word:
+            lines += ([] if in_list or not lines else [""]) + wrapped(f"- `{word}`: {marked(sentence[len(word) + 2:])}.", "  ")
+        else:
+            lines += ([""] if in_list else []) + wrapped(marked(sentence) + ".", "")
+        in_list = bool(word)
+    return lines
+
+
+def wrapped(line, indent):
+    return textwrap.wrap(line, 118, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def marked(text):
-    """Names of entries and statements, which stand between quotes, as code."""
-    return re.sub(r'"([^"]+)"', r"`\1`", text).replace("*", r"\*") if "*" in text else re.sub(r'"([^"]+)"', r"`\1`", text)
+    """Names of entries and statements, which stand between quotes, as code; no star begins an emphasis."""
+    text = re.sub(r'"([^"]+)"', r"`\1`", text.replace("*", r"\*"))
+    return re.sub(r"^(true|0): ", r"`\1`: ", text)
 
 
 def entry_lines(name, node):
     unit, description = split_unit(node["documentation"])
-    default = node["default_value"].strip()
-    facts = ([f"unit {unit}"] if unit else []) + [f"values: {values(node['pattern_description'], description, default)}"]
-    facts.append(f"default `{default}`" if default else "default empty")
-    return [f"### {name}", "", "*" + "; ".join(facts) + "*", "", sentences(marked(description)), ""]
+    pattern, default = node["pattern_description"], node["default_value"].strip()
+    accepted = values(pattern, description, default)
+    if " | " in description:  # The walls: the description lists what is accepted.
+        description, _, walls = description.rstrip(".").partition(": ")
+        accepted = ", ".join(f"`{wall}`" for wall in walls.split(" | "))
+    dimension = re.match(r"([23]D)\. ", description)
+    description = description[dimension.end():] if dimension else description
+    facts = [f"{dimension.group(1)} only"] if dimension else []
+    facts += ([f"unit {unit}"] if unit else []) + [f"values: {accepted}", f"default `{default}`" if default else "default empty"]
+    return [f"### {name}", "", "*" + "; ".join(facts) + "*", ""] + sentences(description, words_of(pattern)) + [""]
 
 
 def section_lines(node, path, title):
