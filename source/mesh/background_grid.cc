@@ -104,12 +104,13 @@ namespace scree
                       upper_corner,
                       "m; upper corner of the box, one coordinate per axis.",
                       Patterns::List(Patterns::Double(), 2, 3));
-    prm.add_parameter("Box",
-                      box,
-                      "Source of the corners that are not set. corners: their defaults, or the raster of the bed if "
-                      "neither corner is set. from raster: in x and y the part of the raster that whole cells cover, "
-                      "in z from two cells below its lowest height to above the soil.",
-                      Patterns::Selection("corners|from raster"));
+    prm.add_parameter(
+        "Box",
+        box,
+        "Source of the corners that are not set. corners: their defaults, or the bed raster if neither corner "
+        "is set. from raster: in x and y the part of the raster that whole cells cover, "
+        "in z from two cells below its lowest height to above the soil.",
+        Patterns::Selection("corners|from raster"));
     prm.add_parameter("Cell size",
                       cell_size,
                       "m; width of the cubic cells. The box lengths must be integer multiples of it.",

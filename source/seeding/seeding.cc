@@ -158,15 +158,13 @@ namespace scree
     double volume = 0;
     for (const Seed<dim> &one : seeds)
       volume += one.volume;
-    require_entry(
-        Utilities::MPI::sum(volume, communicator) > 0 || parameters.is_fed,
-        body.name,
-        parameters.place().first,
-        parameters.place().second,
-        ground ? "the expression is not true anywhere in the box of subsection Mesh and above the ground of subsection "
-                 "Bed. Move "
-                 "the region, the box or the bed."
-               : "the expression is not true anywhere inside the box of subsection Mesh. Move the region or the box.");
+    require_entry(Utilities::MPI::sum(volume, communicator) > 0 || parameters.is_fed,
+                  body.name,
+                  parameters.place().first,
+                  parameters.place().second,
+                  ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection Bed. "
+                           "Move the region, the box or the bed."
+                         : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
 
     const auto &layout = body.layout;
     insert_points<dim>(

@@ -87,17 +87,14 @@ namespace scree
       join_slivers(triangulation, ground, seeds);
 
       Utilities::MPI::sum(filled, communicator, filled);
-      require_entry(
-          parameters.is_fed ||
-              std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
-          "Water",
-          "Region",
-          parameters.region,
-          ground
-              ? "the expression is not true anywhere in the box of subsection Mesh and above the ground of subsection "
-                "Bed. "
-                "Move the region, the box or the bed."
-              : "the expression is not true anywhere inside the box of subsection Mesh. Move the region or the box.");
+      require_entry(parameters.is_fed ||
+                        std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
+                    "Water",
+                    "Region",
+                    parameters.region,
+                    ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
+                             "Bed. Move the region, the box or the bed."
+                           : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
       for (unsigned int i = 0; i < parts.size(); ++i)
         if (parts[i].soil && filled[i] > 0)
           require_pores(*parts[i].soil);
