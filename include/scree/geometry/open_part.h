@@ -17,7 +17,7 @@ namespace scree
   struct SimplexCorner
   {
     dealii::Point<dim> place; ///< m
-    double side;
+    double side;              ///< signed distance, or proportional to it
   };
 
   /// A triangle (2D) or tetrahedron.

@@ -29,7 +29,10 @@ namespace scree
     TriangleSurface(const TriangleSurface &)            = delete;
     TriangleSurface &operator=(const TriangleSurface &) = delete;
 
+    /// See LevelSet::is_open().
     bool is_open(const dealii::Point<3> &x) const override;
+
+    /// See LevelSet::view().
     SurfaceView<3> view(const dealii::Point<3> &x, const double reach) const override;
 
     /// Around all of it, m.

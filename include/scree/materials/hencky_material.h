@@ -19,6 +19,7 @@ namespace scree
   class HenckyMaterial : public Material<dim>
   {
   public:
+    /// Copies the law.
     explicit HenckyMaterial(const Law &law);
 
     void
