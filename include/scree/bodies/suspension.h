@@ -19,9 +19,9 @@ namespace scree
   /// Subsection Suspension of subsection Water.
   struct SuspensionParameters
   {
-    std::string law         = "none";
-    double densest_packing  = 0.64; ///< phi_m
-    double contact_pressure = 100;  ///< Pa
+    std::string law         = "none"; ///< none | Einstein | Krieger-Dougherty
+    double densest_packing  = 0.64;   ///< phi_m
+    double contact_pressure = 100;    ///< Pa
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -30,7 +30,7 @@ namespace scree
     /// @param viscosity of the water, Pa s
     void check(const double viscosity, const unsigned int n_bodies) const;
 
-    SuspensionLaw law_kind() const;
+    SuspensionLaw law_kind() const; ///< entry `Law` as an enum
   };
 
   /// Viscosity of water with grains that bear no stress on each other.

@@ -50,6 +50,7 @@ namespace scree
       return place;
     }
 
+    /// Lower corner of a cell, m.
     dealii::Point<dim> corner(const CellPlace<dim> &place) const
     {
       dealii::Point<dim> corner = lower;
@@ -58,6 +59,7 @@ namespace scree
       return corner;
     }
 
+    /// Whether the box has a cell at this place.
     bool contains(const CellPlace<dim> &place) const
     {
       bool inside = true;
@@ -75,6 +77,7 @@ namespace scree
       return blocks;
     }
 
+    /// Number of cells; a double, as it may exceed an unsigned int.
     double n_cells() const
     {
       double product = 1;
