@@ -16,8 +16,8 @@ namespace scree
   /// What a pressure solve took.
   struct SolveReport
   {
-    unsigned int n_iterations = 0;
-    bool made_preconditioner  = false;
+    unsigned int n_iterations = 0;     ///< iterations of conjugate gradients
+    bool made_preconditioner  = false; ///< whether the preconditioner was set up anew
   };
 
   /// The system for the change of the pressure, L dp = b, on the vertices of the cells that hold water.
@@ -29,6 +29,7 @@ namespace scree
   class PressureSolver
   {
   public:
+    /// Keeps references to grid and vertices.
     PressureSolver(const BackgroundGrid<dim> &grid,
                    const NodeNumbering<dim> &vertices,
                    const PressureParameters &parameters);

@@ -28,6 +28,8 @@ namespace scree
   class TwoPhaseScheme : public Scheme<dim>
   {
   public:
+    /// Makes fields and operators.
+    /// @param model its members are kept by reference
     TwoPhaseScheme(const Model<dim> &model, dealii::TimerOutput &timer);
 
     void reinit() override;

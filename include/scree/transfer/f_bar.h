@@ -21,7 +21,7 @@ namespace scree
     std::vector<double> volume;                ///< V at the start of the step, m^3
     std::vector<double> volume_ratio;          ///< J = V/V_0 at its end
     std::vector<double> reference_volume;      ///< V_0, m^3
-    std::size_t pitch = 0;
+    std::size_t pitch = 0;                     ///< doubles from one component of dF to the next
 
     /// Makes room for the points of a block; memory only grows.
     void resize(const unsigned int n_points)
@@ -34,6 +34,7 @@ namespace scree
         list->resize(pitch);
     }
 
+    /// The motion as the laws read it; valid until resize().
     MaterialMotion<dim> material_motion() const
     {
       return {

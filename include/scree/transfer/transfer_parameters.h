@@ -47,10 +47,11 @@ namespace scree
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method = "FLIP";
+    std::string method = "FLIP"; ///< FLIP | PIC | APIC | TPIC | AFLIP
     std::string rate   = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
     double pic_rate    = 1;      ///< 1/s, what choose_rate() has made of the entry
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at a rate that is none, or that the method does not read.
@@ -66,16 +67,22 @@ namespace scree
     /// The method, and its rate if it has one, as the log tells it.
     std::string text() const;
 
+    /// Entry `Method` as an enum.
     TransferMethod transfer_method() const;
+
+    /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
   };
 
   /// Subsection Stabilisation.
   struct StabilisationParameters
   {
-    std::string f_bar = "modified";
+    std::string f_bar = "modified"; ///< none | standard | modified
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Entry `F-bar` as an enum.
     FBar f_bar_kind() const;
   };
 } // namespace scree
