@@ -21,6 +21,7 @@ namespace scree
   class PlaceValues
   {
   public:
+    /// Lists the places, m.
     PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<dealii::Point<dim>> &places);
 
     /// Names with units of the quantities of soil: velocity, effective stress (tension positive), P, porosity.
@@ -31,8 +32,11 @@ namespace scree
 
     /// Their values, a row a place; nan where no such point lies within half a cell along each axis. Collective.
     std::vector<std::vector<double>> of_soil(const std::list<SoilBody<dim>> &bodies) const;
+
+    /// The same of the water.
     std::vector<std::vector<double>> of_water(const std::list<WaterPhase<dim>> &water) const;
 
+    /// The places, m, in the order of the rows.
     const std::vector<dealii::Point<dim>> &places() const
     {
       return place_list;
