@@ -12,8 +12,8 @@ namespace scree
   enum class SuspensionLaw
   {
     none,             ///< the grains add nothing
-    einstein,         ///< mu (1 + 5/2 phi): Einstein 1911, dilute
-    krieger_dougherty ///< mu (1 - phi/phi_m)^(-5/2 phi_m): Krieger & Dougherty 1959, eq. 13
+    einstein,         ///< mu (1 + 5/2 phi): @source{einstein1911}, dilute
+    krieger_dougherty ///< mu (1 - phi/phi_m)^(-5/2 phi_m): @source{krieger1959}, eq. 13
   };
 
   /// Subsection Suspension of subsection Water.

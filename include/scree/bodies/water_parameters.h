@@ -28,8 +28,8 @@ namespace scree
   /// How the hydraulic conductivity follows the porosity.
   enum class ConductivityLaw
   {
-    constant,
-    kozeny_carman
+    constant,     ///< k, m/s, of the entry at any porosity
+    kozeny_carman ///< in proportion to n^3/(1-n)^2 (@source{carman1937})
   };
 
   /// Subsection Water: where it is, and how it flows through the soil.

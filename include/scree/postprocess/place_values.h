@@ -15,7 +15,7 @@
 namespace scree
 {
   /// The state of soil and water at given places: of each quantity a linear fit by least squares to the points around
-  /// (Lancaster & Salkauskas 1981), weighted by mass and by 1 - |distance|/(cell size) along each axis. Exact for
+  /// (@source{lancaster1981}), weighted by mass and by 1 - |distance|/(cell size) along each axis. Exact for
   /// linear fields, at walls and surfaces, too; the same on any number of ranks but for rounding.
   template <int dim>
   class PlaceValues

@@ -12,7 +12,7 @@
 namespace scree
 {
   /// The pore pressure p at the vertices of the cells: where the water ends, p at the start of a step, and the system
-  /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (Kularathna et al. 2021; Yuan et al. 2023), with the drag in
+  /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (@source{kularathna2021}; @source{yuan2023}), with the drag in
   /// L.
   template <int dim>
   class PorePressure

@@ -13,9 +13,9 @@ namespace scree
   {
     flip, ///< points keep their velocity and take the nodes' change; blended with PIC at a rate in 1/s
     pic,  ///< points take the nodes' velocity
-    apic, ///< as PIC, with an affine field per point that keeps angular momentum (Jiang et al. 2015)
+    apic, ///< as PIC, with an affine field per point that keeps angular momentum (@source{jiang2015})
     tpic, ///< as PIC, with the velocity gradient per point (Taylor expansion)
-    aflip ///< as FLIP, and what travels to the nodes has the nodes' last velocity gradient, as in TPIC
+    aflip ///< as FLIP, and the nodes get the points' velocity gradient, too, as in TPIC (@source{fei2021})
   };
 
   /// Whether points keep a velocity of their own, which they forget at a rate.
@@ -40,8 +40,8 @@ namespace scree
   enum class FBar
   {
     none,
-    standard, ///< the cell's mean volume change drives the material (Coombs et al. 2018)
-    modified  ///< and stored elastic volume strain and volume follow the cell's mean (after Xie et al. 2024)
+    standard, ///< the cell's mean volume change drives the material (@source{coombs2018})
+    modified  ///< and stored elastic volume strain and volume follow the cell's mean (after @source{xie2024})
   };
 
   /// Subsection Transfer.

@@ -35,8 +35,8 @@ namespace scree
     std::vector<UsualRange> usual_ranges() const;
   };
 
-  /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (Hencky 1928; de Souza Neto,
-  /// Peric & Owen 2008, 13.3). Stored energy K/2 tr(eps)^2 + G |dev(eps)|^2.
+  /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (@source{hencky1928};
+  /// @source{desouzaneto2008}, 13.3). Stored energy K/2 tr(eps)^2 + G |dev(eps)|^2.
   class LinearElastic
   {
   public:

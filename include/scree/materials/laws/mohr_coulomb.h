@@ -34,7 +34,7 @@ namespace scree
   };
 
 
-  /// Perfectly plastic Mohr-Coulomb with tension cut-off on Hencky elasticity (de Souza Neto, Peric & Owen 2008, 8.2).
+  /// Perfectly plastic Mohr-Coulomb with tension cut-off on Hencky elasticity (@source{desouzaneto2008}, 8.2).
   ///
   /// With sorted principal Kirchhoff stresses, f_ij = (1 + sin phi) tau_i - (1 - sin phi) tau_j - 2 c cos phi <= 0,
   /// flow along (1 + sin psi) n_i - (1 - sin psi) n_j, and tau_i <= cut-off with associated flow. The return finds

@@ -12,7 +12,7 @@
 
 namespace scree
 {
-  /// Entries of subsection "Nor-Sand". Defaults: Xie, Navas & Lopez-Querol 2024, Table 1, dense.
+  /// Entries of subsection "Nor-Sand". Defaults: @source{xie2024}, Table 1, dense.
   struct NorSandParameters
   {
     double shear_modulus                  = 4e6;    ///< G, Pa
@@ -47,7 +47,7 @@ namespace scree
   };
 
 
-  /// Nor-Sand, critical state plasticity of sand in finite strain (Borja & Andrade 2006; Andrade & Borja 2006).
+  /// Nor-Sand, critical state plasticity of sand in finite strain (@source{borja2006}; @source{andrade2006}).
   ///
   /// With P the mean compressive Kirchhoff stress, q = sqrt(3/2)|dev tau|, Pi the image pressure, r = ln(P/Pi):
   /// elastic P = P_0 exp(-eps_v/kappa), q = 3 G eps_s, energy kappa P + 3/2 G eps_s^2; P_0 = 1 kPa only fixes the zero
