@@ -12,9 +12,9 @@ elif [ $# -gt 0 ]; then
   scope=named
 fi
 
-# For the tests alone: the layout of sources and scripts, and rasters of other formats.
+# For the tests alone: the layout of sources and scripts, docstrings, and rasters of other formats.
 # shellcheck disable=SC2034  # read in setup.sh
-test_packages="clang-format shellcheck pyflakes3 libgdal-dev"
+test_packages="clang-format shellcheck pyflakes3 doxygen libgdal-dev"
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/../doc/setup.sh"
 
