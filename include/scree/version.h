@@ -4,6 +4,7 @@
 
 #include <string>
 
+/// All of Scree: a material point code for landslides in soil and water.
 namespace scree
 {
   /// What this program is and what it was built with: lines such as

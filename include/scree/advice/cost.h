@@ -28,8 +28,9 @@ namespace scree
   /// What limits the steps for a while.
   struct Passage
   {
-    double duration = 0;        ///< s
-    double wave = 0, speed = 0; ///< largest of a pressure wave and of a point, m/s
+    double duration = 0; ///< s
+    double wave     = 0, ///< largest speed of a pressure wave, m/s
+        speed       = 0; ///< largest speed of a point, m/s
   };
 
   /// What was seen of a run.
@@ -38,9 +39,11 @@ namespace scree
     std::vector<Passage> passages; ///< from the start on
     double n_first  = 0;           ///< steps whose cost is `first`
     double n_points = 0;           ///< of soil and water
-    StepCost first, later;         ///< steps
-    double setup   = 0;            ///< what the very first step takes beyond `first`: to make room, start libraries
-    double picture = 0, row = 0;   ///< writing one, core-seconds
+    StepCost first,                ///< cost of the first steps
+        later;                     ///< cost of the steps after them
+    double setup          = 0;     ///< what the very first step takes beyond `first`: to make room, start libraries
+    double picture        = 0,     ///< cost of writing a picture, core-seconds
+        row               = 0;     ///< cost of writing a row of statistics, core-seconds
     double memory         = 0;     ///< of all ranks, bytes
     double program_memory = 1.2e8; ///< of `memory`, what does not grow with points and cells, bytes
 
@@ -51,12 +54,14 @@ namespace scree
   /// What a whole run will take.
   struct RunCost
   {
-    double first_step = 0, mean_step = 0; ///< s
-    double n_steps        = 0;            ///<
-    double step_seconds   = 0;            ///< core-seconds
-    double output_seconds = 0;            ///< core-seconds
-    double memory         = 0;            ///< bytes
+    double first_step     = 0, ///< length of the first time step, s
+        mean_step         = 0; ///< mean length over the run, s
+    double n_steps        = 0; ///< number of time steps
+    double step_seconds   = 0; ///< core-seconds
+    double output_seconds = 0; ///< core-seconds
+    double memory         = 0; ///< bytes
 
+    /// Cost of steps and output, core-seconds.
     double seconds() const
     {
       return step_seconds + output_seconds;
@@ -66,8 +71,8 @@ namespace scree
   /// When a run steps and writes.
   struct Schedule
   {
-    TimeStepParameters time_step;
-    OutputParameters output;
+    TimeStepParameters time_step; ///< entries of subsection Time step
+    OutputParameters output;      ///< entries of subsection Output
   };
 
   /// The cost of a run of `scene` that goes as was seen: the steps by the speeds that limit them, their cost by the
@@ -81,6 +86,8 @@ namespace scree
 
   /// The same scene and run with other cells: points and cells in proportion, and the cost with them.
   SceneNumbers with_cell_size(SceneNumbers scene, const double cell_size);
+
+  /// The same of an observation: its points and costs with other cells.
   Observation with_cell_size(Observation seen, const SceneNumbers &scene, const double cell_size);
 
   /// The run of the scene's soil without its water.

@@ -25,6 +25,7 @@ namespace scree
     double cells_over_height = 0; ///< H/h, -
   };
 
+  /// Computes the groups of a scene of soil and water.
   Groups groups_of(const SceneNumbers &scene);
 
   /// Conductivity, m/s, at which drainage time over motion time is `drainage`.

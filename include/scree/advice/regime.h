@@ -35,8 +35,10 @@ namespace scree
     constexpr double consolidates_above = 4. / undrained_above;
   } // namespace thresholds
 
+  /// Finds the simplest model that is within 5 % in this scene, by the thresholds.
   Regime regime_of(const SceneNumbers &scene);
 
+  /// Name of a regime as the report writes it.
   std::string name_of(const Regime regime);
 
   /// The numbers behind regime_of(), as a sentence.
@@ -45,9 +47,11 @@ namespace scree
   /// Whose points should carry the water, and why.
   struct PointSetChoice
   {
-    PointSets sets;
-    std::string reason;
+    PointSets sets;     ///< recommended formulation
+    std::string reason; ///< why, as a sentence
   };
+
+  /// Recommends a formulation for a scene and its regime.
   PointSetChoice point_sets_for(const Regime regime, const SceneNumbers &scene);
 } // namespace scree
 

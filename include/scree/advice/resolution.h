@@ -15,17 +15,20 @@ namespace scree
   /// the smallest error that was measured.
   struct ErrorLaw
   {
-    std::string measure; ///< what the error is of
-    double factor;
-    double order;
+    std::string measure;  ///< what the error is of
+    double factor;        ///< relative error at h = H
+    double order;         ///< order of convergence
     std::string gap = ""; ///< why the law does not decide this scene's error; empty: it does
 
-    static constexpr double smallest = 2e-4;
+    static constexpr double smallest = 2e-4; ///< smallest relative error that was measured
 
+    /// Relative error at H/h cells over the height.
     double error(const double cells_over_height) const
     {
       return std::max(smallest, factor * std::pow(cells_over_height, -order));
     }
+
+    /// H/h for a relative error: the inverse of error().
     double cells_over_height(const double error) const
     {
       return std::pow(factor / error, 1. / order);

@@ -9,9 +9,10 @@ namespace scree
   /// What a pressure wave in dry soil runs through.
   struct WaveMedium
   {
-    double bulk_modulus = 0, shear_modulus = 0; ///< Pa
-    double density  = 0;                        ///< dry, kg/m^3
-    double pressure = 0;                        ///< mean effective stress, Pa
+    double bulk_modulus = 0, ///< K, Pa
+        shear_modulus   = 0; ///< G, Pa
+    double density      = 0; ///< dry, kg/m^3
+    double pressure     = 0; ///< mean effective stress, Pa
 
     /// m/s; 0 without soil.
     double speed() const
@@ -24,7 +25,7 @@ namespace scree
   /// thickness.
   struct SceneNumbers
   {
-    unsigned int dim = 2;
+    unsigned int dim = 2;    ///< space dimension, 2 or 3
     double gravity   = 9.81; ///< m/s^2
     double end_time  = 1;    ///< s
 
@@ -33,15 +34,15 @@ namespace scree
 
     bool has_changing_forces = false; ///< a load that depends on time, or a body force
 
-    bool has_soil   = false;
+    bool has_soil   = false;  ///< whether any body can move
     bool is_elastic = false;  ///< all bodies are linear elastic
     WaveMedium mean;          ///< means over the volume of the soil
     WaveMedium fastest;       ///< the point with the fastest pressure wave
     double grain_density = 0; ///< kg/m^3, mean
     double porosity      = 0; ///< mean
 
-    bool has_water        = false;
-    bool is_single_point  = false;
+    bool has_water        = false; ///< whether there is a subsection Water
+    bool is_single_point  = false; ///< whether the soil's points carry the water
     bool water_fills_soil = false; ///< in all the soil's pores and nowhere else
     double water_density  = 1000;  ///< kg/m^3
     double conductivity   = 0;     ///< m/s, at Earth's gravity
@@ -49,8 +50,8 @@ namespace scree
     double cell_size      = 0; ///< m
     double n_cells        = 0; ///< of the box
     double n_occupied     = 0; ///< cells with points
-    double n_soil_points  = 0;
-    double n_water_points = 0;
+    double n_soil_points  = 0; ///< points of all bodies
+    double n_water_points = 0; ///< 0 if the soil's points carry the water
 
     /// Whether the scene collapses or runs out.
     bool falls() const
@@ -71,6 +72,7 @@ namespace scree
       return has_soil ? mean.density + (has_water ? porosity * water_density : 0.) : water_density;
     }
 
+    /// Points of soil and water.
     double n_points() const
     {
       return n_soil_points + n_water_points;

@@ -10,9 +10,9 @@ namespace scree
 
   /// The drag of water on the grains that it flows past, per volume of saturated soil: (R + (1-n) b |q|) q, N/m^3, with
   /// the superficial velocity q = n (v_w - v_s). Darcy: R = n rho_w g/k and b = 0 with a given conductivity k. Ergun
-  /// (1952), who found the gradient 150 mu (1-n)^2/(n^3 d^2) q + 1.75 rho_w (1-n)/(n^3 d) q^2 of the pressure in beds
-  /// of grains of diameter d: R = 150 mu (1-n)^2/(n^2 d^2), b = 1.75 rho_w/(n^2 d), as the drag is n times that
-  /// gradient.
+  /// (@source{ergun1952}), who found the gradient 150 mu (1-n)^2/(n^3 d^2) q + 1.75 rho_w (1-n)/(n^3 d) q^2 of the
+  /// pressure in beds of grains of diameter d: R = 150 mu (1-n)^2/(n^2 d^2), b = 1.75 rho_w/(n^2 d), as the drag is n
+  /// times that gradient.
   class DragLaw
   {
   public:

@@ -17,17 +17,20 @@ namespace scree
   template <int dim>
   struct SoilBody
   {
-    std::string name;
-    double density;       ///< bulk density of the dry soil at J = 1, kg/m^3
-    double grain_density; ///< kg/m^3
-    double spacing = 0;   ///< of its points at the start, m
-    std::unique_ptr<Material<dim>> material;
-    PropertyLayout<dim> layout;
-    PointSet<dim> points;
-    bool is_rigid      = false;  ///< its points keep their place and bear any stress
-    unsigned int group = 0;      ///< bodies of a group stick to each other and share a velocity field
-    std::optional<DragLaw> drag; ///< on water; none in a dry scene
+    std::string name;                        ///< name of its subsection
+    double density;                          ///< bulk density of the dry soil at J = 1, kg/m^3
+    double grain_density;                    ///< kg/m^3
+    double spacing = 0;                      ///< of its points at the start, m
+    std::unique_ptr<Material<dim>> material; ///< the law; holds no state of points
+    PropertyLayout<dim> layout;              ///< offsets of the quantities of a point
+    PointSet<dim> points;                    ///< its points on this rank
+    bool is_rigid      = false;              ///< its points keep their place and bear any stress
+    unsigned int group = 0;                  ///< bodies of a group stick to each other and share a velocity field
+    std::optional<DragLaw> drag;             ///< on water; none in a dry scene
 
+    /// Makes a body without points.
+    /// @param density bulk density of the dry soil at J = 1, kg/m^3
+    /// @param grain_density kg/m^3
     SoilBody(const std::string &name,
              const double density,
              const double grain_density,

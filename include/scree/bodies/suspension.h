@@ -12,16 +12,16 @@ namespace scree
   enum class SuspensionLaw
   {
     none,             ///< the grains add nothing
-    einstein,         ///< mu (1 + 5/2 phi): Einstein 1911, dilute
-    krieger_dougherty ///< mu (1 - phi/phi_m)^(-5/2 phi_m): Krieger & Dougherty 1959, eq. 13
+    einstein,         ///< mu (1 + 5/2 phi): @source{einstein1911}, dilute
+    krieger_dougherty ///< mu (1 - phi/phi_m)^(-5/2 phi_m): @source{krieger1959}, eq. 13
   };
 
   /// Subsection Suspension of subsection Water.
   struct SuspensionParameters
   {
-    std::string law         = "none";
-    double densest_packing  = 0.64; ///< phi_m
-    double contact_pressure = 100;  ///< Pa
+    std::string law         = "none"; ///< none | Einstein | Krieger-Dougherty
+    double densest_packing  = 0.64;   ///< phi_m
+    double contact_pressure = 100;    ///< Pa
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -30,7 +30,7 @@ namespace scree
     /// @param viscosity of the water, Pa s
     void check(const double viscosity, const unsigned int n_bodies) const;
 
-    SuspensionLaw law_kind() const;
+    SuspensionLaw law_kind() const; ///< entry `Law` as an enum
   };
 
   /// Viscosity of water with grains that bear no stress on each other.

@@ -28,15 +28,15 @@ namespace scree
   /// How the hydraulic conductivity follows the porosity.
   enum class ConductivityLaw
   {
-    constant,
-    kozeny_carman
+    constant,     ///< k, m/s, of the entry at any porosity
+    kozeny_carman ///< in proportion to n^3/(1-n)^2 (@source{carman1937})
   };
 
   /// Subsection Water: where it is, and how it flows through the soil.
   struct WaterParameters
   {
-    std::string region            = "same"; ///< as the soil, or an expression
-    std::string point_sets        = "double";
+    std::string region            = "same";        ///< as the soil, or an expression
+    std::string point_sets        = "double";      ///< double | single, see PointSets
     unsigned int points_per_cell  = 4;             ///< along each axis
     double jitter                 = 0;             ///< over the points' spacing
     double density                = 1000;          ///< kg/m^3
@@ -51,7 +51,7 @@ namespace scree
     std::string initial_pressure  = "hydrostatic"; ///< hydrostatic | none
     std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
     bool is_fed                   = false;         ///< as SeedingParameters::is_fed
-    SuspensionParameters suspension;
+    SuspensionParameters suspension;               ///< viscosity of water with grains
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -60,8 +60,13 @@ namespace scree
     /// @param gravity m/s^2, one number an axis
     void check(const std::vector<double> &gravity, const unsigned int n_bodies) const;
 
+    /// Entry `Point sets` as an enum.
     PointSets point_sets_kind() const;
+
+    /// Entry `Initial pressure` as an enum.
     InitialPressure initial_pressure_kind() const;
+
+    /// Entry `Conductivity law` as an enum.
     ConductivityLaw conductivity_law_kind() const;
 
     /// Throws EntryError unless a grain diameter alone, of subsection Water or of a body, says what the drag is.

@@ -70,13 +70,16 @@ namespace scree
     {
     }
 
-    const double density; ///< kg/m^3
-    const WaterLayout<dim> layout;
+    const double density;          ///< kg/m^3
+    const WaterLayout<dim> layout; ///< offsets of the water's quantities
 
+    /// Points that carry the water: its own, or those of carrier().
     PointSet<dim> &points()
     {
       return *set;
     }
+
+    /// Read-only access.
     const PointSet<dim> &points() const
     {
       return *set;

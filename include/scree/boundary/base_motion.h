@@ -17,7 +17,10 @@ namespace scree
     std::string record; ///< file of time, s, and acceleration of the box an axis, m/s^2 times `scale`; empty: at rest
     double scale = 1;   ///< m/s^2 of a unit of the record
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Reads the record. Throws EntryError if that fails, or at a scale without a record.
     void check(const unsigned int dim) const;
   };
 

@@ -19,7 +19,10 @@ namespace scree
   {
     std::string expression; ///< m/s^2, of x, y (z) and t, one an axis; empty: none
 
+    /// Declares the entry.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError unless the expression reads: x, y (z) and t, one component an axis.
     void check(const unsigned int dim) const;
   };
 
@@ -29,11 +32,14 @@ namespace scree
   class BodyForces
   {
   public:
+    /// Reads expression and record; throws EntryError if that fails.
+    /// @param gravity m/s^2, one number an axis
     BodyForces(const BackgroundGrid<dim> &grid,
                const std::vector<double> &gravity,
                const BodyForceParameters &body_force,
                const BaseMotionParameters &base_motion);
 
+    /// Gravity without body force and base motion, m/s^2.
     const dealii::Tensor<1, dim> &gravity() const
     {
       return own_gravity;
@@ -67,6 +73,7 @@ namespace scree
       damping_rate = rate;
     }
 
+    /// Whether the damping of the settling is on.
     bool is_damped() const
     {
       return damping_rate > 0.;

@@ -23,10 +23,11 @@ namespace scree
     open       ///< nothing; points may leave
   };
 
+  /// What one face of the box does to the soil.
   struct Wall
   {
-    WallType type               = WallType::open;
-    double friction_coefficient = 0; ///< tan of the friction angle
+    WallType type               = WallType::open; ///< constraint of the soil
+    double friction_coefficient = 0;              ///< tan of the friction angle
   };
 
   /// Subsection Boundaries: one entry a face of the box.
@@ -34,6 +35,7 @@ namespace scree
   {
     BoundaryParameters();
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
@@ -48,6 +50,7 @@ namespace scree
   class BoundaryConditions
   {
   public:
+    /// Reads the entries; throws EntryError if one does not read as a wall.
     BoundaryConditions(const BackgroundGrid<dim> &grid, const BoundaryParameters &parameters);
 
     /// What the walls do to the soil at a node that lies on the given faces of the box, see

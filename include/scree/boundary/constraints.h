@@ -34,6 +34,8 @@ namespace scree
 
     /// Soil and water do not move at the nodes in this region until the gate is opened.
     void close_gate(std::unique_ptr<Region<dim>> region);
+
+    /// Removes the constraints of close_gate().
     void open_gate();
 
     /// What an inflow moves, in place of what walls do to it.
@@ -51,6 +53,7 @@ namespace scree
     /// Velocity of an inflow, m/s.
     void set_inflow_velocity(const unsigned int inflow, const dealii::Tensor<1, dim> &velocity);
 
+    /// Stands for no inflow, and for no constraint.
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
     /// Whether walls hold a node, and nothing else does: no inflow, rigid body or gate.
@@ -61,6 +64,8 @@ namespace scree
 
     /// These walls (bit f: face f) do not act until hold_all() on a node that has walls alone.
     void release(const unsigned int node, const std::uint8_t faces);
+
+    /// Makes all walls act again after release().
     void hold_all();
 
     /// These walls (bit f: face f) do not act on these nodes, where walls alone do, until the next call.
@@ -76,6 +81,7 @@ namespace scree
       return faces_closed_to_soil() | (water_walls ? water_walls->closed_faces() : 0);
     }
 
+    /// Whether there are walls that act on water.
     bool has_water() const
     {
       return water_walls != nullptr;

@@ -12,7 +12,12 @@ namespace scree
   /// One entry a face of the box, in a subsection of walls.
   struct FaceEntries
   {
-    std::string left, right, front, back, bottom, top;
+    std::string left, ///< face at the lower end of x
+        right,        ///< upper end of x
+        front,        ///< lower end of y, 3D
+        back,         ///< upper end of y, 3D
+        bottom,       ///< lower end of y in 2D, of z in 3D
+        top;          ///< upper end of y in 2D, of z in 3D
 
     /// Names of the faces in deal.II's numbering: lower and upper face of each axis.
     static std::vector<std::string> names(const unsigned int dim);

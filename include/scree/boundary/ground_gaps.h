@@ -27,9 +27,11 @@ namespace scree
     /// Forgets the gaps, before a new step.
     void clear();
 
-    /// Heeds points, and cells that are full of water and wet soil, which have no gap.
+    /// Heeds points.
     /// @param spacing of the points at the start, m
     void add(const PointSet<dim> &points, const double spacing);
+
+    /// Heeds cells that are full of water and wet soil, which have no gap.
     void add(const Mixture<dim> &mixture);
 
     /// Velocity, m/s, with which material at a facet may approach it in a step of `time_step` s: what closes the gap

@@ -52,12 +52,14 @@ namespace scree
         basis[n_held++] = rest / size;
     }
 
+    /// Holds the velocity along the directions of `other`, too.
     void hold(const ConstrainedDirections &other)
     {
       for (unsigned int i = 0; i < other.n_held; ++i)
         hold(other.basis[i]);
     }
 
+    /// Holds all components of the velocity.
     void hold_all()
     {
       for (unsigned int a = 0; a < dim; ++a)
@@ -68,6 +70,7 @@ namespace scree
       n_held = dim;
     }
 
+    /// Whether any direction is held.
     bool any() const
     {
       return n_held > 0;
@@ -104,15 +107,16 @@ namespace scree
   template <int dim>
   struct NodeConstraint
   {
+    /// Kind of a constraint.
     enum class Type
     {
       fixed,     ///< no motion along the normal
       unilateral ///< no motion against the normal, and Coulomb friction while the wall pushes
     };
 
-    dealii::Tensor<1, dim> normal; ///< unit, from the wall to the soil
-    Type type                   = Type::fixed;
-    double friction_coefficient = 0; ///< of a unilateral one
+    dealii::Tensor<1, dim> normal;             ///< unit, from the wall to the soil
+    Type type                   = Type::fixed; ///< kind of the constraint
+    double friction_coefficient = 0;           ///< of a unilateral one
   };
 
 
@@ -123,10 +127,13 @@ namespace scree
     std::vector<NodeConstraint<dim>> soil;       ///< in the order in which they act on dry soil
     ConstrainedDirections<dim> soil_constraint;  ///< by the fixed ones
     ConstrainedDirections<dim> water_constraint; ///< free slip holds the normal, no slip all directions
-    BearingFaces<dim> soil_faces, water_faces;   ///< which walls these are
+    BearingFaces<dim> soil_faces,                ///< the faces of the box that act on the soil
+        water_faces;                             ///< those that act on the water
     bool is_rigid = false;                       ///< whether rigid soil stands here, which brings no mass to the node
-    dealii::Tensor<1, dim> soil_velocity, water_velocity; ///< of what holds them, m/s: of an inflow, else 0
+    dealii::Tensor<1, dim> soil_velocity,        ///< of what holds the soil, m/s: of an inflow, else 0
+        water_velocity;                          ///< of what holds the water, m/s: of an inflow, else 0
 
+    /// Adds a constraint of the soil, after those before.
     void add(const NodeConstraint<dim> &constraint)
     {
       soil.push_back(constraint);
@@ -134,6 +141,7 @@ namespace scree
         soil_constraint.hold(constraint.normal);
     }
 
+    /// Whether anything holds soil or water here.
     bool any() const
     {
       return !soil.empty() || water_constraint.any();

@@ -66,11 +66,11 @@ namespace scree
       return moved;
     }
 
-    const std::string name;
+    const std::string name;            ///< name of its subsection without the prefix
     const double friction_coefficient; ///< infinite: soil that presses does not slip
     const bool no_slip;                ///< whether free water does not slip
-    const bool is_moving;
-    const dealii::Point<dim> pivot; ///< of the moment, m; it stays where it is
+    const bool is_moving;              ///< whether it has an entry `Velocity`
+    const dealii::Point<dim> pivot;    ///< of the moment, m; it stays where it is
 
     /// What a run that goes on needs; reinit() moves the surface then.
     template <class Archive>
@@ -92,7 +92,7 @@ namespace scree
     dealii::Tensor<1, dim> mean_velocity, moved;
 
   public:
-    DiscreteLevelSet<dim> surface;
+    DiscreteLevelSet<dim> surface; ///< its surface where it is now, sampled on the mesh
   };
 } // namespace scree
 

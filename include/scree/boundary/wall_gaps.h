@@ -32,6 +32,7 @@ namespace scree
     /// Fields whose mass moves with one velocity: that of one group of bodies, or of soil and water together.
     using Fields = std::vector<const NodalField<dim> *>;
 
+    /// Keeps references to both.
     WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
 
     /// These move with one velocity and meet the walls, too. They must live on.
@@ -52,9 +53,11 @@ namespace scree
     /// All walls act on all nodes, and no gap is known, before a new step.
     void clear();
 
-    /// Heeds points, and cells that are full of water and wet soil, which have no gap.
+    /// Takes the gaps of points.
     /// @param spacing of the points at the start, m
     void add(const PointSet<dim> &points, const double spacing);
+
+    /// Cells that are full of water and wet soil have no gap.
     void add(const Mixture<dim> &mixture);
 
     /// Frees nodes of walls for the step, s. The fields hold mass, momentum and force of owned nodes; of several

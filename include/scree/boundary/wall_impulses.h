@@ -14,9 +14,9 @@ namespace scree
   template <int dim>
   struct BearingFaces
   {
-    static constexpr unsigned int none = 2 * dim;
+    static constexpr unsigned int none = 2 * dim; ///< stands for no face
 
-    std::array<unsigned int, dim> of_axis;
+    std::array<unsigned int, dim> of_axis; ///< by axis: the face that bears it, in deal.II's numbering
 
     BearingFaces()
     {
@@ -46,8 +46,9 @@ namespace scree
   template <int dim>
   struct WallImpulses
   {
-    std::array<dealii::Tensor<1, dim>, 2 * dim> of_face;
+    std::array<dealii::Tensor<1, dim>, 2 * dim> of_face; ///< by face, in deal.II's numbering
 
+    /// Adds an impulse on soil or water at a node, N s, each component to the face that bears it.
     void add(const BearingFaces<dim> &faces, const dealii::Tensor<1, dim> &impulse)
     {
       for (unsigned int a = 0; a < dim; ++a)
@@ -55,6 +56,7 @@ namespace scree
           of_face[faces.of_axis[a]][a] += impulse[a];
     }
 
+    /// Adds the impulses of each face.
     WallImpulses &operator+=(const WallImpulses &other)
     {
       for (unsigned int f = 0; f < 2 * dim; ++f)
@@ -62,6 +64,7 @@ namespace scree
       return *this;
     }
 
+    /// Saves or loads the impulses (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -22,10 +22,11 @@ namespace scree
     drained      ///< its pressure is prescribed; points may leave
   };
 
+  /// What one face of the box does to the water.
   struct WaterWall
   {
-    WaterWallType type = WaterWallType::impermeable;
-    double pressure    = 0; ///< Pa; drained walls only
+    WaterWallType type = WaterWallType::impermeable; ///< constraint of the water
+    double pressure    = 0;                          ///< Pa; drained walls only
   };
 
   /// Subsection Water of subsection Boundaries: one entry a face of the box.
@@ -33,6 +34,7 @@ namespace scree
   {
     WaterBoundaryParameters();
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
@@ -47,6 +49,7 @@ namespace scree
   class WaterBoundaryConditions
   {
   public:
+    /// Reads the entries; throws EntryError if one does not read as a wall.
     WaterBoundaryConditions(const BackgroundGrid<dim> &grid, const WaterBoundaryParameters &parameters);
 
     /// The directions along which the water of a node on these faces may not move.
@@ -61,6 +64,7 @@ namespace scree
     /// Pressure of the drained ones among the faces, Pa: their mean, or 0 if there is none.
     double pressure(const std::uint8_t faces) const;
 
+    /// Whether the pressure is prescribed on the face.
     bool is_drained(const unsigned int face) const
     {
       return wall_list[face].type == WaterWallType::drained;

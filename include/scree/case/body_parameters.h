@@ -13,12 +13,13 @@ namespace scree
   /// body.
   struct BodyParameters
   {
-    std::string name;
-    SeedingParameters seeding;
-    SeepageParameters seepage;
-    MaterialParameters material;
-    InitialStateParameters initial_state;
+    std::string name;                     ///< name of its subsection
+    SeedingParameters seeding;            ///< where it is, and its points
+    SeepageParameters seepage;            ///< hydraulic conductivity or grain diameter
+    MaterialParameters material;          ///< law and its entries
+    InitialStateParameters initial_state; ///< stress before the first step
 
+    /// Declares the body's subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations of entries.

@@ -10,8 +10,10 @@ namespace scree
   /// A box around the ground of a raster.
   struct BoxOfRaster
   {
-    std::vector<double> lower, upper; ///< corners, m; not yet of whole cells
-    double lowest, highest;           ///< of the heights, m
+    std::vector<double> lower, ///< corner, m; not yet of whole cells
+        upper;                 ///< corner, m; not yet of whole cells
+    double lowest,             ///< height of the raster, m
+        highest;               ///< height of the raster, m
   };
 
   /// The box that a bed's raster asks for: its outline, two cells below the lowest height, and four cells above the

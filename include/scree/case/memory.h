@@ -9,10 +9,12 @@ namespace scree
   /// What a case will take of memory, from its entries alone.
   struct MemoryEstimate
   {
-    double n_cells       = 0; ///< fine ones, at the start
-    double n_soil_points = 0, n_water_points = 0;
-    double bytes_of_cells = 0, bytes_of_points = 0; ///< of all ranks
-    double bytes_of_rank = 0;                       ///< of each rank beside its share of the cells
+    double n_cells        = 0; ///< fine ones, at the start
+    double n_soil_points  = 0, ///< at the start, of all bodies
+        n_water_points    = 0; ///< at the start; 0 if the soil's points carry the water
+    double bytes_of_cells = 0, ///< of all ranks
+        bytes_of_points   = 0; ///< of all ranks
+    double bytes_of_rank  = 0; ///< of each rank beside its share of the cells
 
     /// Of so many ranks that share the case.
     double bytes(const unsigned int n_ranks) const

@@ -33,35 +33,35 @@ namespace scree
     /// The defaults, as needed to print a template of all entries.
     Parameters();
 
-    unsigned int dimension = 2;
-    double end_time        = 1;
-    std::string output_directory{ "results/scree" };
-    std::vector<double> gravity{ 0., -9.81 };
-    std::vector<double> local_origin{ 0., 0. }; ///< on the map, m
+    unsigned int dimension = 2;                      ///< 2 (plane strain) or 3
+    double end_time        = 1;                      ///< s
+    std::string output_directory{ "results/scree" }; ///< the run folder
+    std::vector<double> gravity{ 0., -9.81 };        ///< m/s^2, one number an axis
+    std::vector<double> local_origin{ 0., 0. };      ///< on the map, m
 
-    GridParameters grid;
-    TimeStepParameters time_step;
-    TransferParameters transfer;
-    StabilisationParameters stabilisation;
-    BodyForceParameters body_force;
-    BaseMotionParameters base_motion;
-    std::vector<BodyParameters> bodies;
-    BoundaryParameters boundaries;
-    BedParameters bed;
+    GridParameters grid;                       ///< subsection Mesh
+    TimeStepParameters time_step;              ///< subsection Time step
+    TransferParameters transfer;               ///< subsection Transfer
+    StabilisationParameters stabilisation;     ///< subsection Stabilisation
+    BodyForceParameters body_force;            ///< entry Body force
+    BaseMotionParameters base_motion;          ///< subsection Base motion
+    std::vector<BodyParameters> bodies;        ///< one subsection each
+    BoundaryParameters boundaries;             ///< subsection Boundaries, for the soil
+    BedParameters bed;                         ///< subsection Bed
     std::vector<ObstacleParameters> obstacles; ///< also those that are not set
-    std::vector<InflowParameters> inflows;
-    std::vector<ContactParameters> contacts; ///< also those that are not set
-    SurfaceLoadParameters surface_load;
-    SettlingParameters settling;
-    OutputParameters output;
-    ProbeParameters probes;
+    std::vector<InflowParameters> inflows;     ///< subsections Inflow NAME
+    std::vector<ContactParameters> contacts;   ///< also those that are not set
+    SurfaceLoadParameters surface_load;        ///< subsection Surface load
+    SettlingParameters settling;               ///< subsection Settling
+    OutputParameters output;                   ///< subsection Output
+    ProbeParameters probes;                    ///< subsection Probes
 
     std::string text_of_box; ///< for the log, of a box that follows from the raster; else empty
 
-    bool has_water = false; ///< whether there is a subsection Water; without it, nothing reads the next three
-    WaterParameters water;
-    PressureParameters pressure;
-    WaterBoundaryParameters water_boundaries;
+    bool has_water = false;      ///< whether there is a subsection Water; without it, nothing reads the next three
+    WaterParameters water;       ///< subsection Water
+    PressureParameters pressure; ///< subsection Pressure of Water
+    WaterBoundaryParameters water_boundaries; ///< subsection Water of Boundaries
 
     /// Where the bodies are, and how porous and heavy.
     std::vector<SoilRegion> soil_regions() const;

@@ -12,8 +12,8 @@ namespace scree
   template <int dim>
   struct MovingMass
   {
-    double inverse_mass; ///< 1/kg; 0: nothing moves it
-    dealii::Tensor<1, dim> velocity;
+    double inverse_mass;             ///< 1/kg; 0: nothing moves it
+    dealii::Tensor<1, dim> velocity; ///< m/s
   };
 
   /// The impulse, N s, that the second mass gets and the first one gives in contact: none along the normal unless they

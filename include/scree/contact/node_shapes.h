@@ -25,9 +25,11 @@ namespace scree
   template <int dim>
   struct MomentLayout
   {
-    static constexpr unsigned int first_moments = 1, second_moments = first_moments + dim,
-                                  gradient = second_moments + dim * (dim + 1) / 2, friction = gradient + dim,
-                                  n_moments = friction + 1;
+    static constexpr unsigned int first_moments = 1,                   ///< dim numbers, m^3
+        second_moments                          = first_moments + dim, ///< lower triangle, row by row, m^3
+        gradient  = second_moments + dim * (dim + 1) / 2,              ///< dim numbers, m^3 per cell width
+        friction  = gradient + dim,                                    ///< m^3
+        n_moments = friction + 1;                                      ///< numbers in total
   };
 
 
@@ -37,13 +39,15 @@ namespace scree
   class NodeShapes
   {
   public:
-    using Moments = MomentLayout<dim>;
+    using Moments = MomentLayout<dim>; ///< layout of the moments
 
-    static constexpr unsigned int n_nodes   = CellBasis<dim, n>::n_nodes,
-                                  n_batches = (n_nodes + batch_size - 1) / batch_size;
+    static constexpr unsigned int n_nodes = CellBasis<dim, n>::n_nodes,              ///< nodes that act on a cell
+        n_batches                         = (n_nodes + batch_size - 1) / batch_size; ///< batches of these
 
-    OpenKnots open;
+    OpenKnots open; ///< walls that the cell touches
 
+    /// Finds the coefficients of the polynomials.
+    /// @param open walls that the cell touches
     explicit NodeShapes(const OpenKnots open)
         : open(open)
     {

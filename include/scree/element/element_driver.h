@@ -19,9 +19,9 @@ namespace scree
     {
       double strain       = 0; ///< Prescribed: vertical logarithmic strain, compression positive, or shear strain
       double volume_ratio = 1; ///< J
-      std::array<double, 6> left_cauchy_green;
-      std::array<double, 6> stress;
-      std::vector<double> internal_variables;
+      std::array<double, 6> left_cauchy_green; ///< elastic b_e, six components
+      std::array<double, 6> stress;            ///< Cauchy stress, six components, Pa, tension positive
+      std::vector<double> internal_variables;  ///< in the order of Material::internal_quantities()
 
       double mean_effective_stress() const; ///< p', Pa
       double deviatoric_stress() const;     ///< q, Pa
@@ -29,6 +29,7 @@ namespace scree
       double mobilised_ratio() const;       ///< Shear over vertical stress; 0 without stress
     };
 
+    /// Makes the material; run() does the rest.
     explicit ElementDriver(const ElementParameters &parameters);
 
     /// Go along the path. Throws dealii::ExcMessage if the material cannot follow.

@@ -20,13 +20,13 @@ namespace scree
       simple_shear
     };
 
-    std::string path_name        = "drained triaxial";
-    double confining_pressure    = 1e5;
-    double K0                    = 1;
-    double final_strain          = 0.5;
-    unsigned int n_steps         = 2000;
-    std::string output_directory = "results/element";
-    MaterialParameters material;
+    std::string path_name        = "drained triaxial"; ///< entry Path
+    double confining_pressure    = 1e5;                ///< vertical compressive stress at the start, Pa
+    double K0                    = 1;                  ///< lateral over vertical stress at the start
+    double final_strain          = 0.5;                ///< prescribed, logarithmic, compression positive, or shear
+    unsigned int n_steps         = 2000;               ///< equal increments of the strain
+    std::string output_directory = "results/element";  ///< where table and entries are written
+    MaterialParameters material;                       ///< law and its entries
 
     /// Declare all entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -34,6 +34,7 @@ namespace scree
     /// Throws EntryError if a combination is impossible.
     void check() const;
 
+    /// Entry `Path` as an enum.
     Path path() const;
   };
 } // namespace scree

@@ -26,14 +26,18 @@ namespace scree
   /// Subsection Bed: rigid ground that need not follow the mesh. Obstacles have its entries, too.
   struct BedParameters
   {
-    std::string subsection = "Bed";
+    std::string subsection = "Bed"; ///< Bed, or Obstacle NAME
 
-    std::string type      = "none";
-    std::string for_water = "impermeable";
-    double friction_angle = 0; ///< degrees
-    std::string expression, profile, raster, closed_surface;
-    std::string friction_angles; ///< file; of the bed only
+    std::string type      = "none";        ///< none | fixed | free slip | friction
+    std::string for_water = "impermeable"; ///< impermeable | no slip
+    double friction_angle = 0;             ///< degrees
+    std::string expression,                ///< of x, y (z), m: positive in the open, 0 on the surface
+        profile,                           ///< file of the ground in 2D: a line through points
+        raster,                            ///< file of heights, m; 3D
+        closed_surface;                    ///< file (STL) of a solid; 3D
+    std::string friction_angles;           ///< file; of the bed only
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Where the map has the origin of the case's coordinates, m; set once the case is read.
@@ -45,6 +49,7 @@ namespace scree
     /// Throws EntryError at impossible combinations.
     void check(const unsigned int dim) const;
 
+    /// Entry `Type` as an enum.
     BedType type_kind() const;
 
     /// Whether free water does not slip along it.
@@ -53,6 +58,7 @@ namespace scree
       return for_water == "no slip";
     }
 
+    /// Whether there is such a surface.
     bool is_set() const
     {
       return type_kind() != BedType::none;

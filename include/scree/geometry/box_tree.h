@@ -12,7 +12,8 @@ namespace scree
   /// A box along the axes, m.
   struct Box
   {
-    dealii::Point<3> lower, upper;
+    dealii::Point<3> lower, ///< corner, m
+        upper;              ///< corner, m
 
     /// Square of the distance of a place, m^2; 0 inside.
     double distance_square(const dealii::Point<3> &x) const
@@ -26,6 +27,7 @@ namespace scree
       return sum;
     }
 
+    /// Whether two boxes share a place; their faces belong to them.
     bool touches(const Box &other) const
     {
       for (unsigned int a = 0; a < 3; ++a)
@@ -45,6 +47,9 @@ namespace scree
   {
   public:
     BoxTree() = default;
+
+    /// Builds the tree.
+    /// @param triangles at least one; visits get their numbers in this list
     explicit BoxTree(const std::vector<Triangle> &triangles);
 
     /// Around all triangles.

@@ -13,7 +13,7 @@ namespace scree
   /// The surface on which an expression of the coordinates is 0; the open is where it is positive.
   ///
   /// It need not be a distance: the foot y of a place x on the surface is found from f(y) = 0 and x - y along grad f(y)
-  /// (Chopp 2001). Where that fails, at an edge, the distance is f/|grad f| at x.
+  /// (@source{chopp2001}). Where that fails, at an edge, the distance is f/|grad f| at x.
   template <int dim>
   class ExpressionSurface : public LevelSet<dim>
   {

@@ -12,9 +12,13 @@ namespace scree
   class HeightSurface : public LevelSet<3>
   {
   public:
+    /// @param raster heights, m, at least 2 x 2
     explicit HeightSurface(Raster raster);
 
+    /// See LevelSet::is_open().
     bool is_open(const dealii::Point<3> &x) const override;
+
+    /// See LevelSet::view().
     SurfaceView<3> view(const dealii::Point<3> &x, const double reach) const override;
     std::string remark() const override;
 

@@ -19,6 +19,7 @@ namespace scree
     /// @param subsection prefix and name
     explicit ObstacleParameters(const std::string &subsection);
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.
@@ -27,6 +28,7 @@ namespace scree
     /// Without the prefix.
     std::string name() const;
 
+    /// Whether a velocity is given.
     bool is_moving() const
     {
       return !velocity.empty();

@@ -17,14 +17,15 @@ namespace scree
   struct SimplexCorner
   {
     dealii::Point<dim> place; ///< m
-    double side;
+    double side;              ///< signed distance, or proportional to it
   };
 
   /// A triangle (2D) or tetrahedron.
   template <int dim>
   using Simplex = std::array<SimplexCorner<dim>, dim + 1>;
 
-  /// The simplices that a cube consists of (Kuhn 1960): those of cubes that share a face meet there. All sides are 0.
+  /// The simplices that a cube consists of (@source{kuhn1960}): those of cubes that share a face meet there. All sides
+  /// are 0.
   template <int dim>
   std::vector<Simplex<dim>> simplices_of_cube(const dealii::Point<dim> &lower, const double width);
 

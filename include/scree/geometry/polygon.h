@@ -16,6 +16,7 @@ namespace scree
     /// @param corners one after the other, m; the last is joined to the first
     explicit Polygon(std::vector<dealii::Point<2>> corners);
 
+    /// Whether a place, m, is inside.
     bool contains(const dealii::Point<2> &x) const;
 
     /// The first edge that one beyond its neighbours crosses or touches; the number of edges if there is none.

@@ -16,13 +16,19 @@ namespace scree
     /// @param points at least two, x strictly ascending, m; beyond them the ground goes on level
     explicit Profile(std::vector<dealii::Point<2>> points);
 
+    /// See LevelSet::is_open().
     bool is_open(const dealii::Point<2> &x) const override;
+
+    /// See LevelSet::view().
     SurfaceView<2> view(const dealii::Point<2> &x, const double reach) const override;
 
+    /// Smallest x of the points, m.
     double first_x() const
     {
       return points.front()[0];
     }
+
+    /// Largest x of the points, m.
     double last_x() const
     {
       return points.back()[0];

@@ -13,20 +13,27 @@ namespace scree
   /// Numbers at the nodes of a regular grid in the plane, row by row with ascending y; NaN where there is none.
   struct Raster
   {
-    unsigned int n_columns = 0, n_rows = 0;
-    double x = 0, y = 0; ///< of the first value, m
-    double spacing = 0;  ///< of the values along both axes, m
-    std::vector<double> values;
-    std::string system; ///< of the map's coordinates, as a .prj file tells it; empty if that is not known
+    unsigned int n_columns = 0, ///< values along x
+        n_rows             = 0; ///< values along y
+    double x               = 0, ///< of the first column, m
+        y                  = 0; ///< of the first row, m
+    double spacing         = 0; ///< of the values along both axes, m
+    std::vector<double> values; ///< n_columns x n_rows, row by row
+    std::string system;         ///< of the map's coordinates, as a .prj file tells it; empty if that is not known
 
+    /// Value of a column and a row, counted from 0; NaN where it is missing.
     double operator()(const unsigned int column, const unsigned int row) const
     {
       return values[std::size_t(row) * n_columns + column];
     }
+
+    /// Place of the last column, m.
     double last_x() const
     {
       return x + (n_columns - 1) * spacing;
     }
+
+    /// Place of the last row, m.
     double last_y() const
     {
       return y + (n_rows - 1) * spacing;

@@ -20,7 +20,11 @@ namespace scree
   /// Where a body is, by maps: entries of its subsection.
   struct SourceMapParameters
   {
-    std::string thickness, upper_surface, lower_surface, outline, closed_surface; ///< files
+    std::string thickness, ///< file of thicknesses, m, above bed or lower surface
+        upper_surface,     ///< file of heights, m
+        lower_surface,     ///< file of heights, m, in place of the bed
+        outline,           ///< file of a polygon's corners on the map, m
+        closed_surface;    ///< file (STL) of a solid
 
     /// Declares the entries in the subsection that the handler is in.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -28,6 +32,7 @@ namespace scree
     /// Throws EntryError at impossible combinations; `body` is the name of the subsection.
     void check(const std::string &body, const unsigned int dim, const bool has_water, const bool has_bed) const;
 
+    /// Whether any of the files is given.
     bool is_set() const
     {
       return !thickness.empty() || !upper_surface.empty() || !lower_surface.empty() || !outline.empty() ||
@@ -62,6 +67,7 @@ namespace scree
               const std::vector<double> &lower,
               const std::vector<double> &upper);
 
+    /// Whether a place, m, is inside the body.
     bool contains(const dealii::Point<3> &x) const;
 
     /// Whether maps alone bound the body below and above, so that part_of_line() may be asked.

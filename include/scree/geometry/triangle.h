@@ -18,7 +18,7 @@ namespace scree
     unsigned int part;      ///< 0: the inside; 1 + i: the edge from corner i to the next one; 4 + i: corner i
   };
 
-  /// The place of a triangle that is nearest to `x` (Ericson 2005, Real-time collision detection, section 5.1.5).
+  /// The place of a triangle that is nearest to `x` (@source{ericson2005}, section 5.1.5).
   PlaceOfTriangle nearest_place(const dealii::Point<3> &x, const Triangle &corners);
 
   /// Normal of a triangle, twice as long as its area, m^2; corners are counter-clockwise seen from where it points.

@@ -14,7 +14,7 @@ namespace scree
 {
   /// The surface of a solid, made of triangles; the open is outside. Distances are exact. On which side a place is
   /// tells the normal of the nearest face, edge or corner, the last as the mean of its faces' weighted by their angles
-  /// (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11, 243-253).
+  /// (@source{baerentzen2005}).
   class TriangleSurface : public LevelSet<3>
   {
   public:
@@ -29,7 +29,10 @@ namespace scree
     TriangleSurface(const TriangleSurface &)            = delete;
     TriangleSurface &operator=(const TriangleSurface &) = delete;
 
+    /// See LevelSet::is_open().
     bool is_open(const dealii::Point<3> &x) const override;
+
+    /// See LevelSet::view().
     SurfaceView<3> view(const dealii::Point<3> &x, const double reach) const override;
 
     /// Around all of it, m.

@@ -18,10 +18,11 @@ namespace scree
   class Overburden
   {
   public:
+    /// A region filled with a material.
     struct Layer
     {
-      Region<dim> region;
-      double density; ///< kg/m^3; below 0 for what buoyancy lifts
+      Region<dim> region; ///< place of the material
+      double density;     ///< kg/m^3; below 0 for what buoyancy lifts
     };
 
     /// @param gravity m/s^2; must lie along an axis (throws otherwise)
@@ -34,6 +35,7 @@ namespace scree
     /// Vertical total stress from the weight above `x`, Pa, compression positive.
     double weight_above(const dealii::Point<dim> &x);
 
+    /// Communicator of the mesh.
     MPI_Comm communicator() const
     {
       return grid.triangulation().get_communicator();

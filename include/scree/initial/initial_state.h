@@ -24,11 +24,13 @@ namespace scree
     double k0        = 0.5;    ///< horizontal over vertical stress
     double pressure  = 0;      ///< Pa, isotropic
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations; `body` is the enclosing subsection.
     void check(const std::string &body, const std::vector<double> &gravity) const;
 
+    /// Entry `Type` as an enum.
     InitialStress stress_kind() const;
   };
 
@@ -40,6 +42,7 @@ namespace scree
     double kinetic_energy = 1e-8; ///< ends when kinetic energy falls below this part of the elastic energy
     std::string gate;             ///< nodes where this is true are held until the release
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.

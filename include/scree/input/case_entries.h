@@ -12,8 +12,10 @@ namespace scree
   /// An entry of a case with its value, set or default.
   struct CaseEntry
   {
-    std::string subsection, name, value;
-    std::string checksum; ///< of the contents of the file it names; empty if it names none
+    std::string subsection, ///< path; empty at the top of the file
+        name,               ///< of the entry
+        value;              ///< as text
+    std::string checksum;   ///< of the contents of the file it names; empty if it names none
   };
 
   /// All entries of a case, those of a subsection before those of the subsections in it.
@@ -40,6 +42,7 @@ namespace scree
     /// Whether there are entries of that subsection.
     bool has_subsection(const std::string &path) const;
 
+    /// All entries, those of a subsection before those of its subsections.
     const std::vector<CaseEntry> &all() const
     {
       return entries;

@@ -79,6 +79,7 @@ namespace scree
   /// The text between double quotes.
   std::string quoted(const std::string &text);
 
+  /// The text with lower-case ASCII letters.
   std::string lower_case(std::string text);
 
   /// One blank for tabs, ends of lines and several blanks, as deal.II reads a line.

@@ -11,10 +11,11 @@ namespace scree
   /// A file that an entry of a case names.
   struct NamedFile
   {
-    std::string subsection, entry;
-    std::string path;     ///< from the working folder
-    std::string written;  ///< as the entry has it: from the folder of the file in which it stands
-    std::string checksum; ///< of the contents; empty if it is no regular file
+    std::string subsection, ///< path of the entry's subsection
+        entry;              ///< its name
+    std::string path;       ///< from the working folder
+    std::string written;    ///< as the entry has it: from the folder of the file in which it stands
+    std::string checksum;   ///< of the contents; empty if it is no regular file
   };
 
   /// Declares an entry that names a file to be read; `path` gets its path from the working folder. All such entries are

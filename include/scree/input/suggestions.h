@@ -18,14 +18,19 @@ namespace scree
     /// Of an entry or a subsection; the latter has neither pattern nor documentation.
     struct Name
     {
-      std::string path, name, pattern, documentation;
+      std::string path,  ///< of the subsection in which it stands
+          name,          ///< of entry or subsection
+          pattern,       ///< deal.II's description of allowed values
+          documentation; ///< text of the manual
     };
 
+    /// Collects the names that `prm` declares.
     explicit DeclaredNames(const dealii::ParameterHandler &prm);
 
     /// The entry, or nullptr if there is none.
     const Name *entry(const std::string &path, const std::string &name) const;
 
+    /// Whether `path` has a subsection of this name.
     bool has_subsection(const std::string &path, const std::string &name) const;
 
     /// `Did you mean "Cell size"?`, or where an entry of that name stands, or nothing if no name is close.

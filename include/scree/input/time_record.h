@@ -13,10 +13,11 @@ namespace scree
   class TimeRecord
   {
   public:
+    /// The value at a time.
     struct Row
     {
-      double time; ///< s
-      Value value;
+      double time;    ///< s
+      Value value;    ///< at this time
       Value integral; ///< of the value up to here
     };
 
@@ -29,11 +30,13 @@ namespace scree
       all.push_back({ time, value, integral });
     }
 
+    /// All rows in the order of time.
     const std::vector<Row> &rows() const
     {
       return all;
     }
 
+    /// Value at a time, s.
     Value value(const double time) const
     {
       const auto next = first_after(time);

@@ -21,6 +21,9 @@ namespace scree
   class ByteReader
   {
   public:
+    /// Reads from the start.
+    /// @param file name, for messages
+    /// @param content of the file; must live on
     ByteReader(const std::string &file, const std::string &content)
         : file(file)
         , next(content.data())
@@ -28,6 +31,7 @@ namespace scree
     {
     }
 
+    /// Reads the next `n` numbers. Throws FileError if there are fewer.
     template <typename Value>
     void take(Value *values, const std::size_t n)
     {
@@ -37,6 +41,7 @@ namespace scree
       next += n * sizeof(Value);
     }
 
+    /// Reads the next number. Throws FileError if there is none.
     std::uint64_t take()
     {
       std::uint64_t value;

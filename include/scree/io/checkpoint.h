@@ -19,8 +19,8 @@ namespace scree
   /// A whole checkpoint of a run.
   struct Checkpoint
   {
-    std::string folder;
-    Manifest manifest;
+    std::string folder;  ///< path of its folder
+    Manifest manifest;   ///< its files and their checksums
     CaseEntries entries; ///< of the case that wrote it
   };
 

@@ -11,9 +11,11 @@ namespace scree
   /// One file of a checkpoint, as it was written.
   struct CheckedFile
   {
-    std::string name;
-    std::uint64_t size = 0, checksum = 0; // bytes; CRC-64
+    std::string name;       ///< name in the folder of the checkpoint
+    std::uint64_t size = 0, ///< bytes
+        checksum       = 0; ///< CRC-64
 
+    /// Saves or loads name, size and checksum (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
@@ -31,11 +33,11 @@ namespace scree
   /// `manifest`, under a checksum of its own.
   struct Manifest
   {
-    std::string program;        ///< that wrote it
-    unsigned int dimension = 0; ///< 2 or 3
-    double time            = 0; ///< s
-    std::uint64_t step     = 0;
-    std::vector<CheckedFile> files;
+    std::string program;            ///< that wrote it
+    unsigned int dimension = 0;     ///< 2 or 3
+    double time            = 0;     ///< s
+    std::uint64_t step     = 0;     ///< number of the time step
+    std::vector<CheckedFile> files; ///< files of the checkpoint but the manifest
 
     /// Writes it to the folder. Throws FileError.
     void write(const std::string &folder) const;
@@ -55,6 +57,7 @@ namespace scree
   class CheckpointFolder
   {
   public:
+    /// @param run_folder path; nothing is read or written yet
     explicit CheckpointFolder(const std::string &run_folder);
 
     /// The path of a new, empty folder for the files of a checkpoint. Throws FileError.

@@ -27,9 +27,10 @@ namespace scree
   /// Subsection Maps of subsection Output.
   struct MapParameters
   {
-    bool write             = false;
-    double least_thickness = 0; ///< m, of soil that counts as having arrived
+    bool write             = false; ///< whether maps are written with each picture
+    double least_thickness = 0;     ///< m, of soil that counts as having arrived
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at maps of a scene that has none.
@@ -39,20 +40,22 @@ namespace scree
   /// Subsection Output.
   struct OutputParameters
   {
-    double interval                = 0.1; ///< s, of pictures
-    double statistics_interval     = 0;   ///< s; 0: as pictures
-    double checkpoint_interval     = 0;   ///< s; 0: none
-    double wall_time_limit         = 0;   ///< s of the clock on the wall; 0: none
-    std::string checkpoint_failure = "stop";
-    std::string graphics           = "points and grid";
-    std::string screen             = "progress";
-    MapParameters maps;
+    double interval                = 0.1;               ///< s, of pictures
+    double statistics_interval     = 0;                 ///< s; 0: as pictures
+    double checkpoint_interval     = 0;                 ///< s; 0: none
+    double wall_time_limit         = 0;                 ///< s of the clock on the wall; 0: none
+    std::string checkpoint_failure = "stop";            ///< stop | go on, if a checkpoint cannot be written
+    std::string graphics           = "points and grid"; ///< points and grid | points | none
+    std::string screen             = "progress";        ///< progress | statistics | nothing
+    MapParameters maps;                                 ///< subsection Maps
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at an interval that no run to `end_time`, s, can meet.
     void check(const double end_time) const;
 
+    /// Entry `Screen` as an enum.
     Screen screen_kind() const;
 
     /// Whether a checkpoint that cannot be written ends the run.
@@ -61,7 +64,10 @@ namespace scree
       return checkpoint_failure == "stop";
     }
 
+    /// Entry `Graphics` as an enum.
     Pictures graphics_kind() const;
+
+    /// Time between rows of statistics, s; that of pictures by default.
     double interval_of_statistics() const;
   };
 } // namespace scree

@@ -20,6 +20,7 @@ namespace scree
   template <int dim>
   using OwnCells = std::map<dealii::CellId, typename dealii::Triangulation<dim>::active_cell_iterator>;
 
+  /// Collects the cells of this rank, without ghosts.
   template <int dim>
   OwnCells<dim> own_cells(const dealii::Triangulation<dim> &mesh);
 

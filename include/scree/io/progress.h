@@ -17,6 +17,8 @@ namespace scree
   class Progress
   {
   public:
+    /// @param start_time s, of the run or of the checkpoint
+    /// @param end_time s
     Progress(RunFolder &folder, const double start_time, const double end_time);
 
     /// Writes a line if the last one is some seconds old, or at the end.

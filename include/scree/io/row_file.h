@@ -19,6 +19,7 @@ namespace scree
   class RowFile
   {
   public:
+    /// @param file path; it is made with the first row
     explicit RowFile(const std::string &file);
 
     /// Whether there is no row yet: the first one brings the head of the file along.
@@ -44,6 +45,7 @@ namespace scree
     /// missing of those written before, in words; usually nothing. Throws FileError.
     std::string cut();
 
+    /// Saves or loads the size of the file, bytes, and the rows that wait (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

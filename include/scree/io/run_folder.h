@@ -38,6 +38,7 @@ namespace scree
     /// Adds a line to `log.txt` and, if wanted, to the screen.
     void log(const std::string &line);
 
+    /// Path of a file in the folder.
     std::string file(const std::string &name) const
     {
       return path + "/" + name;

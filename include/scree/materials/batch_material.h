@@ -22,6 +22,7 @@ namespace scree
   class BatchMaterial : public HenckyMaterial<dim, Law>
   {
   public:
+    /// Copies the law.
     explicit BatchMaterial(const Law &law)
         : HenckyMaterial<dim, Law>(law)
         , law(law)

@@ -15,15 +15,17 @@ namespace scree
   template <int dim, unsigned int n_internal>
   struct BatchRecords
   {
-    static constexpr unsigned int n_components = n_symmetric_components<dim>;
+    static constexpr unsigned int n_components = n_symmetric_components<dim>; ///< components of a symmetric tensor
 
     /// What one batch reads.
     struct Input
     {
-      Batch left_cauchy_green[n_components];
-      Batch increment[dim * dim], out_of_plane_stretch; // dF
-      Batch volume_ratio, reference_volume;
-      Batch internal_variables[n_internal + 1];
+      Batch left_cauchy_green[n_components];    ///< elastic b_e at the start of the step
+      Batch increment[dim * dim],               ///< dF, in-plane part, row-major
+          out_of_plane_stretch;                 ///< dF_zz
+      Batch volume_ratio,                       ///< J at the end of the step
+          reference_volume;                     ///< V_0, m^3
+      Batch internal_variables[n_internal + 1]; ///< at the start of the step; an array of 0 is not allowed
     };
 
     /// Reads points, of which `n` in a row count, or any points if n = 0.

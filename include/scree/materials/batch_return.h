@@ -16,30 +16,35 @@ namespace scree
   class BatchReturn
   {
   public:
-    using Mask   = simd::Mask<Batch>;
-    using Strain = ElasticStrain<dim, Batch>;
-    using Trial  = typename Law::template Trial<Batch>;
+    using Mask   = simd::Mask<Batch>;                   ///< mask of a batch of points
+    using Strain = ElasticStrain<dim, Batch>;           ///< elastic strain of a batch
+    using Trial  = typename Law::template Trial<Batch>; ///< trial state of a batch, see law.h
 
-    static constexpr unsigned int n_components = n_symmetric_components<dim>;
-    static constexpr unsigned int n_internal   = Law::n_internal_variables;
+    static constexpr unsigned int n_components = n_symmetric_components<dim>; ///< components of a symmetric tensor
+    static constexpr unsigned int n_internal   = Law::n_internal_variables;   ///< internal variables of a point
 
     /// What a return starts from.
     struct TrialState
     {
-      Strain strain;
-      Trial trial;
-      Batch volume_ratio, reference_volume;
-      Batch internal_variables[n_internal + 1];
+      Strain strain;                            ///< trial elastic strain
+      Trial trial;                              ///< trial state of the law
+      Batch volume_ratio,                       ///< J at the end of the step
+          reference_volume;                     ///< V_0, m^3
+      Batch internal_variables[n_internal + 1]; ///< before the return, and then after it
     };
 
     /// What the law makes of it.
     struct Answer
     {
-      Batch volume_strain, deviator_factor, mean_stress; // Kirchhoff, Pa
-      Batch dissipation;                                 // per reference volume, J/m^3
-      Mask is_plastic, is_separated;
+      Batch volume_strain, ///< elastic volume strain
+          deviator_factor, ///< elastic deviatoric strain over the trial one
+          mean_stress;     ///< mean Kirchhoff stress, Pa
+      Batch dissipation;   ///< per reference volume, J/m^3
+      Mask is_plastic,     ///< whether the point was returned
+          is_separated;    ///< whether grains are apart: no stress, the gap is kept as strain
     };
 
+    /// Copies the law.
     explicit BatchReturn(const Law &law)
         : law(law)
         , shear(law.shear_modulus())

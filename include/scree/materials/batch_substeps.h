@@ -17,14 +17,14 @@ namespace scree
   class BatchSubsteps
   {
   public:
-    using Mask       = simd::Mask<Batch>;
-    using Return     = BatchReturn<dim, Law>;
-    using TrialState = typename Return::TrialState;
-    using Answer     = typename Return::Answer;
-    using Input      = typename BatchRecords<dim, Law::n_internal_variables>::Input;
+    using Mask       = simd::Mask<Batch>;                                            ///< mask of a batch of points
+    using Return     = BatchReturn<dim, Law>;                                        ///< return map of the law
+    using TrialState = typename Return::TrialState;                                  ///< start of a return map
+    using Answer     = typename Return::Answer;                                      ///< result of a return map
+    using Input      = typename BatchRecords<dim, Law::n_internal_variables>::Input; ///< state and motion over the step
 
-    static constexpr unsigned int n_components = n_symmetric_components<dim>;
-    static constexpr unsigned int n_internal   = Law::n_internal_variables;
+    static constexpr unsigned int n_components = n_symmetric_components<dim>; ///< components of a symmetric tensor
+    static constexpr unsigned int n_internal   = Law::n_internal_variables;   ///< internal variables of a point
 
     /// @param largest_change of dF - I in one part
     BatchSubsteps(const Law &law, const Return &answers, const Input &input, const double largest_change);
@@ -33,11 +33,13 @@ namespace scree
     static void advance(BatchSubsteps (&halves)[2], UpdateReport &report);
 
     // The state in the end.
-    Batch left_cauchy_green[n_components], stress[n_components], internal_variables[n_internal + 1];
-    Batch dissipation; ///< per reference volume, J/m^3
-    Batch n_substeps;
-    Mask is_separated;
-    Mask is_served; ///< the others could not follow, their states are of no use
+    Batch left_cauchy_green[n_components],  ///< elastic b_e
+        stress[n_components],               ///< Cauchy stress, Pa
+        internal_variables[n_internal + 1]; ///< in the order of the law
+    Batch dissipation;                      ///< per reference volume, J/m^3
+    Batch n_substeps;                       ///< return maps of each point
+    Mask is_separated;                      ///< whether grains are apart: no stress, the gap is kept as strain
+    Mask is_served;                         ///< the others could not follow, their states are of no use
 
   private:
     /// The trial state of part `k`, and which points have to return from it.

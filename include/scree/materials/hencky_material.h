@@ -10,8 +10,8 @@
 
 namespace scree
 {
-  /// Kinematics around a law in principal values (Simo 1992): trial b_e, logarithmic strain, the law's return map,
-  /// exponential map, sigma = tau/J. The law is inlined in the loop over points; nothing allocates.
+  /// Kinematics around a law in principal values (@source{simo1992}): trial b_e, logarithmic strain, the law's return
+  /// map, exponential map, sigma = tau/J. The law is inlined in the loop over points; nothing allocates.
   ///
   /// A step is cut into n parts of a straight path, F_k = I + k/n (dF - I) and f_k = F_k F_{k-1}^{-1}, such that no
   /// component of F_k - F_{k-1} is beyond the law's sub-step strain: backward Euler has several roots if it is.
@@ -19,6 +19,7 @@ namespace scree
   class HenckyMaterial : public Material<dim>
   {
   public:
+    /// Copies the law.
     explicit HenckyMaterial(const Law &law);
 
     void

@@ -35,10 +35,10 @@ namespace scree
   template <typename Number>
   struct PrincipalResponse
   {
-    simd::Mask<Number> is_plastic; ///< The strain was changed
-    simd::Mask<Number> is_vertex;  ///< As counted in UpdateReport, like the next two
-    simd::Mask<Number> is_separated;
-    simd::Mask<Number> is_unresolved;
+    simd::Mask<Number> is_plastic;    ///< The strain was changed
+    simd::Mask<Number> is_vertex;     ///< As counted in UpdateReport, like the next two
+    simd::Mask<Number> is_separated;  ///< see UpdateReport::n_separated
+    simd::Mask<Number> is_unresolved; ///< see UpdateReport::n_unresolved
   };
 
   /// Invariants of a state on the yield surface.

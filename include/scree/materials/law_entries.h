@@ -13,22 +13,24 @@
 namespace scree
 {
   /// As the log writes them where it questions a value.
-  constexpr char unit_of_angle[]    = "degrees (1 rad = 57.3 degrees)";
-  constexpr char unit_of_pressure[] = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)";
+  constexpr char unit_of_angle[]    = "degrees (1 rad = 57.3 degrees)";      ///< unit of angles
+  constexpr char unit_of_pressure[] = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)"; ///< unit of stresses and moduli
 
   /// An entry of a law and its value.
   struct LawEntry
   {
-    std::string name;
-    double value;
+    std::string name; ///< name of the entry
+    double value;     ///< value in the unit of the entry
   };
 
   /// An entry, its value, and the range beyond which the log questions its unit.
   struct UsualRange
   {
-    std::string entry;
-    double value, lowest, highest;
-    std::string unit;
+    std::string entry; ///< name of the entry
+    double value,      ///< value of the entry
+        lowest,        ///< smallest usual value
+        highest;       ///< largest usual value
+    std::string unit;  ///< unit of the three, as the log writes it
   };
 
   /// The entries of a law for one body, and the law that they make. Each law registers its own by RegisterLaw.
@@ -37,6 +39,7 @@ namespace scree
   public:
     virtual ~LawEntries() = default;
 
+    /// A copy with the same values.
     virtual std::unique_ptr<LawEntries> clone() const = 0;
 
     /// Declares the entries inside the subsection of the law.
@@ -54,12 +57,16 @@ namespace scree
       return modulus();
     }
 
+    /// Entries whose values the log questions outside a usual range.
     virtual std::vector<UsualRange> usual_ranges() const
     {
       return {};
     }
 
+    /// Makes the law with these values, for plane strain.
     virtual std::unique_ptr<Material<2>> make_2d() const = 0;
+
+    /// Makes the law with these values, in three dimensions.
     virtual std::unique_ptr<Material<3>> make_3d() const = 0;
   };
 
@@ -68,7 +75,7 @@ namespace scree
   class EntriesWith : public LawEntries
   {
   public:
-    Parameters parameters;
+    Parameters parameters; ///< entries of the law
 
     void add_parameters(dealii::ParameterHandler &prm) override
     {
@@ -126,6 +133,9 @@ namespace scree
   class RegisterLaw
   {
   public:
+    /// @param name value of entry Material
+    /// @param subsection of the entries; empty: there is none
+    /// @param entries with default values
     RegisterLaw(const std::string &name, const std::string &subsection, std::unique_ptr<LawEntries> entries);
   };
 } // namespace scree

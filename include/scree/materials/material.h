@@ -17,7 +17,7 @@ namespace scree
   /// A quantity of a point, in the field's words, and its unit.
   struct Quantity
   {
-    std::string name;
+    std::string name; ///< name in tables and pictures
     std::string unit; ///< "-" without
   };
 
@@ -26,8 +26,8 @@ namespace scree
   template <int dim>
   struct MaterialPoints
   {
-    unsigned int n_points      = 0;
-    std::size_t stride         = 0;
+    unsigned int n_points      = 0;       ///< number of points
+    std::size_t stride         = 0;       ///< doubles from one record to the next
     double *left_cauchy_green  = nullptr; ///< Elastic b_e, n_symmetric_components<dim>
     double *stress             = nullptr; ///< Cauchy stress, Pa, tension positive, n_symmetric_components<dim>
     double *internal_variables = nullptr; ///< As named by Material::internal_quantities()
@@ -50,7 +50,7 @@ namespace scree
     const double *out_of_plane_stretch  = nullptr; ///< dF_zz after F-bar, which scales all three axes; read if dim = 2
     const double *volume_ratio          = nullptr; ///< J = V/V_0 at the end of the step
     const double *reference_volume      = nullptr; ///< V_0, m^3 (dim = 2: per metre of depth)
-    std::size_t pitch                   = 1;
+    std::size_t pitch                   = 1;       ///< doubles from one component of dF to the next
 
     /// dF of a point.
     dealii::Tensor<2, dim> deformation_increment_of(const unsigned int p) const
@@ -76,6 +76,7 @@ namespace scree
     unsigned long long n_separated  = 0; ///< Pulled apart: no stress, the gap is kept as elastic volume strain
     unsigned long long n_unresolved = 0; ///< Returned to an admissible state that is not the root; expected to stay 0
 
+    /// Adds sums and counts of another report, and takes the larger of the largest values.
     void add(const UpdateReport &other);
   };
 

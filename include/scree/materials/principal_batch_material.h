@@ -15,6 +15,7 @@ namespace scree
   class PrincipalBatchMaterial : public HenckyMaterial<dim, Law>
   {
   public:
+    /// Copies the law.
     explicit PrincipalBatchMaterial(const Law &law)
         : HenckyMaterial<dim, Law>(law)
         , law(law)

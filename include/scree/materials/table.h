@@ -13,13 +13,13 @@ namespace scree
   class MaterialParameters
   {
   public:
-    std::string law = "Nor-Sand";
+    std::string law = "Nor-Sand"; ///< entry Material: name of the chosen law
 
     /// With the default values of all laws.
     MaterialParameters();
-    MaterialParameters(const MaterialParameters &other);
-    MaterialParameters(MaterialParameters &&) = default;
-    MaterialParameters &operator=(MaterialParameters other);
+    MaterialParameters(const MaterialParameters &other);     ///< copies the entries of all laws
+    MaterialParameters(MaterialParameters &&) = default;     ///< takes the entries of all laws
+    MaterialParameters &operator=(MaterialParameters other); ///< copies or takes the entries of all laws
 
     /// Declare entry and subsections inside whatever subsection `prm` has entered.
     void add_parameters(dealii::ParameterHandler &prm);

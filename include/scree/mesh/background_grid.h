@@ -16,17 +16,20 @@ namespace scree
   /// Subsection Mesh: a box of equal cubes.
   struct GridParameters
   {
-    std::vector<double> lower_corner{ 0., 0. }, upper_corner{ 1., 1. }; ///< m
-    std::string box   = "corners";
-    double cell_size  = 0.1; ///< m
-    std::string basis = "spline";
-    std::string fine  = "around points";
+    std::vector<double> lower_corner{ 0., 0. }, ///< of the box, m
+        upper_corner{ 1., 1. };                 ///< of the box, m
+    std::string box   = "corners";              ///< corners | from raster
+    double cell_size  = 0.1;                    ///< m
+    std::string basis = "spline";               ///< spline | quadratic | linear
+    std::string fine  = "around points";        ///< around points | everywhere
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError unless the corners have `dim` coordinates and the cell size divides the box.
     void check(const unsigned int dim) const;
 
+    /// Entry `Basis` as an enum.
     Basis basis_kind() const;
 
     /// Cells of this size along an axis of the box.
@@ -112,6 +115,8 @@ namespace scree
       return nodes_of_mesh;
     }
 
+    /// @{
+    /// See NodeNumbering.
     unsigned int n_nodes_1d() const
     {
       return nodes_of_mesh.n_nodes_1d();
@@ -140,27 +145,39 @@ namespace scree
     {
       return nodes_of_mesh.faces(node);
     }
+    /// @}
 
+    /// The distributed mesh; cells may lie beyond the upper walls of the box.
     const dealii::parallel::distributed::Triangulation<dim> &triangulation() const
     {
       return mesh;
     }
+
+    /// Write access, to repartition it.
     dealii::parallel::distributed::Triangulation<dim> &triangulation()
     {
       return mesh;
     }
+
+    /// Mapping of the cells, cubes along the axes.
     const dealii::Mapping<dim> &mapping() const
     {
       return cartesian;
     }
+
+    /// Width h of a fine cell, m.
     double cell_size() const
     {
       return width;
     }
+
+    /// Corner of the box, m.
     const dealii::Point<dim> &lower_corner() const
     {
       return lower;
     }
+
+    /// Corner of the box, m.
     const dealii::Point<dim> &upper_corner() const
     {
       return upper;

@@ -27,9 +27,9 @@ namespace scree
   template <int dim, int n, typename Number = double>
   struct CellBasis
   {
-    static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
+    static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim); ///< nodes that act on a cell
 
-    std::array<std::array<Number, n>, dim> value;
+    std::array<std::array<Number, n>, dim> value;      ///< shape functions by axis and node
     std::array<std::array<Number, n>, dim> derivative; ///< per cell width
 
     /// @param x place in the cell: a Point, or an array of `dim` batches

@@ -14,10 +14,10 @@ namespace scree
   template <int dim>
   struct CutCell
   {
-    static constexpr unsigned int n_vertices = 1 << dim;
-    static constexpr unsigned int n_gauss    = 4; // an axis: Lagrange's cubics through them span what is integrated
-    static constexpr unsigned int n_points   = dealii::Utilities::pow(n_gauss, dim);
-    using AtVertices                         = std::array<double, n_vertices>;
+    static constexpr unsigned int n_vertices = 1 << dim; ///< vertices of a cell
+    static constexpr unsigned int n_gauss  = 4; ///< along an axis: their cubic Lagrange polynomials span the integrands
+    static constexpr unsigned int n_points = dealii::Utilities::pow(n_gauss, dim); ///< Gauss points of a cell
+    using AtVertices                       = std::array<double, n_vertices>; ///< a number a vertex, in deal.II's order
 
     unsigned int cell    = 0;  ///< active cell index
     double open_fraction = 0.; ///< of the volume
@@ -26,8 +26,9 @@ namespace scree
     std::array<double, n_points> weights{};
     AtVertices open_hats{}; ///< integrals of the corners' linear functions over the open part, over the cell's volume
 
-    unsigned int first_segment = 0, n_segments = 0; ///< of the ground in it
-    bool may_change = false;                        ///< whether ground that moves is near
+    unsigned int first_segment = 0,     ///< its first one in CutCells::segments()
+        n_segments             = 0;     ///< how many it has there
+    bool may_change            = false; ///< whether ground that moves is near
   };
 
   /// What a cell has of one part of the ground.
@@ -79,6 +80,7 @@ namespace scree
       return cut == nullptr ? 1. : std::max(cut->open_fraction, smallest);
     }
 
+    /// Cells of this rank that are not all open.
     const std::vector<CutCell<dim>> &cells() const
     {
       return cut_cells;
@@ -100,8 +102,8 @@ namespace scree
     /// The Gauss points of CutCell::weights along an axis.
     static std::array<double, CutCell<dim>::n_gauss> gauss_points();
 
-    static constexpr double smallest   = 1e-9;
-    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+    static constexpr double smallest   = 1e-9;                                  ///< lower bound of open_fraction()
+    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int; ///< stands for no cell or segment
 
   private:
     /// Adds a cell, if it is not all open, and its segments.

@@ -19,10 +19,11 @@ namespace scree
   class FineCells
   {
   public:
+    /// A fine cell of this rank or a ghost.
     struct Cell
     {
-      std::uint64_t number; ///< of its place on the curve
-      CellPlace<dim> place;
+      std::uint64_t number;              ///< of its place on the curve
+      CellPlace<dim> place;              ///< numbers along the axes of the box
       unsigned int index;                ///< active cell index
       dealii::types::subdomain_id owner; ///< rank
     };
@@ -45,12 +46,13 @@ namespace scree
       return std::count_if(cell_list.begin(), cell_list.end(), [this](const Cell &cell) { return is_owned(cell); });
     }
 
+    /// Whether the cell belongs to this rank.
     bool is_owned(const Cell &cell) const
     {
       return cell.owner == rank;
     }
 
-    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int; ///< stands for no cell, see find()
 
     /// Where in cells() the cell of this place is, or `none`.
     unsigned int find(const CellPlace<dim> &place) const;
@@ -61,10 +63,13 @@ namespace scree
       return entry_of_index[index];
     }
 
+    /// Corner, cell width and number of cells of the box.
     const CellsOfBox<dim> &box() const
     {
       return cells_of_box;
     }
+
+    /// The distributed mesh, with larger cells, too.
     const dealii::parallel::distributed::Triangulation<dim> &mesh() const
     {
       return triangulation;

@@ -46,6 +46,7 @@ namespace scree
       return basis == Basis::linear ? 2 : 3;
     }
 
+    /// Nodes that act on a cell: 3^dim (quadratic) or 2^dim (linear).
     unsigned int n_nodes_per_cell() const
     {
       return dealii::Utilities::pow(n_nodes_1d(), dim);
@@ -57,6 +58,7 @@ namespace scree
       return &cell_nodes[std::size_t(cell) * n_nodes_per_cell()];
     }
 
+    /// Open knots of the basis on a fine cell of this rank.
     OpenKnots open_knots(const unsigned int cell) const
     {
       return cell_open_knots[cell];
@@ -74,6 +76,7 @@ namespace scree
       return cell_nodes[std::size_t(cell) * n_nodes_per_cell()] != dealii::numbers::invalid_unsigned_int;
     }
 
+    /// Number of nodes that this rank owns.
     unsigned int n_owned() const
     {
       return distribution->locally_owned_size();

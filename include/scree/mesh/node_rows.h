@@ -20,11 +20,13 @@ namespace scree
     return row;
   }
 
+  /// Sum over the three nodes.
   inline double sum(const NodeRow &row)
   {
     return (row[0] + row[1]) + row[2];
   }
 
+  /// A row of two or three numbers, filled up with 0.
   template <std::size_t n>
   NodeRow make_row(const std::array<double, n> &values)
   {
@@ -59,11 +61,12 @@ namespace scree
   template <int dim, int n>
   struct RowFactors
   {
-    static constexpr unsigned int n_rows = dealii::Utilities::pow(n, dim - 1);
+    static constexpr unsigned int n_rows = dealii::Utilities::pow(n, dim - 1); ///< rows of nodes in a cell
 
-    std::array<double, n_rows> value;
+    std::array<double, n_rows> value;                           ///< products of shape functions
     std::array<std::array<double, n_rows>, dim - 1> derivative; ///< per cell width, along axes 1, 2
 
+    /// Multiplies the shape functions at a point.
     explicit RowFactors(const CellBasis<dim, n> &basis)
     {
       for (unsigned int j = 0; j < n; ++j)
@@ -86,12 +89,16 @@ namespace scree
   template <int dim, int n>
   struct PointShape
   {
-    const dealii::Point<dim> &x; ///< place in the cell
-    const OpenKnots open;
-    const CellBasis<dim, n> basis;
-    const RowFactors<dim, n> rows;
-    const NodeRow value_x, derivative_x; ///< shape functions of the first axis; the derivative per cell width
+    const dealii::Point<dim> &x;   ///< place in the cell
+    const OpenKnots open;          ///< walls that the cell touches
+    const CellBasis<dim, n> basis; ///< shape functions along the axes
+    const RowFactors<dim, n> rows; ///< factors of the axes other than the first
+    const NodeRow value_x,         ///< shape functions along the first axis
+        derivative_x;              ///< their derivatives, per cell width
 
+    /// Evaluates the shape functions.
+    /// @param x place in the cell, from 0 to 1 along each axis; must live on
+    /// @param open walls that the cell touches
     PointShape(const dealii::Point<dim> &x, const OpenKnots open)
         : x(x)
         , open(open)

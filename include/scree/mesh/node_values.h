@@ -14,6 +14,7 @@ namespace scree
   class NodeValues
   {
   public:
+    /// Makes room on the nodes of the numbering, which must live on.
     explicit NodeValues(const NodeNumbering<dim> &numbering);
 
     /// Fits the values to the current nodes.
@@ -49,10 +50,13 @@ namespace scree
       return active_owned;
     }
 
+    /// The `n` numbers of a node of this rank's cells, ghosts included.
     double *operator[](const unsigned int node)
     {
       return values.begin() + std::size_t(node) * n;
     }
+
+    /// Read-only access.
     const double *operator[](const unsigned int node) const
     {
       return values.begin() + std::size_t(node) * n;

@@ -12,7 +12,7 @@ namespace scree
   template <int dim>
   struct GroundPart
   {
-    const DiscreteLevelSet<dim> *samples;
+    const DiscreteLevelSet<dim> *samples;             ///< its surface, sampled on the mesh
     const dealii::Tensor<1, dim> *velocity = nullptr; ///< in the current step, m/s; null if it never moves
   };
 
@@ -25,6 +25,7 @@ namespace scree
     /// @param parts at least one
     explicit RigidBoundary(const std::vector<GroundPart<dim>> &parts);
 
+    /// The parts in the order of the constructor's.
     const std::vector<GroundPart<dim>> &parts() const
     {
       return all_parts;

@@ -18,18 +18,21 @@ namespace scree
 
     /// Solid and pore volume over cell volume from which on, and up to which, soil fills a cell or ends in it, as far
     /// as the scatter of points can tell. Without the share of drag that follows, water infiltrates 10 % too fast.
-    constexpr double cell_full_of_soil = 0.9, cell_at_end_of_soil = 0.75;
+    constexpr double cell_full_of_soil = 0.9,  ///< soil that takes more fills the cell
+        cell_at_end_of_soil            = 0.75; ///< soil that takes less ends in the cell
 
     /// Water that the wet pores lack, over their volume: up to the first by scatter, from the second on for sure.
     /// Without it the tip of a wetting front is 1.13 times as far as it should be (h = .05 m).
-    constexpr double lack_by_scatter = 0.15, lack_for_sure = 0.25;
+    constexpr double lack_by_scatter = 0.15, ///< a smaller lack is scatter of points
+        lack_for_sure                = 0.25; ///< a larger lack is one of water
 
     /// Smallest porosity in the flow between grains: where grains crowd, water shall not race.
     constexpr double least_porosity = 0.1;
 
     /// Fill of a cell from which on its whole, and up to which only the filled part enters the divergence. Without it
     /// water at low stress makes energy, 134 % of what is released.
-    constexpr double full_cell_in_divergence = 0.95, partly_full_cell_in_divergence = 0.85;
+    constexpr double full_cell_in_divergence = 0.95, ///< a fuller cell enters as a whole
+        partly_full_cell_in_divergence       = 0.85; ///< of an emptier cell the filled part enters
 
     /// Open fraction of a cut cell; less counts as so much.
     constexpr double least_open_fraction = 1e-6;
@@ -58,7 +61,8 @@ namespace scree
     constexpr double full_cell_at_wall = 0.9;
 
     /// Heights of a fall, cells: what is slower than after it is stopped once it is in the cells beside a wall.
-    constexpr double fall_of_wet_soil = 0.125, fall_onto_fixed_wall = 0.5;
+    constexpr double fall_of_wet_soil = 0.125, ///< in scenes with water
+        fall_onto_fixed_wall          = 0.5;   ///< in dry scenes, at fixed walls
 
     /// Surplus of volume, cells, below which a vertex is full: water at rest must not follow its rounding.
     constexpr double least_surplus = 1e-6;

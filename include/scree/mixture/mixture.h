@@ -21,22 +21,25 @@ namespace scree
   template <int dim>
   struct MixtureCell
   {
-    static constexpr unsigned int n_vertices = 1 << dim;
-    using AtVertices                         = std::array<double, n_vertices>;
+    static constexpr unsigned int n_vertices = 1 << dim; ///< vertices of a cell
+    using AtVertices = std::array<double, n_vertices>;   ///< a number a vertex, in deal.II's order
 
-    unsigned int cell;                         ///< active cell index
-    double volume;                             ///< of the cell, without what rigid ground fills, m^3
-    double soil_mass = 0, water_mass = 0;      ///< kg
-    double grain_volume = 0, water_volume = 0; ///< m^3
-    double pore_volume = 0;                    ///< of the soil, m^3
-    bool is_rigid      = false;                ///< whether the soil is held at its place
-    double drag        = 0;                    ///< of saturated soil in slow flow, sum V R; then dt^-1 C, N s/m
-    double inertial    = 0;                    ///< what sum V R grows by with |q|: sum V_grains b, N s^2/m^2
+    unsigned int cell;           ///< active cell index
+    double volume;               ///< of the cell, without what rigid ground fills, m^3
+    double soil_mass    = 0,     ///< kg
+        water_mass      = 0;     ///< kg
+    double grain_volume = 0,     ///< m^3
+        water_volume    = 0;     ///< m^3
+    double pore_volume  = 0;     ///< of the soil, m^3
+    bool is_rigid       = false; ///< whether the soil is held at its place
+    double drag         = 0;     ///< of saturated soil in slow flow, sum V R; then dt^-1 C, N s/m
+    double inertial     = 0;     ///< what sum V R grows by with |q|: sum V_grains b, N s^2/m^2
 
     // Sums weighted with the linear functions of the vertices.
-    AtVertices grains_at_vertex{}, water_at_vertex{}; ///< volume, m^3
-    AtVertices pressure_at_vertex{};                  ///< volume of water times pressure there, Pa m^3
-    AtVertices forgotten_at_vertex{};                 ///< volume of water times what its pressure has lost, m^3
+    AtVertices grains_at_vertex{},    ///< volume of grains, m^3
+        water_at_vertex{};            ///< volume of water, m^3
+    AtVertices pressure_at_vertex{};  ///< volume of water times pressure there, Pa m^3
+    AtVertices forgotten_at_vertex{}; ///< volume of water times what its pressure has lost, m^3
 
     double drag_share           = 0; ///< of the drag of soil full of water, see drag_share_of()
     double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
@@ -44,6 +47,8 @@ namespace scree
     double mobility             = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
     double volume_factor        = 1; ///< of the soil over a step, beside what its nodes tell of
 
+    /// @param cell active cell index
+    /// @param volume open to soil and water, m^3
     MixtureCell(const unsigned int cell, const double volume)
         : cell(cell)
         , volume(volume)
@@ -109,8 +114,8 @@ namespace scree
   template <int dim>
   struct EnteringWater
   {
-    unsigned int cell; ///< active cell index
-    typename MixtureCell<dim>::AtVertices at_vertex;
+    unsigned int cell;                               ///< active cell index
+    typename MixtureCell<dim>::AtVertices at_vertex; ///< m^3, in deal.II's order
   };
 
   /// Soil and water in the cells that hold points: sums of each cell, and the moments V phi_i x^m of grains and water,
@@ -149,10 +154,13 @@ namespace scree
       return entering_water;
     }
 
+    /// Records of the cells that hold points, by the numbers of record().
     std::vector<MixtureCell<dim>> &cells()
     {
       return records;
     }
+
+    /// Read-only access.
     const std::vector<MixtureCell<dim>> &cells() const
     {
       return records;
@@ -163,10 +171,14 @@ namespace scree
     {
       return &grains[std::size_t(record) * moments_per_cell];
     }
+
+    /// Read-only access.
     const NodeRow *grain_moments(const unsigned int record) const
     {
       return &grains[std::size_t(record) * moments_per_cell];
     }
+
+    /// The same of the cell's water.
     NodeRow *water_moments(const unsigned int record)
     {
       return &water[std::size_t(record) * moments_per_cell];

@@ -77,6 +77,8 @@ namespace scree
 
     /// Soil and water do not move in this region of a gate until it is opened. Collective.
     void close_gate(const std::string &region);
+
+    /// Removes the constraints of close_gate().
     void open_gate();
 
     /// Stops all points: no velocity, no affine field of velocity.
@@ -91,18 +93,18 @@ namespace scree
       return water.empty() ? "point" : "soil or water point";
     }
 
-    const MemoryEstimate expected_memory;
-    BackgroundGrid<dim> grid;
-    BoundaryConditions<dim> walls;
+    const MemoryEstimate expected_memory;                      ///< estimate from the entries
+    BackgroundGrid<dim> grid;                                  ///< mesh and nodes of the velocity
+    BoundaryConditions<dim> walls;                             ///< faces of the box acting on the soil
     std::unique_ptr<WaterBoundaryConditions<dim>> water_walls; ///< null in a dry scene
-    Constraints<dim> constraints;
+    Constraints<dim> constraints;                              ///< constraints of the nodes
     std::unique_ptr<Constraints<dim>> walls_alone; ///< without rigid bodies, for what slides on them; null without it
-    BodyForces<dim> forcing;
-    std::list<SoilBody<dim>> bodies;
-    std::list<WaterPhase<dim>> water; ///< empty in a dry scene; one with points of its own, or one a body
-    std::list<SurfaceLoad<dim>> loads;
-    std::list<Obstacle<dim>> obstacles;
-    std::list<Inflow<dim>> inflows;
+    BodyForces<dim> forcing;                       ///< gravity, body force and motion of the base
+    std::list<SoilBody<dim>> bodies;               ///< bodies of soil, in the order of the case
+    std::list<WaterPhase<dim>> water;              ///< empty in a dry scene; one with points of its own, or one a body
+    std::list<SurfaceLoad<dim>> loads;             ///< surface loads, in the order of the case
+    std::list<Obstacle<dim>> obstacles;            ///< obstacles, in the order of the case
+    std::list<Inflow<dim>> inflows;                ///< inflows, in the order of the case
     std::optional<Raster> bed_friction;         ///< coefficients of friction; nothing if they are the same everywhere
     std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
     std::unique_ptr<DiscreteLevelSet<dim>> bed; ///< the same as the mesh sees it

@@ -12,13 +12,16 @@ namespace scree
   template <int dim>
   struct SoilAndWater
   {
-    dealii::Tensor<1, dim> soil, water;
+    dealii::Tensor<1, dim> soil, ///< vector of the soil
+        water;                   ///< vector of the water
   };
 
   /// What an impulse of 1 N s on a phase does to it, and to the other phase, 1/kg.
   struct DragMobility
   {
-    double soil = 0., water = 0., other = 0.;
+    double soil = 0., ///< of the soil, by an impulse on the soil
+        water   = 0., ///< of the water, by an impulse on the water
+        other   = 0.; ///< of the one, by an impulse on the other
   };
 
   /// The same of two masses and their drag, kg, that no wall holds; the drag is 0 where a phase is absent.
@@ -47,15 +50,19 @@ namespace scree
   template <int dim>
   struct DragBlock
   {
-    double soil_mass = 0, water_mass = 0; ///< kg
-    double drag = 0;                      ///< C = D dt, kg; 0 where a phase is absent
-    ConstrainedDirections<dim> held_soil, held_water;
+    double soil_mass = 0,                 ///< kg
+        water_mass   = 0;                 ///< kg
+    double drag      = 0;                 ///< C = D dt, kg; 0 where a phase is absent
+    ConstrainedDirections<dim> held_soil, ///< held by walls
+        held_water;                       ///< held by walls
 
+    /// Whether walls hold any direction of soil or water.
     bool is_held() const
     {
       return held_soil.any() || held_water.any();
     }
 
+    /// Whether both phases have mass.
     bool has_both() const
     {
       return soil_mass > 0 && water_mass > 0;

@@ -10,11 +10,13 @@
 
 namespace scree
 {
-  /// The explicit step of one phase at the nodes: momentum and force in, velocity and its change out.
+  /// The explicit step of one phase at the nodes (@source{sulsky1994}): momentum and force in, velocity and its change
+  /// out.
   template <int dim>
   class ExplicitUpdate
   {
   public:
+    /// Keeps references to all of them.
     ExplicitUpdate(const Constraints<dim> &constraints, const WallGaps<dim> &wall_gaps, const BodyForces<dim> &forcing);
 
     /// v = (momentum + dt force)/mass + dt acceleration at the active nodes, then their constraints.

@@ -45,12 +45,16 @@ namespace scree
     /// @param mixture of which the soil is a part, after its solve; null: dry
     void to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture = nullptr);
 
+    /// Appends the points of all bodies, then the markers of the loads.
     void append_point_sets(std::vector<PointSet<dim> *> &sets);
 
+    /// Bodies of all groups.
     std::list<SoilBody<dim>> &all_bodies()
     {
       return bodies;
     }
+
+    /// Read-only access.
     const std::list<SoilBody<dim>> &all_bodies() const
     {
       return bodies;

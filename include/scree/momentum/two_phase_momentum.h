@@ -10,11 +10,13 @@
 namespace scree
 {
   /// Soil and water at the nodes, tied by drag and stopped by walls: the predictor and the corrector of a fractional
-  /// step.
+  /// step (@source{kularathna2021}; @source{yuan2023}).
   template <int dim>
   class TwoPhaseMomentum
   {
   public:
+    /// Keeps references to all but the density.
+    /// @param water_density kg/m^3
     TwoPhaseMomentum(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      const WallGaps<dim> &wall_gaps,

@@ -17,6 +17,7 @@ namespace scree
   class WallFriction
   {
   public:
+    /// Keeps a reference to the constraints.
     explicit WallFriction(const Constraints<dim> &constraints);
 
     /// Fits the contacts to the current nodes, `n_owned_nodes` on this rank.

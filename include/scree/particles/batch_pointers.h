@@ -11,9 +11,11 @@ namespace scree
   template <int dim>
   struct BatchPointers
   {
-    RecordPointers<double> properties, locations;
+    RecordPointers<double> properties,   ///< properties of each point
+        locations;                       ///< location of each point, m
     RecordPointers<const double> places; ///< in the cell, from 0 to 1
 
+    /// @param indices of points in the cell
     BatchPointers(const CellPoints<dim> &cell, const BatchIndices &indices)
     {
       for (unsigned int l = 0; l < batch_size; ++l)
@@ -38,8 +40,9 @@ namespace scree
   /// The largest of squares of speeds, m^2/s^2; not a number if any was not.
   struct LargestSquare
   {
-    double value = 0;
+    double value = 0; ///< largest square so far, m^2/s^2
 
+    /// Takes in the square of a speed, m^2/s^2.
     void include(const double square)
     {
       if (value == value && !(square <= value))

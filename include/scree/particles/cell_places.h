@@ -15,8 +15,8 @@ namespace scree
   template <int dim>
   using CellPlace = std::array<int, dim>;
 
-  /// The number of a place on the curve that halves the box again and again (Morton 1966), as p4est's does: an aligned
-  /// cube of 2^s places an axis has 2^(dim s) successive numbers. No coordinate may be negative or above 2^20.
+  /// The number of a place on the curve that halves the box again and again (@source{morton1966}), as p4est's does: an
+  /// aligned cube of 2^s places an axis has 2^(dim s) successive numbers. No coordinate may be negative or above 2^20.
   template <int dim>
   std::uint64_t curve_number(const CellPlace<dim> &place);
 
@@ -50,6 +50,7 @@ namespace scree
       return place;
     }
 
+    /// Lower corner of a cell, m.
     dealii::Point<dim> corner(const CellPlace<dim> &place) const
     {
       dealii::Point<dim> corner = lower;
@@ -58,6 +59,7 @@ namespace scree
       return corner;
     }
 
+    /// Whether the box has a cell at this place.
     bool contains(const CellPlace<dim> &place) const
     {
       bool inside = true;
@@ -75,6 +77,7 @@ namespace scree
       return blocks;
     }
 
+    /// Number of cells; a double, as it may exceed an unsigned int.
     double n_cells() const
     {
       double product = 1;

@@ -19,10 +19,12 @@ namespace scree
   template <int dim, typename Number = double>
   struct CellPoints
   {
-    using Location = std::conditional_t<std::is_const_v<Number>, const dealii::Point<dim>, dealii::Point<dim>>;
+    using Location = std::conditional_t<std::is_const_v<Number>,
+                                        const dealii::Point<dim>,
+                                        dealii::Point<dim>>; ///< location; const if the points must not change
 
-    unsigned int cell; ///< active cell index
-    unsigned int n_points;
+    unsigned int cell;         ///< active cell index
+    unsigned int n_points;     ///< number of points
     const unsigned int *slots; ///< of the points; those of the cells that follow in cells() lie behind them
     unsigned int stride;       ///< doubles from one slot's properties to the next one's
     Number *properties;        ///< of slot 0
@@ -67,10 +69,10 @@ namespace scree
   template <int dim, typename Number>
   struct PointView
   {
-    unsigned int cell; ///< active cell index
-    Number *properties;
+    unsigned int cell;                                    ///< active cell index
+    Number *properties;                                   ///< first of the point's properties
     typename CellPoints<dim, Number>::Location &location; ///< m
-    const dealii::Point<dim> &reference_location;
+    const dealii::Point<dim> &reference_location;         ///< in the cell, from 0 to 1
   };
 
 

@@ -15,8 +15,9 @@ namespace scree
   template <int dim>
   struct TableCell
   {
-    using Iterator = typename dealii::Triangulation<dim>::active_cell_iterator;
+    using Iterator = typename dealii::Triangulation<dim>::active_cell_iterator; ///< iterator over the cells of the mesh
 
+    /// Reads a cell of the mesh; its neighbours are not known yet.
     explicit TableCell(const Iterator &iterator);
 
     /// Place of `x` in the cell, as by deal.II's MappingCartesian, to the last digit.
@@ -31,10 +32,10 @@ namespace scree
       return place;
     }
 
-    Iterator iterator;
-    unsigned int index;   ///< active cell index
-    std::uint64_t number; ///< of its place on the curve through the mesh
-    dealii::Point<dim> corner;
+    Iterator iterator;                            ///< the cell in the mesh
+    unsigned int index;                           ///< active cell index
+    std::uint64_t number;                         ///< of its place on the curve through the mesh
+    dealii::Point<dim> corner;                    ///< lower corner, m
     dealii::Tensor<1, dim> width;                 ///< m
     std::array<unsigned int, 2 * dim> neighbours; ///< their numbers in the table, face by face, as far as known
   };
@@ -46,15 +47,17 @@ namespace scree
   class CellTable
   {
   public:
-    using Iterator = typename TableCell<dim>::Iterator;
+    using Iterator = typename TableCell<dim>::Iterator; ///< iterator over the cells of the mesh
 
-    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int; ///< stands for no cell
 
+    /// Removes all cells, when the mesh changes.
     void clear();
 
     /// The number of a cell in the table; it is added if it is not there.
     unsigned int number_of(const Iterator &cell);
 
+    /// The cell of a number that number_of() has returned.
     const TableCell<dim> &operator[](const unsigned int number) const
     {
       return cells[number];

@@ -13,12 +13,14 @@ namespace scree
     outside ///< beyond the walls of the box, which need not fill the mesh
   };
 
+  /// Use of a cell of this rank or a ghost, as FineCells::reinit() has set it.
   template <typename Cell>
   CellUse use_of(const Cell &cell)
   {
     return static_cast<CellUse>(cell->user_index());
   }
 
+  /// Whether nodes act on the cell: it is a fine one.
   template <typename Cell>
   bool holds_nodes(const Cell &cell)
   {

@@ -27,14 +27,15 @@ namespace scree
   template <int dim>
   struct Seed
   {
-    typename dealii::Triangulation<dim>::active_cell_iterator cell;
-    dealii::Point<dim> location; ///< m
-    double volume;               ///< m^3 (2D: per m)
-    double filled = 1.;          ///< part of a cube of the lattice that its region covers, of several the sum
-    bool stays    = false;       ///< see CubePart
+    typename dealii::Triangulation<dim>::active_cell_iterator cell; ///< cell in which it stands
+    dealii::Point<dim> location;                                    ///< m
+    double volume;                                                  ///< m^3 (2D: per m)
+    double filled = 1.;    ///< part of a cube of the lattice that its region covers, of several the sum
+    bool stays    = false; ///< see CubePart
 
     static constexpr double least_filled = 0.25; ///< seeds that fill less are slivers
 
+    /// Whether it fills less than `least_filled` of its cube.
     bool is_sliver() const
     {
       return filled < least_filled;

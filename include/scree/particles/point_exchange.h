@@ -18,9 +18,10 @@ namespace scree
   {
     dealii::CellId::binary_type cell; ///< where it goes
     dealii::Point<dim> location;      ///< m
-    dealii::types::particle_index id;
-    std::vector<double> properties;
+    dealii::types::particle_index id; ///< lasting number of the point
+    std::vector<double> properties;   ///< in the layout of its set
 
+    /// Saves or loads all members (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
@@ -34,8 +35,9 @@ namespace scree
   class PointExchange
   {
   public:
-    using CellIterator = typename CellTable<dim>::Iterator;
+    using CellIterator = typename CellTable<dim>::Iterator; ///< iterator over the cells of the mesh
 
+    /// @param triangulation mesh of the points; must live on
     explicit PointExchange(const dealii::Triangulation<dim> &triangulation);
 
     /// Adds a point to those that leave for the rank of this ghost cell.

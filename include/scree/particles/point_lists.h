@@ -23,9 +23,10 @@ namespace scree
     {
       std::uint64_t number;  ///< of the cell on the curve through the mesh
       unsigned int in_table; ///< its number there
-      unsigned int n_points;
+      unsigned int n_points; ///< number of points in the cell
     };
 
+    /// Keeps references to both; list_all() fills the lists.
     PointLists(dealii::Particles::ParticleHandler<dim> &handler, CellTable<dim> &table);
 
     /// Lists filled cells and their slots anew, as the handler has them.
@@ -46,6 +47,7 @@ namespace scree
       entrants.push_back({ table[number].number, static_cast<unsigned int>(entrants.size()), number, slot });
     }
 
+    /// Whether update() has anything to put in.
     bool has_entrants() const
     {
       return !entrants.empty();
@@ -59,6 +61,8 @@ namespace scree
     {
       return cell_list;
     }
+
+    /// Read-only access to the points.
     const std::vector<ConstCellPoints<dim>> &cells() const
     {
       return const_cell_list;
@@ -70,6 +74,7 @@ namespace scree
       return filled;
     }
 
+    /// Number of this rank's points.
     unsigned int n_points() const
     {
       return slots.size() - points_ahead;

@@ -22,8 +22,8 @@ namespace scree
   template <int dim>
   struct LostPoint
   {
-    dealii::Point<dim> location; ///< m
-    std::vector<double> properties;
+    dealii::Point<dim> location;    ///< m
+    std::vector<double> properties; ///< in the layout of its set
   };
 
   /// What it takes to bring all points into the cells and to the ranks that they lie in now; the ranks do what the
@@ -47,6 +47,8 @@ namespace scree
     /// The part of a rank's points that may change cells before records are sorted in memory again.
     static constexpr double most_moved = 0.5;
 
+    /// Makes an empty set on a mesh with its mapping, which must live on.
+    /// @param n_properties doubles of a point
     PointSet(const dealii::Triangulation<dim> &triangulation,
              const dealii::Mapping<dim> &mapping,
              const unsigned int n_properties);
@@ -73,6 +75,8 @@ namespace scree
              const dealii::Point<dim> &location,
              const dealii::types::particle_index id,
              const std::vector<double> &properties);
+
+    /// Puts the added points into the lists.
     void finish_adding();
 
     /// Takes all points off the mesh, before its cells are refined or coarsened.
@@ -98,6 +102,8 @@ namespace scree
     {
       return lists.cells();
     }
+
+    /// Read-only access to the points.
     const std::vector<ConstCellPoints<dim>> &cells() const
     {
       return lists.cells();
@@ -127,6 +133,8 @@ namespace scree
     {
       return cell_costs;
     }
+
+    /// Read-only access.
     const CellCosts &costs() const
     {
       return cell_costs;
@@ -138,10 +146,13 @@ namespace scree
       return n_properties;
     }
 
+    /// deal.II's list of the points. Call sort() after points have changed cells in it.
     dealii::Particles::ParticleHandler<dim> &handler()
     {
       return particle_handler;
     }
+
+    /// Read-only access.
     const dealii::Particles::ParticleHandler<dim> &handler() const
     {
       return particle_handler;

@@ -18,11 +18,11 @@ namespace scree
     static constexpr unsigned int stress             = left_cauchy_green + n_symmetric_components<dim>; ///< Cauchy, Pa
     static constexpr unsigned int internal_variables = stress + n_symmetric_components<dim>; ///< as the law says
     unsigned int affine;                                                                     ///< dim x dim, row-major
-    unsigned int start;      ///< location at the start of the run, m, dim
-    bool has_start;          ///< whether points keep it
-    unsigned int contacts;   ///< with each of the rigid surfaces: touching_distance() and contact_force()
-    unsigned int n_contacts; ///< surfaces: the bed and obstacles
-    unsigned int n_properties;
+    unsigned int start;        ///< location at the start of the run, m, dim
+    bool has_start;            ///< whether points keep it
+    unsigned int contacts;     ///< with each of the rigid surfaces: touching_distance() and contact_force()
+    unsigned int n_contacts;   ///< surfaces: the bed and obstacles
+    unsigned int n_properties; ///< doubles of a point in total
 
     /// @param n_internal_variables of the material law
     /// @param with_affine whether the transfer carries an affine velocity field

@@ -14,14 +14,16 @@ namespace scree
   /// Sums over the points of one cell (2D: per m).
   struct CellContents
   {
-    unsigned int n_soil_points = 0, n_water_points = 0;
-    double soil_mass     = 0; ///< kg
-    double soil_volume   = 0; ///< with pores, m^3
-    double grain_volume  = 0; ///< m^3
-    double soil_pressure = 0; ///< volume times P, J
-    double water_mass    = 0; ///< kg
-    double water_volume  = 0; ///< m^3
+    unsigned int n_soil_points = 0, ///< number of points of soil
+        n_water_points         = 0; ///< number of points of water
+    double soil_mass           = 0; ///< kg
+    double soil_volume         = 0; ///< with pores, m^3
+    double grain_volume        = 0; ///< m^3
+    double soil_pressure       = 0; ///< volume times P, J
+    double water_mass          = 0; ///< kg
+    double water_volume        = 0; ///< m^3
 
+    /// Whether no point lies in the cell.
     bool is_empty() const
     {
       return n_soil_points == 0 && n_water_points == 0;

@@ -17,13 +17,15 @@ namespace scree
   template <int dim>
   struct Lump
   {
-    dealii::Point<dim> location;
-    double volume;
+    dealii::Point<dim> location; ///< its centre, m
+    double volume;               ///< volume with pores, m^3 (2D: per m)
   };
 
   /// This rank's points as lumps: of soil, or of water with the share of the pores around that it fills.
   template <int dim>
   std::vector<Lump<dim>> lumps_of(const std::list<SoilBody<dim>> &bodies);
+
+  /// The same of the water.
   template <int dim>
   std::vector<Lump<dim>> lumps_of(const std::list<SoilBody<dim>> &bodies,
                                   const std::list<WaterPhase<dim>> &water,

@@ -50,7 +50,7 @@ namespace scree
   /// What the statistics say of the water of all ranks (2D: per m).
   struct WaterMeasures
   {
-    double n_points          = 0;
+    double n_points          = 0; ///< number of points
     double mass              = 0; ///< kg
     double mass_outside_soil = 0; ///< in cells without soil points, kg
     double smallest_pressure = 0; ///< p of points, Pa

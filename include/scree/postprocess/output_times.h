@@ -10,6 +10,8 @@ namespace scree
   class OutputTimes
   {
   public:
+    /// Takes the intervals of the entries; begin() comes next.
+    /// @param end_time of the run, s
     OutputTimes(const OutputParameters &parameters, const double end_time);
 
     /// From here on, what is due comes after `time`.
@@ -18,9 +20,16 @@ namespace scree
     /// The time at which a step has to end next, for steps of `largest_step` s at most.
     double next(const double largest_step) const;
 
+    /// Whether the run ends at a time, s, within rounding.
     bool is_end(const double time) const;
+
+    /// Whether a picture is due at a time, s.
     bool picture_is_due(const double time) const;
+
+    /// Whether a row of the statistics is due at a time, s.
     bool row_is_due(const double time) const;
+
+    /// Whether a checkpoint is due at a time, s; never if the interval is 0.
     bool checkpoint_is_due(const double time) const;
 
   private:

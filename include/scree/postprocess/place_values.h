@@ -15,12 +15,13 @@
 namespace scree
 {
   /// The state of soil and water at given places: of each quantity a linear fit by least squares to the points around
-  /// (Lancaster & Salkauskas 1981), weighted by mass and by 1 - |distance|/(cell size) along each axis. Exact for
+  /// (@source{lancaster1981}), weighted by mass and by 1 - |distance|/(cell size) along each axis. Exact for
   /// linear fields, at walls and surfaces, too; the same on any number of ranks but for rounding.
   template <int dim>
   class PlaceValues
   {
   public:
+    /// Lists the places, m.
     PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<dealii::Point<dim>> &places);
 
     /// Names with units of the quantities of soil: velocity, effective stress (tension positive), P, porosity.
@@ -31,8 +32,11 @@ namespace scree
 
     /// Their values, a row a place; nan where no such point lies within half a cell along each axis. Collective.
     std::vector<std::vector<double>> of_soil(const std::list<SoilBody<dim>> &bodies) const;
+
+    /// The same of the water.
     std::vector<std::vector<double>> of_water(const std::list<WaterPhase<dim>> &water) const;
 
+    /// The places, m, in the order of the rows.
     const std::vector<dealii::Point<dim>> &places() const
     {
       return place_list;

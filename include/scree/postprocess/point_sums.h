@@ -13,7 +13,7 @@ namespace scree
   template <int dim>
   struct PointSums
   {
-    double soil_points = 0;
+    double soil_points = 0;          ///< number of points
     double soil_mass   = 0;          ///< kg
     dealii::Tensor<1, dim> momentum; ///< N s
     double kinetic          = 0;     ///< J

@@ -19,11 +19,11 @@ namespace scree
   template <int dim>
   struct ProbedState
   {
-    const std::list<SoilBody<dim>> &bodies;
-    const std::list<WaterPhase<dim>> &water;
-    const Budget<dim> &totals;  ///< of this rank since the start
-    double time;                ///< s
-    const WaterView<dim> *view; ///< null in a dry scene
+    const std::list<SoilBody<dim>> &bodies;  ///< bodies of soil
+    const std::list<WaterPhase<dim>> &water; ///< empty in a dry scene
+    const Budget<dim> &totals;               ///< of this rank since the start
+    double time;                             ///< s
+    const WaterView<dim> *view;              ///< null in a dry scene
   };
 
   /// The files `probe_NAME`: tables like `statistics`, a row a time; those of lines have a row a place and time.
@@ -54,6 +54,7 @@ namespace scree
     /// Writes rows that the disk did not take. Throws FileError if it still refuses them.
     void complete();
 
+    /// Saves or loads the state of the files, and that of the wall forces (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -23,6 +23,7 @@ namespace scree
                const BoundaryConditions<dim> &walls,
                const WaterBoundaryConditions<dim> *water_walls);
 
+    /// Names of the columns of collect(), with their unit.
     std::vector<std::string> names() const;
 
     /// The forces since the last call, nan at the first one: of the soil and of the water (what walls take of their
@@ -33,6 +34,7 @@ namespace scree
     /// @param view null in a dry scene
     std::vector<double> collect(const Budget<dim> &totals, const double time, const WaterView<dim> *view);
 
+    /// Saves or loads time and impulses of the last call (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -11,6 +11,7 @@
 
 namespace scree
 {
+  /// A number a vertex of the cells, distributed over ranks, with ghosts.
   using VertexVector = dealii::LinearAlgebra::distributed::Vector<double>;
 
   /// What the pressure is at a vertex of the cells.
@@ -61,6 +62,7 @@ namespace scree
     /// Sets a pressure (or its change) at the vertices beside the surface. Collective; ghosts hold values afterwards.
     void extrapolate(const Mixture<dim> &mixture, VertexVector &pressure);
 
+    /// Type of a vertex of this rank's cells, ghosts included, as locate() has found it.
     PressureDofType kind(const unsigned int vertex) const
     {
       return kinds[vertex];

@@ -12,13 +12,13 @@
 namespace scree
 {
   /// The pore pressure p at the vertices of the cells: where the water ends, p at the start of a step, and the system
-  /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (Kularathna et al. 2021; Yuan et al. 2023), with the drag in
+  /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (@source{kularathna2021}; @source{yuan2023}), with the drag in
   /// L.
   template <int dim>
   class PorePressure
   {
   public:
-    using AtVertices = std::array<double, (1 << dim)>;
+    using AtVertices = std::array<double, (1 << dim)>; ///< a number a vertex of a cell, in deal.II's order
 
     /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
@@ -86,22 +86,28 @@ namespace scree
       return memory.is_on();
     }
 
-    /// Pressure at the vertices of a cell with points, Pa, in deal.II's order; its change; what the next step forgets
-    /// of it, 0 to 1; any other vector.
+    /// Pressure at the vertices of a cell with points, Pa, in deal.II's order.
     AtVertices pressure_of(const unsigned int cell) const
     {
       return at_vertices(pressure, cell);
     }
+
+    /// Change of the pressure over the step at the vertices of a cell, Pa.
     AtVertices change_of(const unsigned int cell) const
     {
       return at_vertices(change, cell);
     }
+
+    /// Part of the pressure at the vertices of a cell that the next step does not start from, 0 to 1.
     AtVertices forgotten_of(const unsigned int cell) const
     {
       return memory.forgotten_at(vertices_of(cell));
     }
+
+    /// Values of a vector at the vertices of a cell.
     AtVertices at_vertices(const VertexVector &values, const unsigned int cell) const;
 
+    /// The free surface, as locate() has found it.
     const FreeSurface<dim> &free_surface() const
     {
       return surface;

@@ -22,8 +22,8 @@ namespace scree
   class PressureMemory
   {
   public:
-    using AtVertices  = std::array<double, (1 << dim)>;
-    using SpeedOfCell = std::function<double(const unsigned int cell)>;
+    using AtVertices  = std::array<double, (1 << dim)>; ///< a number a vertex of a cell, in deal.II's order
+    using SpeedOfCell = std::function<double(const unsigned int cell)>; ///< v^2 of a cell, m^2/s^2
 
     /// @param steepness s; 0: nothing is forgotten
     /// @param cell_size h, m
@@ -32,6 +32,7 @@ namespace scree
                    const WaterParameters &water,
                    const double cell_size);
 
+    /// Whether the next step starts from less than the whole pressure.
     bool is_on() const
     {
       return steepness > 0.;

@@ -15,6 +15,7 @@ namespace scree
   class PressureNumbering
   {
   public:
+    /// Keeps references to both; no vertex has a number yet.
     PressureNumbering(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &vertices);
 
     /// Forgets what belongs to another partition of the mesh.
@@ -36,6 +37,7 @@ namespace scree
       return number_of_corner[vertex];
     }
 
+    /// Vertex of a local number.
     unsigned int vertex(const unsigned int number) const
     {
       return corner_of_number[number];

@@ -17,16 +17,18 @@ namespace scree
   class PressureOperator
   {
   public:
-    static constexpr unsigned int n_vertices = 1 << dim;
-    using CellMatrix                         = std::array<std::array<double, n_vertices>, n_vertices>;
+    static constexpr unsigned int n_vertices = 1 << dim;                       ///< vertices of a cell
+    using CellMatrix = std::array<std::array<double, n_vertices>, n_vertices>; ///< matrix of a cell, by its vertices
 
+    /// A cell that holds water.
     struct Cell
     {
-      std::array<unsigned int, n_vertices> numbers;
-      double mobility;   ///< dt kappa h^(dim-2), m^3/(Pa s)
-      double projection; ///< m^3/(Pa s)
+      std::array<unsigned int, n_vertices> numbers; ///< local numbers of its vertices
+      double mobility;                              ///< dt kappa h^(dim-2), m^3/(Pa s)
+      double projection;                            ///< tau of the pressure projection times volume, m^3/(Pa s)
     };
 
+    /// Keeps references to all of them.
     PressureOperator(const BackgroundGrid<dim> &grid,
                      const NodeNumbering<dim> &vertices,
                      const PressureNumbering<dim> &numbering);
@@ -50,11 +52,13 @@ namespace scree
     /// Makes unknown again what hold() took out.
     void release();
 
+    /// Whether the pressure of a local number is a degree of freedom, and not held.
     bool is_unknown(const unsigned int number) const
     {
       return unknown[number];
     }
 
+    /// How many numbers this rank owns.
     unsigned int n_owned() const
     {
       return diagonal.size();
@@ -72,6 +76,7 @@ namespace scree
       return diagonal[number];
     }
 
+    /// Cells of this rank that hold water.
     const std::vector<Cell> &cells() const
     {
       return wet_cells;
@@ -87,11 +92,13 @@ namespace scree
       return own;
     }
 
+    /// Numbering of the vectors.
     const PressureNumbering<dim> &numbers() const
     {
       return numbering;
     }
 
+    /// Communicator of the mesh.
     MPI_Comm communicator() const
     {
       return grid.triangulation().get_communicator();

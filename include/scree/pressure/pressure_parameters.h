@@ -11,12 +11,12 @@ namespace scree
   /// Subsection Pressure of subsection Water.
   struct PressureParameters
   {
-    double relative_tolerance       = 1e-4;
-    unsigned int maximum_iterations = 500;
-    std::string previous_pressure   = "affine";
-    double fading                   = 0;    ///< steepness s of PressureMemory
-    double projection               = 0;    ///< tau of the pressure projection, in units of 1/(2 G)
-    double cavitation_pressure      = -1e5; ///< Pa
+    double relative_tolerance       = 1e-4;     ///< of the residual, over the right-hand side
+    unsigned int maximum_iterations = 500;      ///< the run ends with an error beyond them
+    std::string previous_pressure   = "affine"; ///< affine | average
+    double fading                   = 0;        ///< steepness s of PressureMemory
+    double projection               = 0;        ///< tau of the pressure projection, in units of 1/(2 G)
+    double cavitation_pressure      = -1e5;     ///< Pa
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);

@@ -16,8 +16,8 @@ namespace scree
   /// What a pressure solve took.
   struct SolveReport
   {
-    unsigned int n_iterations = 0;
-    bool made_preconditioner  = false;
+    unsigned int n_iterations = 0;     ///< iterations of conjugate gradients
+    bool made_preconditioner  = false; ///< whether the preconditioner was set up anew
   };
 
   /// The system for the change of the pressure, L dp = b, on the vertices of the cells that hold water.
@@ -29,6 +29,7 @@ namespace scree
   class PressureSolver
   {
   public:
+    /// Keeps references to grid and vertices.
     PressureSolver(const BackgroundGrid<dim> &grid,
                    const NodeNumbering<dim> &vertices,
                    const PressureParameters &parameters);
@@ -55,7 +56,7 @@ namespace scree
 
     /// Keeps the pressure from falling below `least`, Pa: where the solution of solve(), in `change`, would take it
     /// there, it is prescribed, and the mixture opens; it is set free again where the mixture would close, L dp < b.
-    /// A primal-dual active set (Hintermueller, Ito & Kunisch 2002): nothing is solved if no vertex is below. To be
+    /// A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is below. To be
     /// called right after solve(). Collective; throws as solve().
     /// @return what the solves took; the owned vertices that are held at `least`
     std::pair<SolveReport, unsigned int>
@@ -76,7 +77,7 @@ namespace scree
     };
 
     /// At most this many steps of conjugate gradients on `solution`, until the residual is below the tolerance. The
-    /// sums over all ranks are taken together, once a step (Chronopoulos & Gear 1989); they also tell the residual at
+    /// sums over all ranks are taken together, once a step (@source{chronopoulos1989}); they also tell the residual at
     /// the step's end.
     Iterations iterate(const unsigned int most);
 

@@ -9,9 +9,10 @@
 
 namespace scree
 {
+  /// How a command line has ended.
   struct Ending
   {
-    int exit_code;
+    int exit_code;        ///< 0: done; 1: error; 3: stopped on request
     bool others_may_wait; ///< an error that may have struck this rank alone: no collective call after it, but MPI_Abort
   };
 

@@ -21,8 +21,8 @@ namespace scree
     const RunTotals<dim> &totals;    ///< of this rank
     const UpdateReport &last_update; ///< of this rank
     double time;                     ///< s
-    unsigned long long step;
-    double time_step; ///< the last one, s
+    unsigned long long step;         ///< number of the time step
+    double time_step;                ///< the last one, s
   };
 
   /// What is written of a run to be looked at: statistics, probes, maps and pictures.
@@ -38,6 +38,8 @@ namespace scree
 
     /// Output of the state as it is. Collective.
     void write_row(const RunState<dim> &state);
+
+    /// Pictures, lines and maps of the state as it is. Collective.
     void write_picture(const RunState<dim> &state);
 
     /// Brings all rows to the disk, before a checkpoint counts on them.
@@ -56,6 +58,7 @@ namespace scree
       return statistics.step_of_last_row();
     }
 
+    /// Saves or loads the state of all files (Boost).
     template <class Archive>
     void serialize(Archive &archive)
     {

@@ -59,19 +59,26 @@ namespace scree
     {
       results.write_row(state());
     }
+
+    /// Pictures, lines and maps of the state as it is. Collective.
     void write_picture()
     {
       results.write_picture(state());
     }
 
+    /// Bodies of soil with the points of this rank.
     const std::list<SoilBody<dim>> &bodies() const
     {
       return scene.bodies;
     }
+
+    /// The water; empty in a dry scene.
     const std::list<WaterPhase<dim>> &water_phases() const
     {
       return scene.water;
     }
+
+    /// Mesh and nodes of the velocity.
     const BackgroundGrid<dim> &background_grid() const
     {
       return scene.grid;
@@ -88,14 +95,20 @@ namespace scree
     {
       return timer;
     }
+
+    /// Time at the end of the last step, s.
     double time() const
     {
       return clock.time();
     }
+
+    /// End of the run, s.
     double end_time() const
     {
       return parameters.end_time;
     }
+
+    /// Whether the end of the run is reached, within rounding.
     bool is_at_end() const
     {
       return output_times.is_end(clock.time());

@@ -58,8 +58,11 @@ namespace scree
 
     /// Throw if the motion is unstable.
     void require_stable_step(const double largest_step, const double first_step) const;
+
+    /// Throws if a point moves by two cells or more in a step, s.
     void require_stable_speed(const double time_step) const;
 
+    /// Saves or loads the speeds of the last step (Boost).
     template <class Archive>
     void serialize(Archive &archive)
     {

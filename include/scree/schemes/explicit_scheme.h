@@ -17,6 +17,8 @@ namespace scree
   class ExplicitScheme : public Scheme<dim>
   {
   public:
+    /// Makes a field for each group of bodies.
+    /// @param model its members are kept by reference
     ExplicitScheme(const Model<dim> &model, dealii::TimerOutput &timer);
 
     void reinit() override;

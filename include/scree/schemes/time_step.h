@@ -12,11 +12,12 @@ namespace scree
   /// Subsection Time step.
   struct TimeStepParameters
   {
-    double courant_number    = 0.6;
-    double advection_number  = 0.3;
+    double courant_number    = 0.6;    ///< bound of (wave speed + speed) dt/h
+    double advection_number  = 0.3;    ///< bound of speed dt/h
     std::string maximum      = "auto"; ///< the entry: s, or auto
     double maximum_time_step = 1e-2;   ///< s, what choose_maximum() has made of the entry
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if the maximum is no number.
@@ -44,6 +45,7 @@ namespace scree
   class TimeStepper
   {
   public:
+    /// Starts at t = 0 and step 0.
     explicit TimeStepper(const TimeStepParameters &parameters);
 
     /// Largest step, s: Courant number times cell size over (wave speed + speed), advection number times cell size over
@@ -63,14 +65,19 @@ namespace scree
     /// time.
     void advance(const double time_step, const double due);
 
+    /// Time at the end of the last step, s.
     double time() const
     {
       return current_time;
     }
+
+    /// Number of steps since the start.
     unsigned long long step() const
     {
       return n_steps;
     }
+
+    /// Goes on from the time, s, and step of a checkpoint.
     void set(const double time, const unsigned long long step)
     {
       current_time = time;

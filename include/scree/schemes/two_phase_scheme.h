@@ -13,8 +13,8 @@
 
 namespace scree
 {
-  /// Soil and water: explicit soil, implicit drag, and pressure by an incremental fractional step (Kularathna et al.
-  /// 2021; Yuan et al. 2023; two sets of points: Xie, Navas & Lopez-Querol 2024).
+  /// Soil and water: explicit soil, implicit drag, and pressure by an incremental fractional step
+  /// (@source{kularathna2021}; @source{yuan2023}; two sets of points: @source{xie2024}).
   ///
   /// 1. Predictor with the old pressure: A v* = m v + dt (f - G p^n), where A holds masses and drag (TwoPhaseMomentum).
   ///    Then the viscosity: (A + dt K) v** = A v* (ViscousStep).
@@ -28,6 +28,8 @@ namespace scree
   class TwoPhaseScheme : public Scheme<dim>
   {
   public:
+    /// Makes fields and operators.
+    /// @param model its members are kept by reference
     TwoPhaseScheme(const Model<dim> &model, dealii::TimerOutput &timer);
 
     void reinit() override;

@@ -18,7 +18,7 @@ namespace scree
   /// Where a body is and how densely it is filled with points.
   struct SeedingParameters
   {
-    std::string region = "0";
+    std::string region = "0";             ///< expression; true where the body is
     SourceMapParameters source;           ///< maps that bound the region, too
     std::shared_ptr<const SourceMap> map; ///< of them, once they are read; null without
     unsigned int points_per_cell = 4;     ///< along each axis
@@ -50,6 +50,7 @@ namespace scree
     double bulk_density;                            ///< dry, kg/m^3
     std::shared_ptr<const SourceMap> map = nullptr; ///< that bounds it, too; null without
 
+    /// The region as a function of place.
     template <int dim>
     Region<dim> places() const
     {

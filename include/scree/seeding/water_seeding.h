@@ -13,7 +13,7 @@ namespace scree
   /// A part of the water's region, as an expression, and how much room there is for water.
   struct WaterPart
   {
-    std::string region;
+    std::string region;     ///< expression; true inside
     double porosity;        ///< 1 outside the soil
     const SoilRegion *soil; ///< null outside
   };

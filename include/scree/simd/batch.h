@@ -28,12 +28,14 @@ namespace scree
   /// The functions of a `Number`, which is double or Batch: kernels are written once for both.
   namespace simd
   {
+    /// Comparisons of batches: all bits of a lane are set where they hold, else none.
     using BatchBits = std::int64_t __attribute__((vector_size(batch_size * sizeof(double))));
 
+    /// Result of comparisons of a Number.
     template <typename Number>
     struct MaskOf
     {
-      using type = std::conditional_t<std::is_same_v<Number, double>, bool, BatchBits>;
+      using type = std::conditional_t<std::is_same_v<Number, double>, bool, BatchBits>; ///< bool or BatchBits
     };
 
     /// The type of comparisons; combine them by &, | and !.
@@ -51,8 +53,9 @@ namespace scree
                                             std::uint64_t __attribute__((vector_size(batch_size * sizeof(double))))>;
 
     template <typename Number>
-    constexpr unsigned int n_lanes = sizeof(Number) / sizeof(double);
+    constexpr unsigned int n_lanes = sizeof(Number) / sizeof(double); ///< lanes of a Number: 1 or batch_size
 
+    /// A Number with this value in all lanes.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number broadcast(const double value)
     {
@@ -68,6 +71,7 @@ namespace scree
         }
     }
 
+    /// Lane by lane `yes` where the condition holds, else `no`.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number select(const Mask<Number> &condition, const Number &yes, const Number &no)
     {
@@ -79,6 +83,8 @@ namespace scree
     {
       return mask;
     }
+
+    /// Lane l becomes bit l.
     DEAL_II_ALWAYS_INLINE inline unsigned int bits_of(const BatchBits &mask)
     {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
@@ -93,30 +99,38 @@ namespace scree
 #endif
     }
 
+    /// Whether the condition holds in any lane.
     template <typename MaskType>
     DEAL_II_ALWAYS_INLINE inline bool any(const MaskType &mask)
     {
       return bits_of(mask) != 0;
     }
 
+    /// The lane of a number: itself.
     inline double lane(const double value, const unsigned int)
     {
       return value;
     }
+
+    /// A lane of a batch.
     inline double lane(const Batch &value, const unsigned int lane)
     {
       return value[lane];
     }
 
+    /// Sets the lane of a number: itself.
     inline void set_lane(double &number, const unsigned int, const double value)
     {
       number = value;
     }
+
+    /// Sets a lane of a batch.
     inline void set_lane(Batch &number, const unsigned int lane, const double value)
     {
       number[lane] = value;
     }
 
+    /// The bits of a Number, read as integers.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Bits<Number> to_bits(const Number &value)
     {
@@ -125,6 +139,7 @@ namespace scree
       return bits;
     }
 
+    /// The Number that has these bits.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number from_bits(const Bits<Number> &bits)
     {
@@ -133,6 +148,7 @@ namespace scree
       return value;
     }
 
+    /// The absolute value; clears the sign bit.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number abs(const Number &x)
     {
@@ -153,6 +169,7 @@ namespace scree
       return select<Number>(a < b, a, b);
     }
 
+    /// The square root, correctly rounded.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number sqrt(const Number &x)
     {

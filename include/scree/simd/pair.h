@@ -12,20 +12,24 @@ namespace scree
   /// works on one while the other waits.
   struct BatchPair
   {
-    Batch first, second;
+    Batch first, ///< lanes 0 to batch_size - 1
+        second;  ///< lanes from batch_size on
   };
 
   namespace simd
   {
+    /// Result of comparisons of pairs.
     struct PairMask
     {
-      BatchBits first, second;
+      BatchBits first, ///< of the first batches
+          second;      ///< of the second batches
     };
 
+    /// Result of comparisons of pairs.
     template <>
     struct MaskOf<BatchPair>
     {
-      using type = PairMask;
+      using type = PairMask; ///< a mask for each batch
     };
   } // namespace simd
 
@@ -53,14 +57,19 @@ namespace scree
   SCREE_PAIR_OPERATOR(simd::PairMask, ==)
 #undef SCREE_PAIR_OPERATOR
 
+  /// Changes the sign of all lanes.
   DEAL_II_ALWAYS_INLINE inline BatchPair operator-(const BatchPair &a)
   {
     return { -a.first, -a.second };
   }
+
+  /// Adds lane by lane.
   DEAL_II_ALWAYS_INLINE inline BatchPair &operator+=(BatchPair &a, const BatchPair &b)
   {
     return a = a + b;
   }
+
+  /// Multiplies all lanes.
   DEAL_II_ALWAYS_INLINE inline BatchPair &operator*=(BatchPair &a, const double b)
   {
     return a = a * b;
@@ -68,32 +77,44 @@ namespace scree
 
   namespace simd
   {
+    /// Whether both hold, lane by lane.
     DEAL_II_ALWAYS_INLINE inline PairMask operator&(const PairMask &a, const PairMask &b)
     {
       return { a.first & b.first, a.second & b.second };
     }
+
+    /// Whether one of them holds, lane by lane.
     DEAL_II_ALWAYS_INLINE inline PairMask operator|(const PairMask &a, const PairMask &b)
     {
       return { a.first | b.first, a.second | b.second };
     }
+
+    /// Whether it does not hold, lane by lane.
     DEAL_II_ALWAYS_INLINE inline PairMask operator!(const PairMask &a)
     {
       return { !a.first, !a.second };
     }
+
+    /// Lane l becomes bit l.
     DEAL_II_ALWAYS_INLINE inline unsigned int bits_of(const PairMask &mask)
     {
       return bits_of(mask.first) | bits_of(mask.second) << batch_size;
     }
+
+    /// Whether the condition holds in any lane.
     DEAL_II_ALWAYS_INLINE inline bool any(const PairMask &mask)
     {
       return bits_of(mask.first | mask.second) != 0;
     }
 
+    /// See broadcast().
     template <>
     DEAL_II_ALWAYS_INLINE inline BatchPair broadcast<BatchPair>(const double value)
     {
       return { broadcast<Batch>(value), broadcast<Batch>(value) };
     }
+
+    /// See select().
     template <>
     DEAL_II_ALWAYS_INLINE inline BatchPair
     select<BatchPair>(const PairMask &condition, const BatchPair &yes, const BatchPair &no)
@@ -101,16 +122,22 @@ namespace scree
       return { select<Batch>(condition.first, yes.first, no.first),
                select<Batch>(condition.second, yes.second, no.second) };
     }
+
+    /// See abs().
     template <>
     DEAL_II_ALWAYS_INLINE inline BatchPair abs<BatchPair>(const BatchPair &x)
     {
       return { abs<Batch>(x.first), abs<Batch>(x.second) };
     }
+
+    /// See exp().
     template <>
     DEAL_II_ALWAYS_INLINE inline BatchPair exp<BatchPair>(const BatchPair &x)
     {
       return { exp<Batch>(x.first), exp<Batch>(x.second) };
     }
+
+    /// See log().
     template <>
     DEAL_II_ALWAYS_INLINE inline BatchPair log<BatchPair>(const BatchPair &x)
     {

@@ -36,10 +36,10 @@ namespace scree
 
   namespace simd
   {
-    using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double))));
+    using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double)))); ///< a register of two doubles
 
 #if defined(__AVX2__)
-    using FourDoubles = double __attribute__((vector_size(4 * sizeof(double))));
+    using FourDoubles = double __attribute__((vector_size(4 * sizeof(double)))); ///< a register of four doubles
 
     /// Four doubles from `first` on of the records of lanes `l`, l + 4, ...
     DEAL_II_ALWAYS_INLINE inline Batch
@@ -204,6 +204,7 @@ namespace scree
       return batch;
     }
 
+    /// Writes `batch_size` doubles one behind the other.
     DEAL_II_ALWAYS_INLINE inline void store(const Batch &batch, double *values)
     {
       std::memcpy(values, &batch, sizeof(batch));

@@ -25,11 +25,13 @@ namespace scree
     double work        = 0;                        ///< of both at the obstacle's velocity, on soil and water, J
     double dissipation = 0;                        ///< energy that is lost in contact, J
 
+    /// Adds the members of another balance.
     ObstacleBalance &operator+=(const ObstacleBalance &other);
 
     /// Adds the moment of an impulse, N s, on an arm from the pivot, m.
     void add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse);
 
+    /// Saves or loads all members (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
@@ -42,9 +44,10 @@ namespace scree
   template <int dim>
   struct Budget
   {
-    dealii::Tensor<1, dim> wall_impulse;       ///< N s
-    WallImpulses<dim> soil_walls, water_walls; ///< the same of each face of the box, without what settling damps
-    dealii::Tensor<1, dim> body_impulse;       ///< gravity and body force, N s
+    dealii::Tensor<1, dim> wall_impulse; ///< N s
+    WallImpulses<dim> soil_walls,        ///< of each face on the soil, without what settling damps, N s
+        water_walls;                     ///< of each face on the water, N s
+    dealii::Tensor<1, dim> body_impulse; ///< gravity and body force, N s
     dealii::Tensor<1, dim>
         pressure_impulse;                ///< sum over soil and water of -V grad p: walls and surfaces push back, N s
     dealii::Tensor<1, dim> load_impulse; ///< of the surface load, N s
@@ -59,10 +62,12 @@ namespace scree
     double correction_work     = 0;              ///< of the volume correction against gravity, J
 
     // Counts; doubles hold them exactly and travel like the rest.
-    double n_iterations = 0, n_preconditioners = 0; // on the writing rank only
-    double n_viscous_iterations = 0;                // on the writing rank only
-    double n_cavitating         = 0;                // corners of this rank held at the cavitation pressure
+    double n_iterations         = 0, ///< of pressure solves; on the writing rank only
+        n_preconditioners       = 0; ///< set up anew; on the writing rank only
+    double n_viscous_iterations = 0; ///< of viscous solves; on the writing rank only
+    double n_cavitating         = 0; ///< vertices of this rank held at the cavitation pressure
 
+    /// Adds the members of another budget, those of obstacles one by one.
     Budget &operator+=(const Budget &other);
 
     /// Impulse of all obstacles without that against the water's pressure, N s.
@@ -71,6 +76,7 @@ namespace scree
     /// Work less dissipation of all obstacles, J.
     double obstacle_energy() const;
 
+    /// Saves or loads all members (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -47,6 +47,7 @@ namespace scree
   class TimedPart
   {
   public:
+    /// Starts the timing of `part`.
     TimedPart(dealii::TimerOutput &timer, const TimerSection part)
         : scope(timer, name_of(part))
     {

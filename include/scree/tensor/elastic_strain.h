@@ -19,6 +19,8 @@ namespace scree
   public:
     ElasticStrain() = default;
 
+    /// Decomposes 1/2 ln b.
+    /// @param b components of a left Cauchy-Green tensor, see tensor/components.h
     DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
         : frame(b)
         , principal(log_strain(frame.values()))
@@ -50,7 +52,8 @@ namespace scree
     }
 
     Number volume;               ///< tr
-    Number deviator[4], square;  ///< components, and their |dev|^2
+    Number deviator[4],          ///< components of dev(eps)
+        square;                  ///< |dev(eps)|^2
     simd::Mask<Number> is_valid; ///< else b is no left Cauchy-Green tensor
 
   private:
@@ -68,6 +71,8 @@ namespace scree
   public:
     ElasticStrain() = default;
 
+    /// Decomposes 1/2 ln b by a series.
+    /// @param b components of a left Cauchy-Green tensor, see tensor/components.h
     DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
     {
       const Number mean = (b[0] + b[1] + b[2]) * (1. / 3.), inverse = 1. / mean;
@@ -94,6 +99,7 @@ namespace scree
                2. * (deviator[3] * deviator[3] + deviator[4] * deviator[4] + deviator[5] * deviator[5]);
     }
 
+    /// Components of b of this volume strain and `factor` times the deviator.
     DEAL_II_ALWAYS_INLINE inline void
     left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
     {
@@ -132,8 +138,9 @@ namespace scree
       return root;
     }
 
-    Number volume;
-    Number deviator[6], square;
+    Number volume;               ///< tr(eps)
+    Number deviator[6],          ///< components of dev(eps)
+        square;                  ///< |dev(eps)|^2
     simd::Mask<Number> is_valid; ///< else b is far from a sphere, or no left Cauchy-Green tensor
 
   private:

@@ -16,7 +16,7 @@ namespace scree
                0.5 * simd::log<Number>(left_cauchy_green[2]) } };
   }
 
-  /// Exponential map (Simo 1992): b = sum exp(2 strain_i) n_i n_i along the axes of `frame`.
+  /// Exponential map (@source{simo1992}): b = sum exp(2 strain_i) n_i n_i along the axes of `frame`.
   template <int dim, typename Number>
   DEAL_II_ALWAYS_INLINE inline void
   left_cauchy_green_of(const PrincipalFrame<dim, Number> &frame, const PrincipalNumbers<Number> &strain, Number *result)

@@ -15,7 +15,7 @@ namespace scree
   /// Three principal values of a symmetric tensor, in no particular order; of one point or of a Batch.
   template <typename Number>
   using PrincipalNumbers = std::array<Number, 3>;
-  using PrincipalValues  = PrincipalNumbers<double>;
+  using PrincipalValues  = PrincipalNumbers<double>; ///< principal values of one point
 
   /// Principal values of a symmetric tensor given by components, and the way back from the values of an isotropic
   /// function of it, which are equal where the tensor's are. Errors are of the order 1e-16 times the largest principal
@@ -32,6 +32,8 @@ namespace scree
   public:
     PrincipalFrame() = default;
 
+    /// Finds principal values and axes.
+    /// @param tensor components, see tensor/components.h
     DEAL_II_ALWAYS_INLINE inline explicit PrincipalFrame(const Number *tensor)
     {
       const Number mean       = 0.5 * (tensor[0] + tensor[1]);
@@ -44,6 +46,7 @@ namespace scree
       sine             = tensor[3] * inverse;
     }
 
+    /// The larger and the smaller value in the plane, then the one across it.
     const PrincipalNumbers<Number> &values() const
     {
       return principal_values;
@@ -77,6 +80,8 @@ namespace scree
   public:
     PrincipalFrame() = default;
 
+    /// Finds principal values and axes.
+    /// @param tensor components, see tensor/components.h
     DEAL_II_ALWAYS_INLINE inline explicit PrincipalFrame(const Number *tensor)
     {
       const Number tiny = simd::broadcast<Number>(1e-290);
@@ -117,6 +122,7 @@ namespace scree
       };
     }
 
+    /// The value farthest from the others, then the larger and the smaller of these.
     const PrincipalNumbers<Number> &values() const
     {
       return principal_values;

@@ -21,7 +21,7 @@ namespace scree
     std::vector<double> volume;                ///< V at the start of the step, m^3
     std::vector<double> volume_ratio;          ///< J = V/V_0 at its end
     std::vector<double> reference_volume;      ///< V_0, m^3
-    std::size_t pitch = 0;
+    std::size_t pitch = 0;                     ///< doubles from one component of dF to the next
 
     /// Makes room for the points of a block; memory only grows.
     void resize(const unsigned int n_points)
@@ -34,6 +34,7 @@ namespace scree
         list->resize(pitch);
     }
 
+    /// The motion as the laws read it; valid until resize().
     MaterialMotion<dim> material_motion() const
     {
       return {
@@ -44,8 +45,8 @@ namespace scree
 
   /// Cell averages against volumetric locking, on the motion and the stored elastic state of one cell's points.
   ///
-  /// Standard (Coombs et al. 2018): dF becomes (mean dJ / dJ)^(1/3) dF with the cell's volume-weighted mean of dJ.
-  /// Modified (after Xie, Navas & Lopez-Querol 2024, who take the mean of ln J_e): the same, and before it J_e of every
+  /// Standard (@source{coombs2018}): dF becomes (mean dJ / dJ)^(1/3) dF with the cell's volume-weighted mean of dJ.
+  /// Modified (after @source{xie2024}, who take the mean of ln J_e): the same, and before it J_e of every
   /// point becomes that of the cell, sum V / sum (V/J_e); the deviator stays. So the volume that the points would have
   /// without stress stays: the mean of ln J_e loses some where gaps, J_e > 1, mix with soil in contact. The points'
   /// volume follows the mean dJ, too: with the points' own dJ the volumes of a cell drift apart unfelt, until dense

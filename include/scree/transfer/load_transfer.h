@@ -21,6 +21,7 @@ namespace scree
   class LoadTransfer
   {
   public:
+    /// Keeps references to both.
     LoadTransfer(const BackgroundGrid<dim> &grid, SurfaceLoad<dim> &load);
 
     /// Fits the nodes to the grid's current partition. Collective.
@@ -38,6 +39,7 @@ namespace scree
     /// add_to()'s force with the nodes' mean velocity.
     double move(const NodalField<dim> &field, const double time, const double time_step);
 
+    /// The load with its markers.
     SurfaceLoad<dim> &surface_load()
     {
       return load;

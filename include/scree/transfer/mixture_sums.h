@@ -11,7 +11,7 @@ namespace scree
 {
   // What a point of soil or water adds to the sums of its cell of the mixture.
 
-  using EightDoubles = double __attribute__((vector_size(8 * sizeof(double))));
+  using EightDoubles = double __attribute__((vector_size(8 * sizeof(double)))); ///< a register of eight doubles
 
   /// A number for each corner of a cell, in registers: numbers that are stored one by one and read as a vector wait for
   /// each other.

@@ -18,14 +18,17 @@ namespace scree
   /// Subsection Surface load: a traction on a flat patch, which moves with the soil.
   struct SurfaceLoadParameters
   {
-    std::vector<double> lower_corner{ 0., 0. }, upper_corner{ 0., 0. }; ///< of the patch, m
-    std::string traction; ///< Pa, of x, y (z) and t, one expression an axis; empty: no load
+    std::vector<double> lower_corner{ 0., 0. }, ///< of the patch, m
+        upper_corner{ 0., 0. };                 ///< of the patch, m
+    std::string traction;                       ///< Pa, of x, y (z) and t, one expression an axis; empty: no load
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.
     void check(const GridParameters &grid, const unsigned int dim) const;
 
+    /// Whether there is a load.
     bool is_set() const
     {
       return !traction.empty();
@@ -72,10 +75,13 @@ namespace scree
       return normal;
     }
 
+    /// The markers, which move with the soil.
     PointSet<dim> &points()
     {
       return markers;
     }
+
+    /// Read-only access.
     const PointSet<dim> &points() const
     {
       return markers;

@@ -16,7 +16,7 @@ namespace scree
   struct MotionReport
   {
     double largest_speed = 0; ///< m/s; not a number if any point's is not
-    UpdateReport material;
+    UpdateReport material;    ///< what the stress updates reported
   };
 
   /// Carries mass, momentum and force from points to nodes, and velocity back.
@@ -24,6 +24,7 @@ namespace scree
   class Transfer
   {
   public:
+    /// Keeps a reference to the grid; copies the entries.
     Transfer(const BackgroundGrid<dim> &grid,
              const TransferParameters &transfer,
              const StabilisationParameters &stabilisation);

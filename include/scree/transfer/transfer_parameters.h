@@ -13,9 +13,9 @@ namespace scree
   {
     flip, ///< points keep their velocity and take the nodes' change; blended with PIC at a rate in 1/s
     pic,  ///< points take the nodes' velocity
-    apic, ///< as PIC, with an affine field per point that keeps angular momentum (Jiang et al. 2015)
+    apic, ///< as PIC, with an affine field per point that keeps angular momentum (@source{jiang2015})
     tpic, ///< as PIC, with the velocity gradient per point (Taylor expansion)
-    aflip ///< as FLIP, and what travels to the nodes has the nodes' last velocity gradient, as in TPIC
+    aflip ///< as FLIP, and the nodes get the points' velocity gradient, too, as in TPIC (@source{fei2021})
   };
 
   /// Whether points keep a velocity of their own, which they forget at a rate.
@@ -40,17 +40,18 @@ namespace scree
   enum class FBar
   {
     none,
-    standard, ///< the cell's mean volume change drives the material (Coombs et al. 2018)
-    modified  ///< and stored elastic volume strain and volume follow the cell's mean (after Xie et al. 2024)
+    standard, ///< the cell's mean volume change drives the material (@source{coombs2018})
+    modified  ///< and stored elastic volume strain and volume follow the cell's mean (after @source{xie2024})
   };
 
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method = "FLIP";
+    std::string method = "FLIP"; ///< FLIP | PIC | APIC | TPIC | AFLIP
     std::string rate   = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
     double pic_rate    = 1;      ///< 1/s, what choose_rate() has made of the entry
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at a rate that is none, or that the method does not read.
@@ -66,16 +67,22 @@ namespace scree
     /// The method, and its rate if it has one, as the log tells it.
     std::string text() const;
 
+    /// Entry `Method` as an enum.
     TransferMethod transfer_method() const;
+
+    /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
   };
 
   /// Subsection Stabilisation.
   struct StabilisationParameters
   {
-    std::string f_bar = "modified";
+    std::string f_bar = "modified"; ///< none | standard | modified
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Entry `F-bar` as an enum.
     FBar f_bar_kind() const;
   };
 } // namespace scree

@@ -17,10 +17,12 @@ namespace scree
   template <int dim, int n>
   struct BatchShape
   {
-    const OpenKnots open;
-    const std::array<Batch, dim> x; ///< places in the cell
-    const CellBasis<dim, n, Batch> basis;
+    const OpenKnots open;                 ///< walls that the cell touches
+    const std::array<Batch, dim> x;       ///< places in the cell
+    const CellBasis<dim, n, Batch> basis; ///< shape functions along the axes
 
+    /// Evaluates the shape functions.
+    /// @param places of the points in the cell, from 0 to 1 along each axis
     BatchShape(const RecordPointers<const double> &places, const OpenKnots open)
         : open(open)
         , x(read(places))

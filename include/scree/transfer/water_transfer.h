@@ -28,6 +28,7 @@ namespace scree
     static constexpr unsigned int wet_pores  = 4; ///< sum S n V phi_i of the soil in cells with water, m^3
     static constexpr unsigned int soil_share = 4; ///< then: soil_share(), -
 
+    /// Makes room on the nodes of the grid, which must live on.
     explicit PoreField(const BackgroundGrid<dim> &grid)
         : NodeValues<dim, 5>(grid.numbering())
     {
@@ -49,8 +50,9 @@ namespace scree
   template <int dim>
   struct MixtureNodes
   {
-    NodalField<dim> &soil, &water;
-    PoreField<dim> &pores;
+    NodalField<dim> &soil, ///< mass, momentum and force of the soil, then its velocity
+        &water;            ///< mass, momentum and force of the water, then its velocity
+    PoreField<dim> &pores; ///< drag, grains and pores
 
     /// Ghosts get the velocities that their owners have. Collective.
     void update_velocity_ghosts() const
@@ -64,7 +66,7 @@ namespace scree
   template <int dim>
   struct CellPressure
   {
-    Multilinear<dim> value;
+    Multilinear<dim> value;                    ///< Pa
     std::optional<Multilinear<dim>> forgotten; ///< none: nothing
   };
 

@@ -13,8 +13,8 @@ namespace scree
   template <int dim>
   struct WaterView
   {
-    const std::list<WaterPhase<dim>> &water;
-    const NodalField<dim> &field; ///< the water's, solved: its mass and velocity are read
+    const std::list<WaterPhase<dim>> &water; ///< points of the water
+    const NodalField<dim> &field;            ///< the water's, solved: its mass and velocity are read
     /// Asked for the cells of this rank that hold points; 0 where there is no pressure.
     PressureOfCell<dim> pressure_of_cell;
   };

@@ -21,10 +21,13 @@ namespace scree
   class ViscousForce
   {
   public:
+    /// Keeps a reference to the grid.
     ViscousForce(const BackgroundGrid<dim> &grid, const WaterParameters &water);
 
     /// Viscosity times volume of this rank's points, Pa s m^3 (2D: per m), in their order; empty if all are 0.
     std::vector<double> coefficients(const WaterPhase<dim> &water) const;
+
+    /// The same of suspended soil.
     std::vector<double> coefficients(const SoilBody<dim> &soil) const;
 
     /// Adds the force of points with these coefficients, of the velocity of `motion`, whose ghosts hold values, to that

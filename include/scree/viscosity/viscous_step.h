@@ -20,6 +20,7 @@ namespace scree
   class ViscousStep
   {
   public:
+    /// Keeps references to all but the parameters.
     ViscousStep(const BackgroundGrid<dim> &grid,
                 const WaterParameters &parameters,
                 const std::list<SoilBody<dim>> &bodies,

@@ -22,7 +22,7 @@ namespace scree
   class Inflow
   {
   public:
-    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
+    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator; ///< cells of the mesh
 
     /// A point of a layer.
     struct Place
@@ -105,7 +105,7 @@ namespace scree
     /// Tells the mixture of what has entered of the next layer, water and wet grains.
     void add_to(Mixture<dim> &mixture) const;
 
-    const std::string name;
+    const std::string name;   ///< name of its subsection without the prefix
     const std::string body;   ///< that it feeds, or Water
     const std::string region; ///< the entry
     const bool brings_soil;   ///< or only water

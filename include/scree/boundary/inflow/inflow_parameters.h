@@ -32,11 +32,13 @@ namespace scree
     std::string direction;               ///< one number an axis; empty: the face's inward normal
     double end_time = -1;                ///< s; below 0: that of the run
 
+    /// @param subsection prefix and name
     explicit InflowParameters(const std::string &subsection)
         : subsection(subsection)
     {
     }
 
+    /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.
@@ -49,6 +51,7 @@ namespace scree
       return subsection.substr(prefix.size());
     }
 
+    /// Whether it brings water without soil.
     bool is_water() const
     {
       return body == "Water";

@@ -12,13 +12,15 @@
 namespace scree
 {
   /// Contact of two groups of dry bodies, each with a velocity field of its own, by impulses at the nodes that both act
-  /// on (Bardenhagen, Brackbill & Sulsky 2000; Bardenhagen et al. 2001): opposite, against approach only, and along the
+  /// on (@source{bardenhagen2000}; @source{bardenhagen2001}): opposite, against approach only, and along the
   /// surface by Coulomb's law. Points that do not reach each other along the node's normal (ContactNormals) are no
   /// contact yet: they may close the gap.
   template <int dim>
   class BodyContact
   {
   public:
+    /// Keeps references to grid and bodies.
+    /// @param pair the two groups and their friction
     BodyContact(const BackgroundGrid<dim> &grid,
                 const BodyGroup<dim> &first,
                 const BodyGroup<dim> &second,

@@ -11,10 +11,11 @@ namespace scree
   template <int dim>
   struct BodyGroup
   {
-    unsigned int number; ///< SoilBody::group of its bodies
-    NodalField<dim> *field;
-    const Constraints<dim> *constraints;
+    unsigned int number;                 ///< SoilBody::group of its bodies
+    NodalField<dim> *field;              ///< nodal field of the group
+    const Constraints<dim> *constraints; ///< constraints of its nodes
 
+    /// Whether the group has mass at a node, or is rigid there.
     bool acts_on(const unsigned int node) const
     {
       if ((*field)[node][NodalField<dim>::mass] > 0.)

@@ -18,7 +18,7 @@ namespace scree
   ///
   /// The normal at a node, one for both groups, is the best of three: along the gradient of the first group's volume,
   /// along that of the second's, and across the plane that parts the points around the node by linear regression
-  /// (Fisher's discriminant; Nairn, Hammerquist & Smith 2020 part them by regression, too). The best is the one along
+  /// (Fisher's discriminant; @source{nairn2020} part them by regression, too). The best is the one along
   /// which the points, as balls of their size, are the furthest apart, or overlap the least: as bodies that do not
   /// overlap are parted by some plane, this tells the face of one body from the edge of the other. Then normals of
   /// nodes with a cell in common are averaged, as each is rough by the places of points, unless there is a corner
@@ -27,6 +27,8 @@ namespace scree
   class ContactNormals
   {
   public:
+    /// Keeps references to grid and bodies.
+    /// @param pair the two groups and their friction
     ContactNormals(const BackgroundGrid<dim> &grid,
                    const BodyGroup<dim> &first,
                    const BodyGroup<dim> &second,

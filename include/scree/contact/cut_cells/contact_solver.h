@@ -20,8 +20,8 @@ namespace scree
   template <int dim>
   struct GroundContact
   {
-    unsigned int segment; ///< its number
-    Phase phase;
+    unsigned int segment;           ///< its number
+    Phase phase;                    ///< soil or water
     bool is_unilateral;             ///< the ground presses only
     double friction;                ///< coefficient; 0: slips, infinite: sticks. Of a bilateral contact one of these
     double area;                    ///< m^(dim-1)
@@ -64,14 +64,14 @@ namespace scree
   /// Contacts with rigid ground, and the search for their impulses: N A^-1 N^T l = N v where the ground holds them,
   /// with N and A of DelassusOperator, and Coulomb's law.
   ///
-  /// Two sweeps, to and fro, give each contact in turn the impulse that its law wants (projected Gauss-Seidel: Jourdan,
-  /// Alart & Jean 1998), which settles what presses and slides; conjugate gradients then find the impulses that act on
-  /// nearly the same nodes; until each contact obeys its law.
+  /// Two sweeps, to and fro, give each contact in turn the impulse that its law wants (projected Gauss-Seidel:
+  /// @source{jourdan1998}), which settles what presses and slides; conjugate gradients then find the impulses that act
+  /// on nearly the same nodes; until each contact obeys its law.
   template <int dim>
   class ContactSolver
   {
   public:
-    using Vector = dealii::Tensor<1, dim>;
+    using Vector = dealii::Tensor<1, dim>; ///< velocity, m/s, or impulse, N s
 
     /// Both are kept by reference.
     ContactSolver(const BackgroundGrid<dim> &grid, const CutCells<dim> &cut_cells);
@@ -88,6 +88,7 @@ namespace scree
     /// Adds a contact.
     void add(const GroundContact<dim> &contact);
 
+    /// All contacts, with the impulses of the last find().
     const std::vector<GroundContact<dim>> &contacts() const
     {
       return list;

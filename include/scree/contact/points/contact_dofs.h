@@ -30,11 +30,12 @@ namespace scree
     /// The lane beside a vector in a row.
     static constexpr unsigned int beside = 3;
 
-    static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
+    static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int; ///< stands for a node that is not there
 
     /// A bit for each turn of a sweep.
     using Turns = std::uint64_t;
 
+    /// Keeps references to both.
     ContactDofs(const BackgroundGrid<dim> &grid, const Constraints<dim> &constraints);
 
     /// Fits the nodes to the grid's current partition.
@@ -43,6 +44,7 @@ namespace scree
     /// Begins with no nodes.
     void begin();
 
+    /// Number of nodes.
     unsigned int size() const
     {
       return nodes.size();
@@ -81,6 +83,7 @@ namespace scree
       return mobilities[number];
     }
 
+    /// Whether walls hold the node along any axis.
     bool is_held(const unsigned int number) const
     {
       return nodes[number].is_held;
@@ -98,6 +101,7 @@ namespace scree
       return nodes[number].turns;
     }
 
+    /// Notes that this rank's cells change the node in a turn.
     void add_turn(const unsigned int number, const unsigned int turn)
     {
       nodes[number].turns |= Turns(1) << turn;

@@ -21,6 +21,7 @@ namespace scree
   class ContactExchange
   {
   public:
+    /// Keeps references to both.
     ContactExchange(const BackgroundGrid<dim> &grid, ContactDofs<dim> &nodes);
 
     /// Fits the shared nodes to the grid's current partition. Collective.

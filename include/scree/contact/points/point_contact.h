@@ -17,13 +17,14 @@ namespace scree
   template <int dim>
   struct RigidSurface
   {
-    const DiscreteLevelSet<dim> *samples;
+    const DiscreteLevelSet<dim> *samples;      ///< the surface, sampled on the mesh
     double friction_coefficient;               ///< infinite: soil that presses does not slip
     const Raster *friction_map      = nullptr; ///< coefficients in place of it; null: the same everywhere
     bool no_slip                    = false;   ///< whether free water does not slip
     const Obstacle<dim> *obstacle   = nullptr; ///< whose surface it is; null: the bed
     dealii::Tensor<1, dim> velocity = {};      ///< in the current step, m/s
 
+    /// Coefficient of friction at a place, m.
     double friction_at(const dealii::Point<dim> &x) const
     {
       return friction_map ? friction_map->value_at(x[0], x[1]) : friction_coefficient;
@@ -37,7 +38,7 @@ namespace scree
   /// step gets an impulse along the surface's normal, and by Coulomb's law one along the surface, from its velocity
   /// relative to the surface's. Both act at the point's foot on the surface, through the shape functions of the point's
   /// own cell; so neighbours share impulses, which are found by sweeps over the points in turn (projected
-  /// Gauss-Seidel), from those of the step before.
+  /// Gauss-Seidel, @source{jourdan1998}), from those of the step before.
   ///
   /// The order of the sweeps does not depend on how cells are spread over ranks: cells that share no nodes have the
   /// same colour, one colour follows the other, and ranks tell each other what they have changed before another reads

@@ -16,9 +16,10 @@ namespace scree
   /// Entries of subsection "Linear elastic".
   struct LinearElasticParameters
   {
-    double young_modulus = 1e6;
-    double poisson_ratio = 0.3;
+    double young_modulus = 1e6; ///< E, Pa
+    double poisson_ratio = 0.3; ///< nu, -
 
+    /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if a value is impossible.
@@ -26,18 +27,23 @@ namespace scree
 
     /// See LawEntries.
     LawEntry modulus() const;
+
+    /// See LawEntries.
     LawEntry stiffest() const;
+
+    /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
   };
 
-  /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (Hencky 1928; de Souza Neto,
-  /// Peric & Owen 2008, 13.3). Stored energy K/2 tr(eps)^2 + G |dev(eps)|^2.
+  /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (@source{hencky1928};
+  /// @source{desouzaneto2008}, 13.3). Stored energy K/2 tr(eps)^2 + G |dev(eps)|^2.
   class LinearElastic
   {
   public:
-    static constexpr unsigned int n_internal_variables = 0;
-    static constexpr bool is_elastic                   = true;
+    static constexpr unsigned int n_internal_variables = 0;    ///< the law has none
+    static constexpr bool is_elastic                   = true; ///< the law has no plastic strain
 
+    /// Computes bulk and shear modulus, Pa, from E and nu.
     explicit LinearElastic(const LinearElasticParameters &parameters);
 
     /// Largest strain of one return map: no limit, elasticity knows no path.
@@ -53,28 +59,38 @@ namespace scree
     template <typename Number>
     struct Trial
     {
-      Number volume_strain;
+      Number volume_strain; ///< tr(eps), elastic
     };
+
+    /// Trial state of a volume strain; the other arguments are not read.
     template <typename Number>
     Trial<Number> trial(const Number &volume_strain, const Number &, const Number &, const Number *) const
     {
       return { volume_strain };
     }
+
+    /// Whether the strain is a number: every state is elastic.
     template <typename Number>
     simd::Mask<Number> is_admissible(const Trial<Number> &trial) const
     {
       return trial.volume_strain == trial.volume_strain;
     }
+
+    /// Mean Kirchhoff stress K tr(eps), Pa, tension positive.
     template <typename Number>
     Number mean_stress(const Trial<Number> &trial) const
     {
       return bulk * trial.volume_strain;
     }
+
+    /// Bulk modulus K, Pa.
     template <typename Number>
     Number bulk_modulus_at(const Number &) const
     {
       return simd::broadcast<Number>(bulk);
     }
+
+    /// Returns no point: the law has no yield surface.
     template <typename Number>
     simd::Mask<Number>
     return_to_surface(const Trial<Number> &, const simd::Mask<Number> &todo, Number *, InvariantReturn<Number> &) const
@@ -102,8 +118,13 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
+    /// No internal variables.
     static std::vector<Quantity> internal_quantities();
+
+    /// No derived fields.
     static std::vector<Quantity> output_quantities();
+
+    /// Writes nothing, see output_quantities().
     void output(const PrincipalValues &strain,
                 const double *internal_variables,
                 const double volume_ratio,

@@ -10,13 +10,14 @@ namespace scree
   /// Entries of subsection "Mohr-Coulomb"; angles in degrees.
   struct MohrCoulombParameters
   {
-    double young_modulus   = 1e6;
-    double poisson_ratio   = 0.3;
-    double friction_angle  = 30;
-    double dilation_angle  = 0;
-    double cohesion        = 0;
-    double tension_cut_off = 0;
+    double young_modulus   = 1e6; ///< E, Pa
+    double poisson_ratio   = 0.3; ///< nu, -
+    double friction_angle  = 30;  ///< phi, degrees
+    double dilation_angle  = 0;   ///< psi, degrees
+    double cohesion        = 0;   ///< c, Pa
+    double tension_cut_off = 0;   ///< largest principal stress, Pa; at most c cot(phi)
 
+    /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if a combination is impossible.
@@ -24,12 +25,16 @@ namespace scree
 
     /// See LawEntries.
     LawEntry modulus() const;
+
+    /// See LawEntries.
     LawEntry stiffest() const;
+
+    /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
   };
 
 
-  /// Perfectly plastic Mohr-Coulomb with tension cut-off on Hencky elasticity (de Souza Neto, Peric & Owen 2008, 8.2).
+  /// Perfectly plastic Mohr-Coulomb with tension cut-off on Hencky elasticity (@source{desouzaneto2008}, 8.2).
   ///
   /// With sorted principal Kirchhoff stresses, f_ij = (1 + sin phi) tau_i - (1 - sin phi) tau_j - 2 c cos phi <= 0,
   /// flow along (1 + sin psi) n_i - (1 - sin psi) n_j, and tau_i <= cut-off with associated flow. The return finds
@@ -41,9 +46,10 @@ namespace scree
   class MohrCoulomb
   {
   public:
-    static constexpr unsigned int n_internal_variables = 1;
-    static constexpr bool is_elastic                   = false;
+    static constexpr unsigned int n_internal_variables = 1;     ///< plastic shear strain
+    static constexpr bool is_elastic                   = false; ///< the law has plastic strain
 
+    /// Builds the yield surfaces, and the sets of them that a return can meet.
     explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 
     /// No limit: the equations of a return are linear and have one root.
@@ -79,8 +85,13 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
+    /// Plastic shear strain, -.
     static std::vector<Quantity> internal_quantities();
+
+    /// No derived fields.
     static std::vector<Quantity> output_quantities();
+
+    /// Writes nothing, see output_quantities().
     void output(const PrincipalValues &strain,
                 const double *internal_variables,
                 const double volume_ratio,

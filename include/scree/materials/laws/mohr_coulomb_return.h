@@ -11,6 +11,7 @@ namespace scree
   template <typename Number>
   struct Sorted
   {
+    /// Sorts the numbers.
     DEAL_II_ALWAYS_INLINE inline explicit Sorted(const PrincipalNumbers<Number> &numbers)
         : numbers(numbers)
     {
@@ -28,7 +29,7 @@ namespace scree
       return result;
     }
 
-    PrincipalNumbers<Number> numbers;
+    PrincipalNumbers<Number> numbers; ///< in falling order
 
   private:
     DEAL_II_ALWAYS_INLINE inline static simd::Mask<Number>

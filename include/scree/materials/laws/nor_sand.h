@@ -12,24 +12,25 @@
 
 namespace scree
 {
-  /// Entries of subsection "Nor-Sand". Defaults: Xie, Navas & Lopez-Querol 2024, Table 1, dense.
+  /// Entries of subsection "Nor-Sand". Defaults: @source{xie2024}, Table 1, dense.
   struct NorSandParameters
   {
-    double shear_modulus                  = 4e6;
-    double swelling_index                 = 0.002;
-    double compression_index              = 0.012;
-    double critical_state_specific_volume = 1.88;
-    double reference_pressure             = 1;
-    double critical_stress_ratio          = 0.7097;
-    double yield_constant                 = 0.3;
-    double potential_constant             = 0.3;
-    double hardening_coefficient          = 300;
-    double dilatancy_multiplier           = -4.5;
-    double initial_specific_volume        = 1.629;
-    double initial_overconsolidation      = 1;
-    double minimum_pressure               = 1;
-    double substep_strain                 = 1e-3;
+    double shear_modulus                  = 4e6;    ///< G, Pa
+    double swelling_index                 = 0.002;  ///< kappa, elastic compressibility in ln P
+    double compression_index              = 0.012;  ///< lambda, slope of the critical state line in ln P
+    double critical_state_specific_volume = 1.88;   ///< v_c0, on that line at the reference pressure
+    double reference_pressure             = 1;      ///< p_ref, Pa
+    double critical_stress_ratio          = 0.7097; ///< M, q/P at critical state
+    double yield_constant                 = 0.3;    ///< N, curvature of the yield surface; 0: Cam-Clay
+    double potential_constant             = 0.3;    ///< Nbar, curvature of the plastic potential, at most N
+    double hardening_coefficient          = 300;    ///< h, hardening coefficient
+    double dilatancy_multiplier           = -4.5;   ///< alpha, largest dilatancy over state parameter; negative
+    double initial_specific_volume        = 1.629;  ///< v_0, 1 + void ratio at the start
+    double initial_overconsolidation      = 1;      ///< the yield surface passes through the initial stress times this
+    double minimum_pressure               = 1;      ///< Pa; no stress below it
+    double substep_strain                 = 1e-3;   ///< largest component of dF - I in one return map
 
+    /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if a combination is impossible.
@@ -37,12 +38,16 @@ namespace scree
 
     /// See LawEntries.
     LawEntry modulus() const;
+
+    /// See LawEntries.
     LawEntry stiffest() const;
+
+    /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
   };
 
 
-  /// Nor-Sand, critical state plasticity of sand in finite strain (Borja & Andrade 2006; Andrade & Borja 2006).
+  /// Nor-Sand, critical state plasticity of sand in finite strain (@source{borja2006}; @source{andrade2006}).
   ///
   /// With P the mean compressive Kirchhoff stress, q = sqrt(3/2)|dev tau|, Pi the image pressure, r = ln(P/Pi):
   /// elastic P = P_0 exp(-eps_v/kappa), q = 3 G eps_s, energy kappa P + 3/2 G eps_s^2; P_0 = 1 kPa only fixes the zero
@@ -61,9 +66,10 @@ namespace scree
   class NorSand
   {
   public:
-    static constexpr unsigned int n_internal_variables = 2;
-    static constexpr bool is_elastic                   = false;
+    static constexpr unsigned int n_internal_variables = 2;     ///< image pressure Pi, Pa, and plastic shear strain
+    static constexpr bool is_elastic                   = false; ///< the law has plastic strain
 
+    /// Computes the constants of the equations from the entries.
     explicit NorSand(const NorSandParameters &parameters);
 
     /// Largest strain of one return map.
@@ -79,11 +85,13 @@ namespace scree
     template <typename Number>
     struct Trial
     {
-      Number pressure, log_pressure; // P, Pa, and ln P
-      Number deviator;               // q, Pa
-      Number stress_ratio;           // eta
-      Number image, log_image;       // Pi at the start, Pa, and ln Pi
-      Number volume;                 // v
+      Number pressure,     ///< P, Pa
+          log_pressure;    ///< ln P
+      Number deviator;     ///< q, Pa
+      Number stress_ratio; ///< eta
+      Number image,        ///< Pi at the start, Pa
+          log_image;       ///< ln Pi
+      Number volume;       ///< v
     };
 
     /// See law.h.
@@ -92,12 +100,20 @@ namespace scree
                         const Number &deviator_square,
                         const Number &volume_ratio,
                         const Number *internal_variables) const;
+
+    /// Whether the trial state is within the yield surface and P is at least the minimum pressure.
     template <typename Number>
     simd::Mask<Number> is_admissible(const Trial<Number> &trial) const;
+
+    /// Mean Kirchhoff stress -P, Pa, tension positive.
     template <typename Number>
     Number mean_stress(const Trial<Number> &trial) const;
+
+    /// Tangent P/kappa at a mean Kirchhoff stress, Pa.
     template <typename Number>
     Number bulk_modulus_at(const Number &mean_stress) const;
+
+    /// Returns the points `todo`: sets `result` and internal variables. The mask has the points for which it converged.
     template <typename Number>
     simd::Mask<Number> return_to_surface(const Trial<Number> &trial,
                                          const simd::Mask<Number> &todo,
@@ -125,8 +141,13 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
+    /// Image pressure, Pa, and plastic shear strain, -.
     static std::vector<Quantity> internal_quantities();
+
+    /// Specific volume v and state parameter psi, -.
     static std::vector<Quantity> output_quantities();
+
+    /// Writes v and psi at J = `volume_ratio`; psi at the minimum pressure where P is less.
     void output(const PrincipalValues &strain,
                 const double *internal_variables,
                 const double volume_ratio,

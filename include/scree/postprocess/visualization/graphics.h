@@ -20,6 +20,8 @@ namespace scree
   class Graphics
   {
   public:
+    /// Begins with empty lists of files.
+    /// @param run_folder path
     Graphics(const BackgroundGrid<dim> &grid, const OutputParameters &parameters, const std::string &run_folder);
 
     /// Writes the state at `time` under the next number. Collective.
@@ -42,6 +44,7 @@ namespace scree
     /// After the state has been read from a checkpoint: takes the pictures that were written after it off the lists.
     void cut() const;
 
+    /// Saves or loads the lists of files (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

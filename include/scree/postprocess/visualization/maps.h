@@ -29,6 +29,7 @@ namespace scree
   class Maps
   {
   public:
+    /// Keeps references to grid and folder; sample() comes next.
     Maps(const MapParameters &parameters,
          const MapFrame &frame,
          const BackgroundGrid<dim> &grid,
@@ -40,6 +41,7 @@ namespace scree
     /// Writes all maps as of the last sample, and the thickness (in 2D the table) also under a name with its `time`, s.
     void write(const double time) const;
 
+    /// Saves or loads the maps as of the last sample (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

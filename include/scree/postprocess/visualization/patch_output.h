@@ -23,11 +23,12 @@ namespace scree
     using Range          = std::tuple<unsigned int, unsigned int, std::string, Interpretation>;
 
   public:
-    using Patch = dealii::DataOutBase::Patch<patch_dim, dim>;
+    using Patch = dealii::DataOutBase::Patch<patch_dim, dim>; ///< geometry and data of a point or cell
 
-    std::vector<Patch> patches;
+    std::vector<Patch> patches;     ///< patches to be written
     std::vector<std::string> names; ///< of the rows of a patch's data
 
+    /// A scalar: one row of the patches' data.
     void add_name(const std::string &name)
     {
       names.push_back(name);
