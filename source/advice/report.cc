@@ -85,10 +85,12 @@ namespace scree
       writer.line("drainage time H^2/c_v", groups.drainage_time, "s");
       writer.line("drainage time over time of motion", groups.drainage, "");
       writer.line("end time over drainage time, T_v", groups.time_factor, "");
-      writer.line("drag takes the slip in", groups.drag_time, "s");
-      writer.line("drag time over step", groups.drag_time / step, "(any is stable: drag is implicit)");
-      writer.line("drained serves a load above k =", conductivity_for(scene, thresholds::drained_below), "m/s");
-      writer.line("undrained serves the motion below k =", conductivity_for(scene, thresholds::undrained_above), "m/s");
+      writer.line("drag relaxation time", groups.drag_time, "s");
+      writer.line("drag relaxation time over time step", groups.drag_time / step, "(any is stable: drag is implicit)");
+      writer.line(
+          "drained is sufficient (static load) above k =", conductivity_for(scene, thresholds::drained_below), "m/s");
+      writer.line(
+          "undrained is sufficient (motion) below k =", conductivity_for(scene, thresholds::undrained_above), "m/s");
     }
 
 
@@ -109,7 +111,7 @@ namespace scree
     void write_cost(const Advice &advice, const RunCost &cost, Writer &writer)
     {
       const SceneNumbers &scene = advice.scene;
-      writer.title("Cost of the case as it stands");
+      writer.title("Estimated cost of this case");
       writer.line("step at the start; mean expected", rounded(cost.first_step) + "; " + rounded(cost.mean_step) + " s");
       writer.line("steps to " + rounded(scene.end_time) + " s", cost.n_steps, "");
       const Observation &seen = advice.seen;

@@ -10,18 +10,19 @@ namespace scree
   {
     prm.add_parameter("Hydraulic conductivity",
                       conductivity,
-                      "Darcy's conductivity of this body at its initial porosity, m/s; 0: as subsection Water says.",
+                      "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
                       Patterns::Double(0));
     prm.add_parameter("Grain diameter",
                       grain_diameter,
-                      "Diameter of this body's grains, m, for the drag of Ergun 1952; 0: as subsection Water says.",
+                      "m; grain diameter of this body, for the drag law of Ergun (1952); 0: as in subsection Water.",
                       Patterns::Double(0));
   }
 
 
   void SeepageParameters::check(const std::string &body, const WaterParameters *water) const
   {
-    const std::string dry = "nothing reads it, as the file has no subsection Water. Add one, or remove the entry.";
+    const std::string dry =
+        "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.";
     require_entry(water != nullptr || conductivity == 0, body, "Hydraulic conductivity", conductivity, dry);
     require_entry(water != nullptr || grain_diameter == 0, body, "Grain diameter", grain_diameter, dry);
     if (grain_diameter > 0)

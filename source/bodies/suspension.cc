@@ -14,20 +14,19 @@ namespace scree
     prm.enter_subsection("Suspension");
     prm.add_parameter("Law",
                       law,
-                      "Viscosity of water with grains that have lost contact: none (that of the water); Einstein: "
-                      "\"Viscosity\" (1 + 5/2 phi), phi the part of the volume that grains take; Krieger-Dougherty: "
-                      "\"Viscosity\" (1 - phi/phi_m)^(-5/2 phi_m).",
+                      "Viscosity of water with grains that have lost contact. none: that of the water. Einstein: "
+                      "\"Viscosity\" (1 + 5/2 phi). Krieger-Dougherty: \"Viscosity\" (1 - phi/phi_m)^(-5/2 phi_m). phi "
+                      "is the volume fraction of the grains.",
                       Patterns::Selection("none|Einstein|Krieger-Dougherty"));
     prm.add_parameter("Densest packing",
                       densest_packing,
-                      "phi_m of Krieger and Dougherty's law: grains in this part of the volume do not flow.",
+                      "Volume fraction phi_m of the law of Krieger and Dougherty, at which grains do not flow.",
                       Patterns::Double(0.01, 1));
-    prm.add_parameter(
-        "Contact pressure",
-        contact_pressure,
-        "Mean effective stress from which on soil is no suspension, Pa; below it a part of it is, all of it "
-        "at 0.",
-        Patterns::Double(0));
+    prm.add_parameter("Contact pressure",
+                      contact_pressure,
+                      "Pa; mean effective stress from which soil is no suspension. Below it, the suspended part of the "
+                      "soil increases linearly to 1 at 0 Pa.",
+                      Patterns::Double(0));
     prm.leave_subsection();
   }
 
@@ -41,14 +40,15 @@ namespace scree
                     where,
                     "Densest packing",
                     densest_packing,
-                    "nothing reads it, as \"Law = " + law + "\". Remove it, or write \"Law = Krieger-Dougherty\".");
+                    "this entry has no effect, as \"Law = " + law +
+                        "\". Remove it, or write \"Law = Krieger-Dougherty\".");
     if (law_kind() == SuspensionLaw::none)
       {
         require_entry(contact_pressure == defaults.contact_pressure,
                       where,
                       "Contact pressure",
                       contact_pressure,
-                      "nothing reads it, as \"Law = none\". Remove it, or write another law.");
+                      "this entry has no effect, as \"Law = none\". Remove it, or write another law.");
         return;
       }
     require_entry(n_bodies > 0, where, "Law", law, "there is no soil, as entry \"Bodies\" is none. Remove it.");

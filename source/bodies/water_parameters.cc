@@ -15,48 +15,47 @@ namespace scree
   {
     prm.add_parameter("Region",
                       region,
-                      "Where the water is, in the soil's pores and outside: \"same\" (wherever soil is), or an "
-                      "expression of x, y (and z), in m. Without a subsection Water the scene is dry.",
+                      "Region of the water, in the pores of the soil and outside: same (wherever soil is), or an "
+                      "expression of x, y (z), in m. Without subsection Water the case is dry.",
                       Patterns::Anything());
-    prm.add_parameter("Point sets",
-                      point_sets,
-                      "double: water has points of its own, which move with it; single: it rides on the soil's points.",
-                      Patterns::Selection("double|single"));
+    prm.add_parameter(
+        "Point sets",
+        point_sets,
+        "double: water has points of its own, which move with it. single: the soil points carry the water.",
+        Patterns::Selection("double|single"));
     prm.add_parameter("Points per cell",
                       points_per_cell,
-                      "Points of water along each axis of a cell; double-point only.",
+                      "Water points along each axis of a cell. Double-point only.",
                       Patterns::Integer(1, 32));
-    prm.add_parameter(
-        "Jitter",
-        jitter,
-        "Largest random move of a point of water from its place on the lattice, along each axis and over the "
-        "lattice's spacing; 0: a regular lattice. For verification and stability maps. Double-point only.",
-        Patterns::Double(0, 0.49));
-    prm.add_parameter("Density", density, "Density of the water, kg/m^3.", Patterns::Double(1e-12));
+    prm.add_parameter("Jitter",
+                      jitter,
+                      "Largest random displacement of a water point from the lattice, along each axis, over the "
+                      "lattice spacing; 0: regular lattice. For verification and stability maps. Double-point only.",
+                      Patterns::Double(0, 0.49));
+    prm.add_parameter("Density", density, "kg/m^3; density of the water.", Patterns::Double(1e-12));
     add_drag_parameters(prm);
-    prm.add_parameter("Viscosity", viscosity, "Dynamic viscosity of the water, Pa s; 0: none.", Patterns::Double(0));
+    prm.add_parameter("Viscosity", viscosity, "Pa s; dynamic viscosity of the water; 0: none.", Patterns::Double(0));
     prm.add_parameter(
-        "Bulk modulus", bulk_modulus, "Bulk modulus of the water, Pa; 0: incompressible.", Patterns::Double(0));
+        "Bulk modulus", bulk_modulus, "Pa; bulk modulus of the water; 0: incompressible.", Patterns::Double(0));
     prm.add_parameter("Fluidisation porosity",
                       fluidisation_porosity,
-                      "Soil looser than this bears no effective stress; 1: never.",
+                      "Porosity above which soil has no effective stress; 1: never.",
                       Patterns::Double(1e-12, 1));
     prm.add_parameter("Volume correction rate",
                       volume_correction_rate,
-                      "Rate at which a surplus of free water in crowded cells is moved away, 1/s; 0: never, 1/2 "
-                      "sqrt(g/h) with cells of size h is usual. Double-point only.",
+                      "1/s; rate at which surplus free water leaves crowded cells; 0: never. Usual: 1/2 sqrt(g/h), "
+                      "with cell size h. Double-point only.",
                       Patterns::Double(0));
     prm.add_parameter(
         "Initial pressure",
         initial_pressure,
-        "hydrostatic: the weight of the water above a point, and the soil's K0 stress is buoyant; none: 0.",
+        "hydrostatic: weight of the water above each point; buoyancy reduces the K0 stress of the soil. none: 0.",
         Patterns::Selection("hydrostatic|none"));
-    prm.add_parameter(
-        "Initial velocity",
-        initial_velocity,
-        "Velocity of the water at the start, m/s: an expression an axis, separated by semicolons; empty: at "
-        "rest. Double-point only.",
-        Patterns::Anything());
+    prm.add_parameter("Initial velocity",
+                      initial_velocity,
+                      "m/s; velocity of the water at the start, one expression per axis, separated by semicolons. "
+                      "Empty: at rest. Double-point only.",
+                      Patterns::Anything());
     suspension.add_parameters(prm);
   }
 
@@ -66,23 +65,21 @@ namespace scree
     prm.declare_entry("Hydraulic conductivity",
                       conductivity_text,
                       Patterns::Anything(),
-                      "Darcy's conductivity of the soil at its initial porosity, m/s. auto: 1e-3, unless \"Grain "
-                      "diameter\" tells the drag.");
+                      "m/s; conductivity (Darcy) of the soil at its initial porosity. auto: 1e-3, unless \"Grain "
+                      "diameter\" gives the drag.");
     prm.add_action("Hydraulic conductivity", [this](const std::string &text) {
       conductivity_text = text;
       conductivity      = text == "auto" ? WaterParameters().conductivity : number_of(text);
     });
     prm.add_parameter("Conductivity law",
                       conductivity_law,
-                      "constant; Kozeny-Carman: in proportion to n^3/(1-n)^2 of the porosity n.",
+                      "constant: independent of the porosity n. Kozeny-Carman: proportional to n^3/(1-n)^2.",
                       Patterns::Selection("constant|Kozeny-Carman"));
-    prm.add_parameter(
-        "Grain diameter",
-        grain_diameter,
-        "Diameter of the grains, m: the drag is that of Ergun 1952, which follows from diameter, porosity, "
-        "\"Density\" and \"Viscosity\", also where the flow is not slow; 0: \"Hydraulic conductivity\" "
-        "tells the drag.",
-        Patterns::Double(0));
+    prm.add_parameter("Grain diameter",
+                      grain_diameter,
+                      "m; grain diameter for the drag law of Ergun (1952), from slow to turbulent flow, with porosity, "
+                      "\"Density\" and \"Viscosity\". 0: \"Hydraulic conductivity\" gives the drag.",
+                      Patterns::Double(0));
   }
 
 
@@ -140,7 +137,7 @@ namespace scree
   void WaterParameters::check_without_soil() const
   {
     const WaterParameters defaults;
-    const std::string remedy = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.";
+    const std::string remedy = "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.";
     require_entry(conductivity_text == "auto", "Water", "Hydraulic conductivity", conductivity_text, remedy);
     require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
     require_entry(grain_diameter == defaults.grain_diameter, "Water", "Grain diameter", grain_diameter, remedy);
@@ -178,10 +175,10 @@ namespace scree
                   "Water",
                   "Region",
                   region,
-                  "single-point water rides on the soil's points and is where they are. Write \"Region = same\", or "
+                  "the soil points carry single-point water. Write \"Region = same\", or "
                   "\"Point sets = double\".");
     const std::string remedy =
-        "nothing reads it, as single-point water rides on the soil's points. Remove it, or write "
+        "this entry has no effect, as the soil points carry single-point water. Remove it, or write "
         "\"Point sets = double\".";
     require_entry(points_per_cell == defaults.points_per_cell, "Water", "Points per cell", points_per_cell, remedy);
     require_entry(jitter == defaults.jitter, "Water", "Jitter", jitter, remedy);

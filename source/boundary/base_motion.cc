@@ -18,10 +18,11 @@ namespace scree
     add_file_entry(prm,
                    "Acceleration record",
                    record,
-                   "The box moves with all its walls: file of the time, s, and an acceleration an axis, a row a "
-                   "line, separated by commas; linear between the rows, none before the first and after the last. "
-                   "Results are relative to the box. Empty: it is at rest.");
-    prm.add_parameter("Scale", scale, "m/s^2 of a unit of the record: 9.81 for one in g.", Patterns::Double());
+                   "File of the acceleration of the box with all its walls; empty: at rest. Each line has the time (s) "
+                   "and one component per axis, separated by commas. Values are linear between lines and 0 outside the "
+                   "record. Results are relative to the box.");
+    prm.add_parameter(
+        "Scale", scale, "Factor that converts the record to m/s^2; 9.81 if it is in g.", Patterns::Double());
     prm.leave_subsection();
   }
 

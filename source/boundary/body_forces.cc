@@ -13,8 +13,8 @@ namespace scree
   {
     prm.add_parameter("Body force",
                       expression,
-                      "Acceleration beside gravity, m/s^2: an expression of x, y (z) and t an axis, separated by "
-                      "semicolons; empty: none. For verification.",
+                      "m/s^2; acceleration in addition to gravity, for verification. One expression of x, y (z) and t "
+                      "per axis, separated by semicolons; empty: none.",
                       Patterns::Anything());
   }
 

@@ -87,7 +87,7 @@ namespace scree
                   parameters.surface.subsection,
                   entry,
                   value,
-                  "the obstacle is nowhere in the box of subsection Mesh. Move it (it is where the expression is "
+                  "no part of the obstacle lies in the box of subsection Mesh. Move it (it is where the expression is "
                   "negative), or make the box larger.");
   }
 

@@ -13,7 +13,7 @@ namespace scree
       const auto require = [&](const bool possible, const std::string &remedy) {
         require_entry(possible || !surface.no_slip(), surface.subsection, "Type for water", surface.for_water, remedy);
       };
-      require(parameters.has_water, "nothing reads it, as there is no subsection Water. Remove it.");
+      require(parameters.has_water, "this entry has no effect, as there is no subsection Water. Remove it.");
       require(
           parameters.water.viscosity > 0.,
           "water without viscosity slips along anything. Write a \"Viscosity\" in subsection Water, or impermeable.");
@@ -101,7 +101,7 @@ namespace scree
                       "Cavitation pressure",
                       parameters.pressure.cavitation_pressure,
                       "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
-                          " Pa. Water tears there. Write a lower number, or a higher pressure at the wall.");
+                          " Pa. Water cavitates there. Write a lower number, or a higher pressure at the wall.");
       for (const SoilRegion &body : parameters.soil_regions())
         {
           if (parameters.water.is_where_soil_is())
@@ -118,7 +118,7 @@ namespace scree
 
     void check_without_soil(const Parameters &parameters)
     {
-      const std::string no_soil = "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it";
+      const std::string no_soil = "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it";
       const auto walls = parameters.boundaries.texts(3), defaults = BoundaryParameters().texts(3);
       for (unsigned int f = 0; f < walls.size(); ++f)
         require_entry(walls[f] == defaults[f],

@@ -166,24 +166,25 @@ namespace scree
   void Parameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Dimension", dimension, "2 (plane strain) or 3.", Patterns::Integer(2, 3));
-    prm.add_parameter("End time", end_time, "When the run ends, s.", Patterns::Double(1e-12));
+    prm.add_parameter("End time", end_time, "s; simulated time at which the run ends.", Patterns::Double(1e-12));
     prm.add_parameter("Output directory",
                       output_directory,
-                      "The run folder; made if it is not there. Its path counts from where scree is started, that of "
-                      "all other files from the folder of the case's file.",
+                      "Run folder; created if missing. The path is relative to the working directory. Paths of all "
+                      "other files are relative to the folder of the case file.",
                       Patterns::Anything());
     prm.add_parameter("Gravity",
                       gravity,
-                      "Acceleration of gravity, m/s^2, one number an axis.",
+                      "m/s^2; acceleration of gravity, one component per axis.",
                       Patterns::List(Patterns::Double(), 2, 3));
-    prm.add_parameter("Bodies",
-                      body_names,
-                      "Names of the bodies of soil, separated by commas; each has a subsection of its name; or none.",
-                      Patterns::List(Patterns::Anything(), 1));
+    prm.add_parameter(
+        "Bodies",
+        body_names,
+        "Names of the soil bodies, separated by commas; each has a subsection of its name. none: no soil.",
+        Patterns::List(Patterns::Anything(), 1));
     prm.add_parameter("Local origin",
                       local_origin,
-                      "Where the map has x = 0, y = 0, m, 3D. Rasters and outlines that are read, and maps that are "
-                      "written, are in the map's coordinates; all else is relative to this place.",
+                      "m; 3D. Map coordinates of the place x = 0, y = 0 of the case. Rasters, outlines and written "
+                      "maps use map coordinates; everything else is relative to this place.",
                       Patterns::List(Patterns::Double(), 2, 2));
     body_force.add_parameters(prm);
     base_motion.add_parameters(prm);
@@ -311,7 +312,7 @@ namespace scree
                     subsection,
                     face,
                     file.value(subsection, face, ""),
-                    "nothing reads it, as the file has no subsection Water. Add one, or remove the entry.");
+                    "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
   }
 
 

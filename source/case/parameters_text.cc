@@ -17,6 +17,12 @@ namespace scree
   }
 
 
+  void Parameters::print_json(std::ostream &out)
+  {
+    handler.print_parameters(out, ParameterHandler::JSON | ParameterHandler::KeepDeclarationOrder);
+  }
+
+
   void Parameters::print_subsection(const std::string &path, std::ostream &out)
   {
     const std::size_t slash  = path.rfind('/');

@@ -19,7 +19,7 @@ namespace scree
                const std::string &unit)
       {
         if (value != 0 && !(value >= low && value <= high))
-          list.push_back("Is this meant? " + entry_message(subsection,
+          list.push_back("Unusual value: " + entry_message(subsection,
                                                            entry,
                                                            number_text(value),
                                                            "the unit is " + unit + ", and usual values lie between " +

@@ -21,12 +21,12 @@ namespace scree
     prm.enter_subsection(subsection);
     prm.add_parameter("Bodies",
                       bodies,
-                      "The two bodies, separated by a comma, that slide on each other and come apart instead of "
-                      "sticking. Empty: none.",
+                      "Names of the two bodies that slide on each other and separate, with a comma between them. "
+                      "Bodies without such a subsection stick to each other.",
                       Patterns::Anything());
     prm.add_parameter("Friction angle",
                       friction_angle,
-                      "Angle of friction where they meet, degrees, from 0 (smooth) to below 90.",
+                      "degrees; friction angle of the contact, from 0 (smooth) to below 90.",
                       Patterns::Double(0, 89.99));
     prm.leave_subsection();
   }
@@ -137,7 +137,7 @@ namespace scree
                       contact.subsection,
                       "Friction angle",
                       contact.friction_angle,
-                      "of which bodies? Write their names in \"Bodies\".");
+                      "the contact has no bodies. Write their names in \"Bodies\".");
         if (!contact.is_set())
           continue;
         const Numbers pair = bodies_of(contact, bodies);

@@ -26,23 +26,23 @@ namespace scree
       names += (names.empty() ? "" : "|") + path.first;
     prm.add_parameter("Path",
                       path_name,
-                      "Motion of the point: drained triaxial (lateral stress held), undrained triaxial (volume held), "
-                      "isotropic compression, oedometer (no lateral strain), simple shear (plane strain, vertical "
-                      "stress held).",
+                      "Loading path of the point: drained triaxial (constant lateral stress), undrained triaxial "
+                      "(constant volume), isotropic compression, oedometer (no lateral strain), or simple shear (plane "
+                      "strain, constant vertical stress).",
                       Patterns::Selection(names));
     prm.add_parameter("Initial confining pressure",
                       confining_pressure,
-                      "Vertical compressive stress at the start, Pa.",
+                      "Pa; vertical compressive stress at the start.",
                       Patterns::Double(0));
-    prm.add_parameter("K0", K0, "Lateral over vertical stress at the start, -.", Patterns::Double(0));
+    prm.add_parameter("K0", K0, "Ratio of lateral to vertical stress at the start.", Patterns::Double(0));
     prm.add_parameter("Final strain",
                       final_strain,
-                      "Vertical logarithmic strain at the end, compression positive, or shear strain, -.",
+                      "Vertical logarithmic strain at the end, compression positive, or shear strain.",
                       Patterns::Double(0, 5));
-    prm.add_parameter("Number of steps", n_steps, "Equal steps of strain.", Patterns::Integer(1));
+    prm.add_parameter("Number of steps", n_steps, "Number of equal strain increments.", Patterns::Integer(1));
     prm.add_parameter("Output directory",
                       output_directory,
-                      "Where table.txt, original.prm and parameters.prm go.",
+                      "Folder for table.txt, original.prm and parameters.prm.",
                       Patterns::Anything());
     material.add_parameters(prm);
   }

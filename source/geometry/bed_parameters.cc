@@ -18,11 +18,11 @@ namespace scree
   {
     prm.enter_subsection(subsection);
     add_entries(prm);
-    add_file_entry(prm,
-                   "Friction angles",
-                   friction_angles,
-                   "In place of \"Friction angle\", 3D: file of the angles, in degrees, an ESRI ASCII grid that "
-                   "covers the box.");
+    add_file_entry(
+        prm,
+        "Friction angles",
+        friction_angles,
+        "degrees; 3D. ESRI ASCII grid of the angles, which covers the box; alternative to \"Friction angle\".");
     prm.leave_subsection();
   }
 
@@ -31,37 +31,36 @@ namespace scree
   {
     prm.add_parameter("Type",
                       type,
-                      "What the rigid surface, which need not follow the mesh, does to soil that presses on it: fixed "
-                      "(no slip), free slip or friction; none: there is no such surface.",
+                      "Condition for soil that presses on the rigid surface: fixed (no slip), free slip or friction. "
+                      "none: no surface. The surface may cut cells at any position and angle.",
                       Patterns::Selection("none|fixed|free slip|friction"));
     prm.add_parameter("Type for water",
                       for_water,
-                      "What the surface does to free water along it: impermeable (free slip) or no slip, which needs a "
+                      "Condition for free water along the surface: impermeable (free slip), or no slip, which needs "
                       "\"Viscosity\" in subsection Water.",
                       Patterns::Selection("impermeable|no slip"));
     prm.add_parameter("Friction angle",
                       friction_angle,
-                      "Angle of friction of \"Type = friction\", degrees, above 0 and below 90.",
+                      "degrees; friction angle of \"Type = friction\", above 0 and below 90.",
                       Patterns::Double(0, 89.99));
-    prm.add_parameter(
-        "Level set expression",
-        expression,
-        "The surface as an expression of x, y (and z), in m: positive in the open, 0 on its surface. Best a "
-        "distance, such as (y - 0.2*x)/sqrt(1.04).",
-        Patterns::Anything());
-    add_file_entry(prm,
-                   "Profile",
-                   profile,
-                   "In place of the expression, 2D: file of points x, y of the ground, in m, one a line, with "
-                   "ascending x.");
+    prm.add_parameter("Level set expression",
+                      expression,
+                      "m; expression of x, y (z): positive in the open, 0 on the surface. A signed distance is best, "
+                      "such as (y - 0.2*x)/sqrt(1.04).",
+                      Patterns::Anything());
+    add_file_entry(
+        prm,
+        "Profile",
+        profile,
+        "m; 2D. File of ground points x, y, one per line, with ascending x; alternative to \"Level set expression\".");
     add_file_entry(prm,
                    "Raster",
                    raster,
-                   "In place of the expression, 3D: file of the ground's heights, in m, an ESRI ASCII grid.");
+                   "m; 3D. ESRI ASCII grid of the ground heights; alternative to \"Level set expression\".");
     add_file_entry(prm,
                    "Closed surface",
                    closed_surface,
-                   "In place of the expression, 3D: file of a solid's surface of triangles, in m, an STL file.");
+                   "m; 3D. STL file of the surface of a solid; alternative to \"Level set expression\".");
   }
 
 
@@ -113,7 +112,7 @@ namespace scree
     const auto angles_entry = std::make_pair(std::string("Friction angles"), friction_angles);
     require(is_rough || friction_angles.empty(),
             angles_entry,
-            "nothing reads it. Remove it, or write \"Type = friction\".");
+            "this entry has no effect. Remove it, or write \"Type = friction\".");
     require(
         dim == 3 || friction_angles.empty(), angles_entry, "maps are for scenes in space. Write a \"Friction angle\".");
     require(friction_angle == 0. || friction_angles.empty(),
@@ -121,20 +120,22 @@ namespace scree
             "friction is given twice. Keep one of \"Friction angle\" and \"Friction angles\".");
     require(is_rough || friction_angle == 0.,
             std::make_pair(std::string("Friction angle"), friction_angle),
-            "nothing reads it. Remove it, or write \"Type = friction\".");
+            "this entry has no effect. Remove it, or write \"Type = friction\".");
     require(!is_rough || friction_angle > 0. || !friction_angles.empty(),
             std::make_pair(std::string("Friction angle"), friction_angle),
             "write an angle above 0, in degrees, or \"Type = free slip\".");
-    require(
-        is_set() || n_given == 0, given, "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
+    require(is_set() || n_given == 0,
+            given,
+            "\"Type = none\" does not take this entry. Choose another type, or remove the entry.");
     require(is_set() || !no_slip(),
             std::make_pair(std::string("Type for water"), for_water),
-            "nothing reads it, as \"Type\" is none. Write another type, or remove it.");
+            "\"Type = none\" does not take this entry. Choose another type, or remove the entry.");
     if (!is_set())
       return;
     require(n_given > 0,
             type_entry,
-            "where is it? Write one of \"Level set expression\", \"Profile\" (2D), \"Raster\" and \"Closed surface\" "
+            "the surface has no geometry. Write one of \"Level set expression\", \"Profile\" (2D), \"Raster\" and "
+            "\"Closed surface\" "
             "(3D).");
     require(n_given < 2, given, "it is given twice. Keep one of expression, profile, raster and closed surface.");
     require(dim == 2 || profile.empty(),

@@ -30,15 +30,14 @@ namespace scree
     surface.add_entries(prm);
     prm.add_parameter("Velocity",
                       velocity,
-                      "Velocity from t = 0 on, m/s: an expression of t an axis, separated by semicolons, such as "
-                      "0; if(t < 1, 0.5, 0). The surface moves with it and keeps its shape. Empty: at rest.",
+                      "m/s; velocity from t = 0 on: one expression of t per axis, separated by semicolons, such as 0; "
+                      "if(t < 1, 0.5, 0). The obstacle translates without rotation. Empty: at rest.",
                       Patterns::Anything());
-    prm.add_parameter(
-        "Moment about",
-        pivot,
-        "Place about which the moment of the force on the obstacle is told, m, one number an axis; empty: "
-        "the middle of the box's floor.",
-        Patterns::List(Patterns::Double(), 0, 3));
+    prm.add_parameter("Moment about",
+                      pivot,
+                      "m; place about which the moment on the obstacle is computed, one coordinate per axis. Empty: "
+                      "the middle of the floor of the box.",
+                      Patterns::List(Patterns::Double(), 0, 3));
     prm.leave_subsection();
   }
 

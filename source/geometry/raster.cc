@@ -172,11 +172,11 @@ namespace scree
       result += "\n" + name + ": " + std::to_string(missing) + " of " + std::to_string(values.size()) +
                 " heights of the raster are missing (NODATA). " + where_missing;
     if (n_strange > 0)
-      result += "\nIs this meant? " + name + ": " + std::to_string(n_strange) + " heights of the raster lie outside " +
+      result += "\nUnusual value: " + name + ": " + std::to_string(n_strange) + " heights of the raster lie outside " +
                 number_text(lowest_on_earth) + " to " + number_text(highest_on_earth) + " m, the first is " +
                 text(strange) + ". If they stand for missing ones, write that value as NODATA_value.";
     if (n_steps > 0)
-      result += "\nIs this meant? " + name + ": " + std::to_string(n_steps) +
+      result += "\nUnusual value: " + name + ": " + std::to_string(n_steps) +
                 " steps between neighbouring heights of the raster are steeper than 80 degrees; the largest is from " +
                 text(below) + " to " + text(above) + '.';
     return result;

@@ -16,23 +16,24 @@ namespace scree
     add_file_entry(prm,
                    "Thickness",
                    thickness,
-                   "3D: file of the soil's thickness above the bed or above \"Lower surface\", upwards, in m, an "
-                   "ESRI ASCII grid; 0 where it is missing. The body is where this and all else that is written says "
-                   "so.");
+                   "m; 3D. ESRI ASCII grid of the vertical soil thickness above the bed or \"Lower surface\"; 0 where "
+                   "values are missing. With several entries of this kind, the body occupies the intersection.");
+    add_file_entry(
+        prm,
+        "Upper surface",
+        upper_surface,
+        "m; 3D. ESRI ASCII grid of the heights of the upper surface of the body; no soil where values are missing.");
     add_file_entry(prm,
-                   "Upper surface",
-                   upper_surface,
-                   "3D: file of the heights of the body's upper surface, in m, an ESRI ASCII grid; no soil where it "
-                   "is missing.");
-    add_file_entry(prm, "Lower surface", lower_surface, "3D: the same of its lower surface, in place of the bed.");
+                   "Lower surface",
+                   lower_surface,
+                   "m; 3D. ESRI ASCII grid of the heights of the lower surface of the body; alternative to the bed. No "
+                   "soil where values are missing.");
     add_file_entry(prm,
                    "Outline",
                    outline,
-                   "3D: file of the corners x, y of a polygon in which the body is on the map, in m, one a line.");
-    add_file_entry(prm,
-                   "Closed surface",
-                   closed_surface,
-                   "3D: file of a surface of triangles inside which the body is, in m, an STL file.");
+                   "m; 3D. File of the corners x, y of a polygon on the map that encloses the body, one per line.");
+    add_file_entry(
+        prm, "Closed surface", closed_surface, "m; 3D. STL file of the surface of the solid that the body occupies.");
   }
 
 
@@ -76,12 +77,12 @@ namespace scree
                   body,
                   "Thickness",
                   thickness,
-                  "above what? There is no bed. Add subsection Bed, or write a \"Lower surface\".");
+                  "\"Thickness\" needs subsection Bed. Add it, or write a \"Lower surface\".");
     require_entry(is_region() || lower_surface.empty(),
                   body,
                   "Lower surface",
                   lower_surface,
-                  "where does the body end above? Write a \"Thickness\" or an \"Upper surface\".");
+                  "the body has no upper surface. Write a \"Thickness\" or an \"Upper surface\".");
   }
 
 

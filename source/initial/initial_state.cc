@@ -12,13 +12,13 @@ namespace scree
   void InitialStateParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Initial state");
-    prm.add_parameter(
-        "Type",
-        type,
-        "Stress before the first step: none; K0 (weight above the point, K0 times that sideways); isotropic.",
-        Patterns::Selection("none|K0|isotropic"));
-    prm.add_parameter("K0", k0, "Horizontal over vertical stress.", Patterns::Double(0, 10));
-    prm.add_parameter("Pressure", pressure, "Isotropic stress, Pa, compression positive.", Patterns::Double(0));
+    prm.add_parameter("Type",
+                      type,
+                      "Stress at the start. none: no stress. K0: vertical stress from the weight above the point, "
+                      "horizontal stress K0 times that. isotropic: \"Pressure\".",
+                      Patterns::Selection("none|K0|isotropic"));
+    prm.add_parameter("K0", k0, "Ratio of horizontal to vertical stress.", Patterns::Double(0, 10));
+    prm.add_parameter("Pressure", pressure, "Pa; isotropic stress, compression positive.", Patterns::Double(0));
     prm.leave_subsection();
   }
 
@@ -33,9 +33,12 @@ namespace scree
                   "Pressure",
                   pressure,
                   is_isotropic ? "an isotropic start needs a pressure above 0, in Pa."
-                               : "nothing reads it. Remove it, or write \"Type = isotropic\".");
-    require_entry(
-        is_k0 || k0 == defaults.k0, subsection, "K0", k0, "nothing reads it. Remove it, or write \"Type = K0\".");
+                               : "this entry has no effect. Remove it, or write \"Type = isotropic\".");
+    require_entry(is_k0 || k0 == defaults.k0,
+                  subsection,
+                  "K0",
+                  k0,
+                  "this entry has no effect. Remove it, or write \"Type = K0\".");
     require_entry(!is_k0 || std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(gravity.size()),
                   subsection,
                   "Type",
@@ -54,19 +57,21 @@ namespace scree
   void SettlingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
-    prm.add_parameter("Maximum time",
-                      maximum_time,
-                      "Longest time, s, of damped motion under gravity before the release at t = 0; 0: none.",
-                      Patterns::Double(0));
-    prm.add_parameter("Damping rate", damping_rate, "Decay of velocity while settling, 1/s.", Patterns::Double(0));
+    prm.add_parameter(
+        "Maximum time",
+        maximum_time,
+        "s; longest duration of the damped motion under gravity before the release at t = 0; 0: no settling.",
+        Patterns::Double(0));
+    prm.add_parameter(
+        "Damping rate", damping_rate, "1/s; decay rate of the velocity during settling.", Patterns::Double(0));
     prm.add_parameter("Kinetic energy",
                       kinetic_energy,
-                      "Settling ends when the kinetic energy is below this part of the elastic energy.",
+                      "Ratio of kinetic to elastic energy below which settling ends.",
                       Patterns::Double(0, 1));
     prm.add_parameter("Gate",
                       gate,
-                      "Nodes where this expression of x, y (and z) is true are held until the release, e.g. x > 1; "
-                      "empty: none.",
+                      "Nodes where this expression of x, y (z), in m, is true are held until the release, such as x > "
+                      "1. Empty: none.",
                       Patterns::Anything());
     prm.leave_subsection();
   }

@@ -16,7 +16,7 @@ namespace scree
   {
     prm.add_parameter(entry,
                       path,
-                      documentation + " Its path counts from the folder of the case's file.",
+                      documentation + " The path is relative to the folder of the case file.",
                       Patterns::FileName(Patterns::FileName::input));
   }
 

@@ -80,10 +80,9 @@ namespace scree
         Utilities::MPI::sum(grid.numbering().partitioner()->n_ghost_indices(), communicator);
     folder.log(number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +
                (n_cells < n_all ? " around the points, in a box of " + number_text(n_all) : "") +
-               (n_ghosts > 0 ? "; nodes on several ranks: " + std::to_string(n_ghosts) + " ghosts" : "") +
-               "; points: " + points + "; memory at the start " + megabytes(memory().VmRSS, communicator) +
-               ", estimated for the run " + std::to_string(std::lround(expected_bytes / (1024. * 1024.))) +
-               " MB (all ranks)");
+               (n_ghosts > 0 ? "; ghost nodes " + std::to_string(n_ghosts) : "") + "; points: " + points +
+               "; memory at the start " + megabytes(memory().VmRSS, communicator) + ", estimated for the run " +
+               std::to_string(std::lround(expected_bytes / (1024. * 1024.))) + " MB (all ranks)");
   }
 
 

@@ -13,12 +13,12 @@ namespace scree
     prm.enter_subsection("Maps");
     prm.add_parameter("Write",
                       write,
-                      "Whether maps of the soil (thickness, largest speed, arrival time, ...) on the columns of cells "
-                      "are written with each picture: ESRI ASCII grids, in 2D tables along x.",
+                      "true: maps of the soil on the columns of cells are written with each graphics output, for "
+                      "instance thickness, largest speed and arrival time. 3D: ESRI ASCII grids. 2D: tables along x.",
                       Patterns::Bool());
     prm.add_parameter("Least thickness",
                       least_thickness,
-                      "Thickness, m, from which on soil counts as arrived, and its speed as that of the column.",
+                      "m; thickness from which the arrival time and the speed of the soil are recorded.",
                       Patterns::Double(0));
     prm.leave_subsection();
   }
@@ -36,39 +36,39 @@ namespace scree
                   subsection,
                   "Least thickness",
                   least_thickness,
-                  "nothing reads it. Remove it, or write \"Write = true\".");
+                  "this entry has no effect. Remove it, or write \"Write = true\".");
   }
 
 
   void OutputParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
-    prm.add_parameter("Interval", interval, "Simulated time between pictures, s.", Patterns::Double(1e-12));
+    prm.add_parameter("Interval", interval, "s; simulated time between graphics outputs.", Patterns::Double(1e-12));
     prm.add_parameter("Statistics interval",
                       statistics_interval,
-                      "Simulated time between rows of the file statistics, s; 0: as 'Interval'.",
+                      "s; simulated time between rows of the file statistics; 0: as \"Interval\".",
                       Patterns::Double(0));
     prm.add_parameter("Checkpoint interval",
                       checkpoint_interval,
-                      "Simulated time between checkpoints, from which --resume goes on, s; 0: none.",
+                      "s; simulated time between checkpoints, from which --resume continues; 0: none.",
                       Patterns::Double(0));
-    prm.add_parameter(
-        "Checkpoint failure",
-        checkpoint_failure,
-        "What follows if a checkpoint cannot be written: stop; go on (the next one is tried when it is due).",
-        Patterns::Selection("stop|go on"));
+    prm.add_parameter("Checkpoint failure",
+                      checkpoint_failure,
+                      "Action if a checkpoint cannot be written. stop: the run ends. go on: the next checkpoint is "
+                      "tried when it is due.",
+                      Patterns::Selection("stop|go on"));
     prm.add_parameter("Wall time limit",
                       wall_time_limit,
-                      "Time of the clock on the wall, s, within which the run writes a checkpoint and ends, so that "
-                      "--resume can go on: a little less than what a batch system grants; 0: none.",
+                      "s; wall-clock time within which the run writes a checkpoint and stops, so that --resume can "
+                      "continue; 0: none. Choose a little less than the limit of the batch system.",
                       Patterns::Double(0));
     prm.add_parameter("Graphics",
                       graphics,
-                      "What is written for ParaView: points and grid, points, or none.",
+                      "Files for ParaView: points and grid, points, or none.",
                       Patterns::Selection("points and grid|points|none"));
     prm.add_parameter("Screen",
                       screen,
-                      "What appears on the screen: progress; statistics (the last row only, for tests); nothing.",
+                      "Console output: progress; statistics (the last row only, for tests); nothing.",
                       Patterns::Selection("progress|statistics|nothing"));
     maps.add_parameters(prm);
     prm.leave_subsection();

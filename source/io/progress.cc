@@ -59,8 +59,9 @@ namespace scree
       return;
     last_line         = elapsed;
     const double done = (time - start_time) / (end_time - start_time);
-    folder.log(format("t = %.4g s (%.0f %%), step %llu of %.3g s, ", time, 100 * done, step, time_step) +
-               (done > 0 && done < 1 ? duration(elapsed / done * (1 - done)) + " left" : duration(elapsed) + " taken"));
+    folder.log(
+        format("t = %.4g s (%.0f %%), step %llu of %.3g s, ", time, 100 * done, step, time_step) +
+        (done > 0 && done < 1 ? duration(elapsed / done * (1 - done)) + " left" : "wall time " + duration(elapsed)));
   }
 
 
@@ -73,14 +74,13 @@ namespace scree
     const auto percent = [&](const StepLimit limit) {
       return 100. * counts[static_cast<unsigned int>(limit)] / n_steps;
     };
-    folder.log(
-        format("a second of motion takes %.4g steps and %.3g s; steps are bounded by pressure waves (%.0f %%), the "
-               "largest speed (%.0f %%), 'Maximum time step' (%.0f %%)",
-               n_steps / motion,
-               clock.wall_time() / motion,
-               percent(StepLimit::waves),
-               percent(StepLimit::motion),
-               percent(StepLimit::entry)));
+    folder.log(format("per simulated second: %.4g steps, %.3g s wall time; time step limited by: wave speed %.0f %%, "
+                      "largest speed %.0f %%, 'Maximum time step' %.0f %%",
+                      n_steps / motion,
+                      clock.wall_time() / motion,
+                      percent(StepLimit::waves),
+                      percent(StepLimit::motion),
+                      percent(StepLimit::entry)));
     constexpr double most = 50.; // % of the steps
     if (percent(StepLimit::entry) > most && others > 0.)
       folder.log(

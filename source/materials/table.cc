@@ -51,12 +51,11 @@ namespace scree
     std::string names;
     for (const RegisteredLaw &one : registered_laws())
       names += (names.empty() ? "" : "|") + one.name;
-    prm.add_parameter(
-        "Material",
-        law,
-        "Constitutive law; its entries are in the subsection of its name. rigid: the body does not move, whatever acts "
-        "on it, and costs no stress; water flows through its pores.",
-        Patterns::Selection(names));
+    prm.add_parameter("Material",
+                      law,
+                      "Constitutive law; its entries are in the subsection of its name. rigid: the body does not move "
+                      "and has no stress; water flows through its pores.",
+                      Patterns::Selection(names));
     for (const RegisteredLaw &one : registered_laws())
       if (!one.subsection.empty())
         {

@@ -97,30 +97,32 @@ namespace scree
     prm.enter_subsection("Mesh");
     prm.add_parameter("Lower corner",
                       lower_corner,
-                      "Lower corner of the box, m, one number an axis. With a \"Raster\" of subsection Bed and without "
-                      "both corners the box is that of the raster.",
+                      "m; lower corner of the box, one coordinate per axis. If neither corner is set and subsection "
+                      "Bed has a \"Raster\", the raster gives the box.",
                       Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Upper corner",
                       upper_corner,
-                      "Upper corner of the box, m, one number an axis.",
+                      "m; upper corner of the box, one coordinate per axis.",
                       Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter(
         "Box",
         box,
-        "Where corners that are not set come from: corners (their defaults; in scenes with a raster and "
-        "neither of the two, the raster) or from raster: the part of it that whole cells cover, and along z "
-        "from two cells below its lowest height to above the soil.",
+        "Source of the corners that are not set. corners: their defaults, or the bed raster if neither corner "
+        "is set. from raster: in x and y the part of the raster that whole cells cover, "
+        "in z from two cells below its lowest height to above the soil.",
         Patterns::Selection("corners|from raster"));
-    prm.add_parameter(
-        "Cell size", cell_size, "Width of the cubic cells, m; must divide the box.", Patterns::Double(1e-12));
+    prm.add_parameter("Cell size",
+                      cell_size,
+                      "m; width of the cubic cells. The box lengths must be integer multiples of it.",
+                      Patterns::Double(1e-12));
     prm.add_parameter("Basis",
                       basis,
                       "Shape functions: spline (C1 quadratic B-splines), quadratic (C0) or linear.",
                       Patterns::Selection("spline|quadratic|linear"));
     prm.add_parameter("Fine cells",
                       fine,
-                      "Where cells have that width: around points (with a margin that moves with them; larger cells, "
-                      "which take no memory worth mentioning, elsewhere), or everywhere.",
+                      "Region with cells of this size. around points: near points, with a margin that moves with them; "
+                      "cells elsewhere are larger. everywhere: the whole box.",
                       Patterns::Selection("around points|everywhere"));
     prm.leave_subsection();
   }

@@ -211,6 +211,11 @@ namespace scree
         const double size = segment.normal.norm();
         segment.area      = size * Utilities::fixed_power<dim - 1>(grid.cell_size());
         segment.normal /= size;
+        Point<dim> middle; // in the unit cell
+        for (unsigned int v = 0; v < CutCell<dim>::n_vertices; ++v)
+          middle += segment.vertex_weights[v] * GeometryInfo<dim>::unit_cell_vertex(v);
+        const FineCells<dim> &fine = grid.fine_cells();
+        segment.middle = fine.box().corner(fine.cells()[fine.of_index(cut.cell)].place) + grid.cell_size() * middle;
       }
   }
 

@@ -100,39 +100,39 @@ namespace scree
   void ProbeParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection(subsection);
-    prm.add_parameter("Places",
-                      places,
-                      "Places, m, whose state is written with each row of statistics: NAME: x, y; NAME: x, y; ...",
-                      Patterns::Anything());
-    prm.add_parameter("Lines",
-                      lines,
-                      "Lines, m, along which the state is written with each picture: NAME: x, y to x, y; ...",
-                      Patterns::Anything());
+    prm.add_parameter(
+        "Places",
+        places,
+        "m; places whose state is written with each row of statistics. Format: NAME: x, y; NAME: x, y; ...",
+        Patterns::Anything());
+    prm.add_parameter(
+        "Lines",
+        lines,
+        "m; lines along which the state is written with each graphics output. Format: NAME: x, y to x, y; ...",
+        Patterns::Anything());
     prm.add_parameter("Places a line",
                       places_a_line,
-                      "Number of places on each line, at equal distances.",
+                      "Number of places on each line, equally spaced, ends included.",
                       Patterns::Integer(2, 100000));
-    prm.add_parameter(
-        "Verticals",
-        verticals,
-        "Places on the ground, m, above which the height of the soil's surface and the level of the water "
-        "are written with each row of statistics: NAME: x; ... (3D: NAME: x, y; ...).",
-        Patterns::Anything());
+    prm.add_parameter("Verticals",
+                      verticals,
+                      "m; places on the ground above which the height of the soil surface and the water level are "
+                      "written with each row of statistics. Format: NAME: x; ... (3D: NAME: x, y; ...).",
+                      Patterns::Anything());
     prm.add_parameter("Front thickness",
                       front_thickness,
-                      "Thickness, m, down to which the largest and smallest x of soil and water are written with each "
-                      "row of statistics; 0: none.",
+                      "m; thickness that defines the fronts. The smallest and largest x at which soil and water are "
+                      "this thick are written with each row of statistics. 0: none.",
                       Patterns::Double(0));
     prm.add_parameter("Wall forces",
                       wall_forces,
-                      "Whether the force on each face of the box is written with each row of statistics.",
+                      "true: the force on each face of the box is written with each row of statistics.",
                       Patterns::Bool());
-    prm.add_parameter(
-        "Displacement",
-        displacement,
-        "Whether the soil's points in the pictures have their displacement since the start, and maps the scour "
-        "depth.",
-        Patterns::Bool());
+    prm.add_parameter("Displacement",
+                      displacement,
+                      "true: the graphics output has the displacement of the soil points since the start, and maps "
+                      "have the scour depth.",
+                      Patterns::Bool());
     prm.leave_subsection();
   }
 
@@ -182,6 +182,6 @@ namespace scree
                   subsection,
                   "Displacement",
                   "true",
-                  "nothing reads it, as there is no soil: entry \"Bodies\" is none. Remove it.");
+                  "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
   }
 } // namespace scree

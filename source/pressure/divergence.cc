@@ -41,12 +41,14 @@ namespace scree
                                             const NodeNumbering<dim> &vertices,
                                             const FreeSurface<dim> &surface,
                                             const double gravity,
-                                            const CutCells<dim> *cut_cells)
+                                            const CutCells<dim> *cut_cells,
+                                            const GroundGaps<dim> &ground_gaps)
       : grid(grid)
       , vertices(vertices)
       , surface(surface)
       , square_of_slow(gravity / grid.cell_size())
       , cut_cells(cut_cells)
+      , ground_gaps(ground_gaps)
   {
   }
 
@@ -127,15 +129,20 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void
-  MixtureDivergence<dim>::add_ground(const CutFacet<dim> &segment, const Flow<n> &flow, AtVertices &integrals) const
+  void MixtureDivergence<dim>::add_ground(const unsigned int number,
+                                          const Flow<n> &flow,
+                                          const double time_step,
+                                          AtVertices &integrals) const
   {
-    double speed = -(segment.normal * cut_cells->velocity(segment)); // out of the open, from the ground
+    const CutFacet<dim> &segment = cut_cells->segments()[number];
+    double speed                 = -(segment.normal * cut_cells->velocity(segment)); // out of the open, from the ground
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int i = 0; i < segment.shapes.size(); ++i)
         speed += segment.normal[c] * segment.shapes[i] * flow.rows[c][i / n][i % n];
     if (speed < 0. && !surface.has_unknown(segment.cell))
       return; // Water may leave ground that it does not press on.
+    if (const double allowed = ground_gaps.allowed_approach(number, speed, time_step); allowed > 0.)
+      speed = std::max(0., speed - allowed);
     for (unsigned int v = 0; v < n_vertices; ++v)
       integrals[v] += segment.area * speed * segment.vertex_weights[v];
   }
@@ -170,6 +177,7 @@ namespace scree
                                                const NodalField<dim> &soil,
                                                const NodalField<dim> &water,
                                                const PoreField<dim> &pores,
+                                               const double time_step,
                                                VertexVector &sums)
   {
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
@@ -185,7 +193,7 @@ namespace scree
           {
             add_integrals<n>(cut_rule, cut->weights.data(), scale, open, flow, integrals);
             for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
-              add_ground<n>(cut_cells->segments()[s], flow, integrals);
+              add_ground<n>(s, flow, time_step, integrals);
           }
         else if (cell.fill < closures::full_cell_in_divergence && cell.soil_mass > 0.)
           add_integrals<n>(rule_in(cell), whole.weights.data(), scale, open, flow, integrals);
@@ -202,13 +210,14 @@ namespace scree
                                          const NodalField<dim> &soil,
                                          const NodalField<dim> &water,
                                          const PoreField<dim> &pores,
+                                         const double time_step,
                                          VertexVector &sums)
   {
     sums = 0.;
     if (grid.n_nodes_1d() == 2)
-      integrate_cells<2>(mixture, soil, water, pores, sums);
+      integrate_cells<2>(mixture, soil, water, pores, time_step, sums);
     else
-      integrate_cells<3>(mixture, soil, water, pores, sums);
+      integrate_cells<3>(mixture, soil, water, pores, time_step, sums);
     sums.compress(VectorOperation::add);
   }
 

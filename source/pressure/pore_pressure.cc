@@ -78,6 +78,7 @@ namespace scree
                                   const WaterParameters &water,
                                   const Tensor<1, dim> &gravity,
                                   const CutCells<dim> *cut_cells,
+                                  const GroundGaps<dim> &ground_gaps,
                                   TimerOutput &timer)
       : grid(grid)
       , relative_tolerance(parameters.relative_tolerance)
@@ -88,7 +89,7 @@ namespace scree
       , vertices(numbered(grid))
       , surface(grid, vertices, walls, gravity, cut_cells)
       , gaps(grid, vertices, surface)
-      , divergence(grid, vertices, surface, gravity.norm(), cut_cells)
+      , divergence(grid, vertices, surface, gravity.norm(), cut_cells, ground_gaps)
       , solver(grid, vertices, parameters)
       , memory(vertices, parameters.fading, water, grid.cell_size())
   {
@@ -199,7 +200,7 @@ namespace scree
   {
     {
       const TimedPart part(timer, TimerSection::pressure_system);
-      divergence.integrate(mixture, soil, water, pores, source);
+      divergence.integrate(mixture, soil, water, pores, time_step, source);
       compute_pressure_coefficients(mixture, soil, water, time_step);
       assemble(mixture, time_step, shear_modulus);
     }

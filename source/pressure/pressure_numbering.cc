@@ -75,7 +75,9 @@ namespace scree
     const auto begin = marks.begin(), end = begin + vertices.n_owned();
     const auto is_marked = [](const double mark) { return mark > 0.; };
     // Trilinos needs a row of every rank.
-    AssertThrow(vertices.n_owned() > 0, ExcMessage("A rank has no node of its own. Remedy: fewer ranks."));
+    AssertThrow(vertices.n_owned() > 0,
+                ExcMessage("One of the " + std::to_string(Utilities::MPI::n_mpi_processes(communicator)) +
+                           " ranks has no nodes. Use fewer ranks."));
     if (std::none_of(begin, end, is_marked))
       *begin = 1.;
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(

@@ -16,16 +16,18 @@ namespace scree
   {
     constexpr char usage[] =
         "Usage: scree case.prm             run a case\n"
-        "       scree case.prm --resume    go on from the newest checkpoint in its run folder\n"
+        "       scree case.prm --resume    continue from the newest checkpoint in its run folder\n"
         "       scree case.prm --advise [--accuracy 0.05]\n"
-        "                                  what the case is, what it will cost, what would serve it better\n"
+        "                                  regime, estimated cost and recommendations\n"
         "       scree --print-parameters [SUBSECTION]\n"
-        "                                  all entries with defaults and explanations, or those of a subsection\n"
+        "                                  all entries with defaults and descriptions, or those of a subsection\n"
+        "       scree --print-parameters --json\n"
+        "                                  all entries with their types, as JSON\n"
         "       scree --version            version and commit, libraries, compiler\n"
         "       scree --help, -h           this text\n"
         "In parallel: mpirun -np 2 scree case.prm\n"
-        "Exit code: 0 done, 1 an error, 3 stopped before the end time as it was asked to, and --resume goes on (not "
-        "where it was still settling)";
+        "Exit code: 0 finished, 1 error, 3 stopped on request before the end time (--resume continues, unless the run "
+        "was settling)";
 
     constexpr int exit_code_of_a_stop = 3;
 
@@ -114,6 +116,8 @@ namespace scree
           Parameters parameters;
           if (arguments.size() == 1)
             parameters.print(out);
+          else if (arguments[1] == "--json")
+            parameters.print_json(out);
           else
             parameters.print_subsection(arguments[1], out);
           return 0;

@@ -15,20 +15,20 @@ namespace scree
   void TimeStepParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Time step");
-    prm.add_parameter("Courant number",
-                      courant_number,
-                      "Step times (wave speed + velocity) over cell size. 1.2 contaminates the stress, 0.6 is safe.",
-                      Patterns::Double(1e-6, 2));
+    prm.add_parameter(
+        "Courant number",
+        courant_number,
+        "Time step times (wave speed + velocity), over the cell size. 0.6 is safe; at 1.2 the stress oscillates.",
+        Patterns::Double(1e-6, 2));
     prm.add_parameter("Advection number",
                       advection_number,
-                      "Largest distance a point moves in a step over cell size.",
+                      "Largest distance that a point moves in a time step, over the cell size.",
                       Patterns::Double(1e-6, 1));
-    prm.add_parameter(
-        "Maximum time step",
-        maximum,
-        "Upper bound of the step, s. auto: dry scenes sqrt(0.2 h/g), in which soil falls from rest through "
-        "a tenth of a cell, without gravity none; with water 0.01 s.",
-        Patterns::Anything());
+    prm.add_parameter("Maximum time step",
+                      maximum,
+                      "s; upper bound of the time step. auto: 0.01 s with water; sqrt(0.2 h/g) in dry cases with "
+                      "gravity; none in dry cases without gravity.",
+                      Patterns::Anything());
     prm.leave_subsection();
   }
 

@@ -32,12 +32,14 @@ namespace scree
       , mixture(grid, model.soil_points, model.cut_cells)
       , pores(grid)
       , water_field(grid)
+      , ground_gaps(grid, model.cut_cells, forces.gravity().norm())
       , pressure(grid,
                  *model.water_walls,
                  model.pressure_parameters,
                  model.water_parameters,
                  forces.gravity(),
                  model.cut_cells,
+                 ground_gaps,
                  timer)
       , wall_gaps(grid, *model.constraints[0])
       , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
@@ -47,6 +49,7 @@ namespace scree
                 model.ground,
                 model.surfaces,
                 model.cut_cells,
+                ground_gaps,
                 model.pressure_parameters.relative_tolerance,
                 timer)
       , shifting(grid, *model.constraints[0], pressure, forces.gravity(), model.water_parameters.volume_correction_rate)
@@ -164,8 +167,13 @@ namespace scree
     gather();
     wall_gaps.clear();
     wall_gaps.add(mixture);
+    ground_gaps.clear();
+    ground_gaps.add(mixture);
     for (const PointSet<dim> *points : point_sets())
-      wall_gaps.add(*points, spacing);
+      {
+        wall_gaps.add(*points, spacing);
+        ground_gaps.add(*points, spacing);
+      }
   }
 
 

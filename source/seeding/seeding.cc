@@ -16,29 +16,30 @@ namespace scree
   {
     prm.add_parameter("Region",
                       region,
-                      "Where the body is: inside where this expression of x, y (and z), in m, is true, e.g. "
-                      "if(x < 2, y < 2, y < 4 - x).",
+                      "The body occupies the region where this expression of x, y (z), in m, is true, such as if(x < "
+                      "2, y < 2, y < 4 - x). 0: nowhere.",
                       Patterns::Anything());
     source.add_parameters(prm);
     prm.add_parameter(
         "Points per cell", points_per_cell, "Points along each axis of a cell.", Patterns::Integer(1, 32));
-    prm.add_parameter(
-        "Jitter",
-        jitter,
-        "Largest random move of a point from its place on the lattice, along each axis and over the lattice's "
-        "spacing; 0: a regular lattice. For verification and stability maps: moved points keep their "
-        "volume, so that a cell is no longer evenly filled.",
-        Patterns::Double(0, 0.49));
-    prm.add_parameter("Grain density", grain_density, "Density of the grains, kg/m^3.", Patterns::Double(1e-12));
+    prm.add_parameter("Jitter",
+                      jitter,
+                      "Largest random displacement of a point from the lattice, along each axis, over the lattice "
+                      "spacing; 0: regular lattice. For verification and stability maps: points keep their volume, so "
+                      "that cells are filled unevenly.",
+                      Patterns::Double(0, 0.49));
+    prm.add_parameter("Grain density",
+                      grain_density,
+                      "kg/m^3; density of the grains. The bulk density is this value times (1 - porosity).",
+                      Patterns::Double(1e-12));
     prm.add_parameter(
         "Initial porosity",
         initial_porosity,
-        "Volume of pores over total volume; -1: as the material law implies (Nor-Sand: 1 - 1/v_0; else 0). "
-        "The bulk density is grain density times (1 - porosity).",
+        "Pore volume over total volume; -1: the value of the material law (Nor-Sand: 1 - 1/v_0; others: 0).",
         Patterns::Double(-1, 0.999));
     prm.add_parameter("Initial velocity",
                       initial_velocity,
-                      "Velocity at the start, m/s: an expression an axis, separated by semicolons; empty: at rest.",
+                      "m/s; velocity at the start, one expression per axis, separated by semicolons. Empty: at rest.",
                       Patterns::Anything());
   }
 
@@ -51,7 +52,7 @@ namespace scree
                   body,
                   "Region",
                   region,
-                  "the body is nowhere. Write where it is, for instance x < 1 && y < 1");
+                  "the body has no region. Write one, for instance x < 1 && y < 1");
     require_entry(initial_porosity == -1 || initial_porosity >= 0,
                   body,
                   "Initial porosity",
@@ -161,10 +162,9 @@ namespace scree
                   body.name,
                   parameters.place().first,
                   parameters.place().second,
-                  ground
-                      ? "it is nowhere true in the box of subsection Mesh and above the ground of subsection Bed. Move "
-                        "the region, the box or the bed."
-                      : "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
+                  ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection Bed. "
+                           "Move the region, the box or the bed."
+                         : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
 
     const auto &layout = body.layout;
     insert_points<dim>(

@@ -92,9 +92,9 @@ namespace scree
                     "Water",
                     "Region",
                     parameters.region,
-                    ground ? "it is nowhere true in the box of subsection Mesh and above the ground of subsection Bed. "
-                             "Move the region, the box or the bed."
-                           : "it is nowhere true inside the box of subsection Mesh. Move the region or the box.");
+                    ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
+                             "Bed. Move the region, the box or the bed."
+                           : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
       for (unsigned int i = 0; i < parts.size(); ++i)
         if (parts[i].soil && filled[i] > 0)
           require_pores(*parts[i].soil);

@@ -45,16 +45,17 @@ namespace scree
   void SurfaceLoadParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Surface load");
-    prm.add_parameter("Lower corner",
-                      lower_corner,
-                      "Corner of a flat patch of the soil's surface, m; the patch has no width along one axis.",
-                      Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter(
-        "Upper corner", upper_corner, "The opposite corner, m.", Patterns::List(Patterns::Double(), 2, 3));
+        "Lower corner",
+        lower_corner,
+        "m; lower corner of a flat patch of the soil surface. The two corners share exactly one coordinate.",
+        Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter(
+        "Upper corner", upper_corner, "m; opposite corner of the patch.", Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Traction",
                       traction,
-                      "Force per initial area of the patch, Pa: an expression of x, y (z) and t an axis, separated by "
-                      "semicolons, e.g. 0; -1e4; empty: no load.",
+                      "Pa; force per initial area of the patch: one expression of x, y (z) and t per axis, separated "
+                      "by semicolons, such as 0; -1e4. Empty: no load.",
                       Patterns::Anything());
     prm.leave_subsection();
   }
@@ -107,7 +108,7 @@ namespace scree
                         subsection,
                         name,
                         number_text(corner),
-                        "nothing reads it. Remove it, or write a \"Traction\", in Pa.");
+                        "this entry has no effect. Remove it, or write a \"Traction\", in Pa.");
         return;
       }
     if (dim == 2)

@@ -14,13 +14,14 @@ namespace scree
     prm.enter_subsection("Transfer");
     prm.add_parameter("Method",
                       method,
-                      "How velocity travels between points and nodes: FLIP, PIC, APIC, TPIC or AFLIP.",
+                      "Transfer of velocity between points and nodes: FLIP, PIC, APIC, TPIC or AFLIP.",
                       Patterns::Selection("FLIP|PIC|APIC|TPIC|AFLIP"));
-    prm.add_parameter("PIC rate",
-                      rate,
-                      "Rate at which FLIP and AFLIP forget the points' own velocity, 1/s: per step they keep exp(-rate "
-                      "dt). auto: FLIP 1 1/s, AFLIP 5 sqrt(g/h), without gravity c/h.",
-                      Patterns::Anything());
+    prm.add_parameter(
+        "PIC rate",
+        rate,
+        "1/s; rate at which the point velocity relaxes to the grid velocity (FLIP and AFLIP). The part exp(-rate dt) "
+        "remains per time step. auto: 1 1/s for FLIP; 5 sqrt(g/h) for AFLIP, without gravity c/h.",
+        Patterns::Anything());
     prm.leave_subsection();
   }
 
@@ -39,7 +40,7 @@ namespace scree
                   "Transfer",
                   "PIC rate",
                   rate,
-                  "nothing reads it, as \"Method = " + method +
+                  "this entry has no effect, as \"Method = " + method +
                       "\" has no such rate. Remove it, or write \"Method = FLIP\" or \"Method = AFLIP\".");
   }
 
@@ -83,12 +84,12 @@ namespace scree
   void StabilisationParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Stabilisation");
-    prm.add_parameter(
-        "F-bar",
-        f_bar,
-        "none; standard: the cell's mean volume change drives the material; modified: and the stored elastic "
-        "volume strain of its points is averaged, and their volume follows the mean.",
-        Patterns::Selection("none|standard|modified"));
+    prm.add_parameter("F-bar",
+                      f_bar,
+                      "Volume averaging over the points of a cell. none: each point uses its own volume change. "
+                      "standard: the mean volume change of the cell determines the stress. modified: in addition, the "
+                      "elastic volume strain of the points is averaged, and their volume follows the mean.",
+                      Patterns::Selection("none|standard|modified"));
     prm.leave_subsection();
   }
 

@@ -25,7 +25,7 @@ END
 for case in prm/*.prm prm/*/*.prm; do
   case $case in prm/inflow/*) continue ;; esac
   "$scree" --advise "$case" >text
-  for part in Scales Size "Cost of the case as it stands" "Recommendation for a relative error of 0.05"; do
+  for part in Scales Size "Estimated cost of this case" "Recommendation for a relative error of 0.05"; do
     grep -q "^$part" text || { echo "$case: no part \"$part\""; exit 1; }
   done
   # Numbers of steps, seconds and memory, and the recommended cell, are there and above 0.

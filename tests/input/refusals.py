@@ -77,9 +77,9 @@ def heights(middle="1500"):
 
 
 RANGE = r"^Bed: heights of the raster from %s m in row \d, column \d \(x = \d+, y = \d+\) to %s m in row \d, column \d \(x = \d+, y = \d+\)$"
-STEPS = (r"^Is this meant\? Bed: 4 steps between neighbouring heights of the raster are steeper than 80 degrees; the largest is from 1500 m in row \d, "
+STEPS = (r"^Unusual value: Bed: 4 steps between neighbouring heights of the raster are steeper than 80 degrees; the largest is from 1500 m in row \d, "
          r"column \d \(x = \d+, y = \d+\) to %s m in row 3, column 3 \(x = 20, y = 20\)\.$")
-STRANGE = (r"^Is this meant\? Bed: 1 heights of the raster lie outside -500 to 9000 m, the first is %s m in row 3, column 3 \(x = 20, y = 20\)\. "
+STRANGE = (r"^Unusual value: Bed: 1 heights of the raster lie outside -500 to 9000 m, the first is %s m in row 3, column 3 \(x = 20, y = 20\)\. "
            r"If they stand for missing ones, write that value as NODATA_value\.$")
 # case, file heights.asc, lines that the log must have, how many questions
 LOGGED = {
@@ -136,7 +136,7 @@ def main():
     for name, (case, wanted) in QUESTIONED.items():
         code, error = run(scree, case)
         require(name, "", code, error)
-        questions = [line for line in pathlib.Path("run/log.txt").read_text(encoding="utf-8").split("\n") if "Is this meant?" in line]
+        questions = [line for line in pathlib.Path("run/log.txt").read_text(encoding="utf-8").split("\n") if "Unusual value:" in line]
         if len(questions) != len(wanted) or not all(any(text in question for question in questions) for text in wanted):
             faults.append(f"{name}: the log asks {questions}")
     for name, (case, raster, wanted, n_questions) in LOGGED.items():
@@ -146,8 +146,8 @@ def main():
         for line in wanted:
             if not re.search(line, log, re.MULTILINE):
                 faults.append(f"{name}: no line {line} in {log}")
-        if log.count("Is this meant?") != n_questions:
-            faults.append(f"{name}: {log.count('Is this meant?')} questions in {log}")
+        if log.count("Unusual value:") != n_questions:
+            faults.append(f"{name}: {log.count('Unusual value:')} questions in {log}")
     print("\n".join(faults) or "all as they should be")
     sys.exit(bool(faults))
 

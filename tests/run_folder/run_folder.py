@@ -386,7 +386,7 @@ def log_header():
         r"\w+ [0-9.]+, (Release|Debug)\n"
         r"flags: .*-std=c\+\+17.*\n"
         r"{ranks} rank\(s\), the first is process \d+ on \S+; 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d \w+\n"
-        r"120 cells of 0\.1 m(?:; nodes on several ranks: [1-9]\d* ghosts)?; points: Soil 400; memory at the start [1-9]\d+ MB, estimated for the run ([1-9]\d+) MB \(all ranks\)\n"
+        r"120 cells of 0\.1 m(?:; ghost nodes [1-9]\d*)?; points: Soil 400; memory at the start [1-9]\d+ MB, estimated for the run ([1-9]\d+) MB \(all ranks\)\n"
         r"Transfer: FLIP with a PIC rate of 5 1/s\n"
     )
     for ranks in (1, 2):

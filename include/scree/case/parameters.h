@@ -90,6 +90,9 @@ namespace scree
     /// Writes every entry with its value, default and explanation.
     void print(std::ostream &out);
 
+    /// All entries in the order of their declaration, with patterns, as JSON.
+    void print_json(std::ostream &out);
+
     /// The same of one subsection, such as `Soil/Initial state`. Throws InputError if there is none of that path.
     void print_subsection(const std::string &path, std::ostream &out);
 

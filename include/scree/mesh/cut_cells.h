@@ -39,6 +39,7 @@ namespace scree
 
     double area = 0.;                                   ///< what its normals add up to, m^(dim-1)
     dealii::Tensor<1, dim> normal;                      ///< unit, mean over the segment, out of the open
+    dealii::Point<dim> middle;                          ///< m
     typename CutCell<dim>::AtVertices vertex_weights{}; ///< means of the corners' linear functions over the segment
     std::vector<double> shapes;                         ///< the same of the velocity's functions
   };

@@ -2,6 +2,7 @@
 #ifndef scree_pressure_divergence_h
 #define scree_pressure_divergence_h
 
+#include <scree/boundary/ground_gaps.h>
 #include <scree/pressure/soil_gaps.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -20,11 +21,13 @@ namespace scree
   public:
     /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
+    /// @param ground_gaps between the ground and particles
     MixtureDivergence(const BackgroundGrid<dim> &grid,
                       const NodeNumbering<dim> &vertices,
                       const FreeSurface<dim> &surface,
                       const double gravity,
-                      const CutCells<dim> *cut_cells);
+                      const CutCells<dim> *cut_cells,
+                      const GroundGaps<dim> &ground_gaps);
 
     /// Sets `sums`, m^3/s, at the vertices of wet cells from the velocities and the volume fraction of grains at the
     /// nodes, whose ghosts hold values. Collective: owned vertices hold the whole.
@@ -32,6 +35,7 @@ namespace scree
                    const NodalField<dim> &soil,
                    const NodalField<dim> &water,
                    const PoreField<dim> &pores,
+                   const double time_step,
                    VertexVector &sums);
 
     /// Sets the cells' factors of the soil's volume, from the velocities at the end of a step of `time_step` s.
@@ -98,6 +102,7 @@ namespace scree
                          const NodalField<dim> &soil,
                          const NodalField<dim> &water,
                          const PoreField<dim> &pores,
+                         const double time_step,
                          VertexVector &sums);
 
     /// Adds `scale` times the integrals over a cell to those of its vertices.
@@ -123,16 +128,18 @@ namespace scree
     /// Points over it.
     Rule<2> rule_in(const MixtureCell<dim> &cell) const;
 
-    /// Adds what flows through a segment of the ground, beside its own motion.
+    /// Adds what flows through a segment of the ground, beside its own motion and beyond what closes its gap.
     template <int n>
-    void add_ground(const CutFacet<dim> &segment, const Flow<n> &flow, AtVertices &integrals) const;
+    void
+    add_ground(const unsigned int segment, const Flow<n> &flow, const double time_step, AtVertices &integrals) const;
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
     const FreeSurface<dim> &surface;
     const double square_of_slow;    // g/h, 1/s^2
     const CutCells<dim> *cut_cells; // may be null
-    const Rule<2> whole;            // exact for slopes of quadratics times linear functions
+    const GroundGaps<dim> &ground_gaps;
+    const Rule<2> whole; // exact for slopes of quadratics times linear functions
     const Rule<CutCell<dim>::n_gauss> cut_rule;
   };
 } // namespace scree

@@ -28,6 +28,7 @@ namespace scree
                  const WaterParameters &water,
                  const dealii::Tensor<1, dim> &gravity,
                  const CutCells<dim> *cut_cells,
+                 const GroundGaps<dim> &ground_gaps,
                  dealii::TimerOutput &timer);
 
     /// Fits the vertices to the grid's current partition. Collective.

@@ -78,6 +78,7 @@ namespace scree
     Mixture<dim> mixture;
     PoreField<dim> pores;
     NodalField<dim> water_field;
+    GroundGaps<dim> ground_gaps;
     PorePressure<dim> pressure;
     WallGaps<dim> wall_gaps;
     const double spacing; // of the points at the start, where they are widest apart, m

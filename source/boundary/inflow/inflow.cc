@@ -106,7 +106,7 @@ namespace scree
                   parameters.subsection,
                   "Region",
                   parameters.region,
-                  std::string("it is nowhere true behind the section, at ") + "xyz"[face / 2] + " = " +
+                  std::string("the region is empty behind the section, at ") + "xyz"[face / 2] + " = " +
                       number_text(section) + " m" + (ground ? " and above the ground of subsection Bed" : "") +
                       ". Move the region or the section.");
     std::sort(cells_of_layer.begin(), cells_of_layer.end());

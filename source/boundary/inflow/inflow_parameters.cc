@@ -21,44 +21,45 @@ namespace scree
   void InflowParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection(subsection);
-    prm.add_parameter(
-        "Body", body, "What enters: the name of a body of soil, or Water (of subsection Water).", Patterns::Anything());
-    prm.add_parameter("Saturated", is_saturated, "Whether soil enters with its pores full of water.", Patterns::Bool());
+    prm.add_parameter("Body", body, "Material that enters: the name of a soil body, or Water.", Patterns::Anything());
+    prm.add_parameter("Saturated", is_saturated, "true: soil enters with its pores full of water.", Patterns::Bool());
     prm.add_parameter("Face",
                       face,
-                      "Face of the box from which it comes; it moves along the face's inward normal.",
+                      "Face of the box through which the material enters, along the inward normal.",
                       Patterns::Selection("Left|Right|Front|Back|Bottom|Top"));
     prm.add_parameter("Section",
                       section,
-                      "Where it enters, m: coordinate along the normal of the face, a multiple of the points' spacing "
-                      "away from it. Empty: at the face itself.",
+                      "m; coordinate of the inflow section along the normal of the face, a multiple of the point "
+                      "spacing away from it. Empty: at the face.",
                       Patterns::Anything());
     prm.add_parameter("Region",
                       region,
-                      "Open part of the section: where this expression of x, y (and z), in m, is true. What is below "
-                      "the bed is left out.",
+                      "Open part of the section, where this expression of x, y (z), in m, is true. The part below the "
+                      "bed is left out.",
                       Patterns::Anything());
     prm.add_parameter("Speed",
                       speed,
-                      "Speed of what enters, m/s, not negative: an expression of t, such as 2*min(t/5, 1).",
+                      "m/s; inflow speed, not negative: an expression of t, such as 2*min(t/5, 1).",
                       Patterns::Anything());
     add_file_entry(prm,
                    "Hydrograph",
                    hydrograph,
-                   "In place of the speed: file of the time, s, and a speed or a discharge, a row a line, separated "
-                   "by a comma; linear between the rows, 0 before the first and after the last.");
+                   "File of the time (s) and the speed or discharge, one pair per line, separated by a comma; "
+                   "alternative to \"Speed\". Values are linear between lines and 0 outside the record.");
     prm.add_parameter("Hydrograph of",
                       hydrograph_of,
-                      "What the file tells: speed, m/s; or discharge, m^3/s (2D: m^2/s), of soil with its pores, "
+                      "Quantity in the hydrograph. speed: m/s. discharge: m^3/s (2D: m^2/s) of soil with its pores, "
                       "through the whole open part.",
                       Patterns::Selection("speed|discharge"));
     prm.add_parameter("Direction",
                       direction,
-                      "Along which it enters, one number an axis, of any length; empty: the face's inward normal.",
+                      "Inflow direction, one component per axis; the length does not matter. Empty: the inward "
+                      "normal of the face.",
                       Patterns::List(Patterns::Double(), 0, 3));
     prm.add_parameter("End time",
                       end_time,
-                      "When the inflow ends and its section is what subsection Boundaries says, s; -1: with the run.",
+                      "s; time at which the inflow ends; -1: with the run. Afterwards the condition of subsection "
+                      "Boundaries holds at the section.",
                       Patterns::Double(-1));
     prm.leave_subsection();
   }
@@ -126,7 +127,7 @@ namespace scree
                   subsection,
                   "Hydrograph of",
                   hydrograph_of,
-                  "nothing reads it, as there is no \"Hydrograph\". Remove it.");
+                  "this entry has no effect, as there is no \"Hydrograph\". Remove it.");
     require_entry(end_time == -1 || end_time > 0,
                   subsection,
                   "End time",

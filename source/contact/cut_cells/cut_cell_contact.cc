@@ -18,6 +18,7 @@ namespace scree
                                       const RigidBoundary<dim> *ground,
                                       const std::vector<RigidSurface<dim>> &surfaces,
                                       const CutCells<dim> *cut_cells,
+                                      const GroundGaps<dim> &gaps,
                                       const double relative_tolerance,
                                       TimerOutput &timer)
       : grid(grid)
@@ -26,6 +27,7 @@ namespace scree
       , n_obstacles(
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , cut_cells(cut_cells)
+      , gaps(gaps)
       , relative_tolerance(relative_tolerance)
       , timer(timer)
       , any_holds_water(
@@ -39,7 +41,7 @@ namespace scree
 
 
   template <int dim>
-  unsigned int CutCellContact<dim>::find_surface(const CutFacet<dim> &segment, const Point<dim> &middle) const
+  unsigned int CutCellContact<dim>::find_surface(const CutFacet<dim> &segment) const
   {
     const GroundPart<dim> &part = ground->parts()[segment.part];
     unsigned int number         = 0;
@@ -50,7 +52,7 @@ namespace scree
         if (surface.samples == part.samples)
           return i;
         if (!(surface.obstacle && surface.obstacle->is_moving) && surface.samples->is_near(segment.cell))
-          if (const double distance = surface.samples->view(segment.cell, middle).distance; distance < nearest)
+          if (const double distance = surface.samples->view(segment.cell, segment.middle).distance; distance < nearest)
             {
               nearest = distance;
               number  = i;
@@ -63,18 +65,10 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::find_surfaces()
   {
-    const auto &segments       = cut_cells->segments();
-    const FineCells<dim> &fine = grid.fine_cells();
+    const auto &segments = cut_cells->segments();
     surface_numbers.resize(segments.size());
-    middles.resize(segments.size());
     for (unsigned int s = 0; s < segments.size(); ++s)
-      {
-        Point<dim> middle; // in the unit cell
-        for (unsigned int v = 0; v < CutCell<dim>::n_vertices; ++v)
-          middle += segments[s].vertex_weights[v] * GeometryInfo<dim>::unit_cell_vertex(v);
-        middles[s] = fine.box().corner(fine.cells()[fine.of_index(segments[s].cell)].place) + grid.cell_size() * middle;
-        surface_numbers[s] = find_surface(segments[s], middle);
-      }
+      surface_numbers[s] = find_surface(segments[s]);
   }
 
 
@@ -129,6 +123,7 @@ namespace scree
                                         const Phase phase,
                                         const bool is_unilateral,
                                         const MixtureNodes<dim> &nodes,
+                                        const double time_step,
                                         const Tensor<1, dim> &base,
                                         const Tensor<1, dim> &first)
   {
@@ -145,6 +140,12 @@ namespace scree
     contact.normal = of_ground.normal;
     contact.speed =
         mean_velocity(of_ground, phase == Phase::soil ? nodes.soil : nodes.water) - cut_cells->velocity(of_ground);
+    if (const double allowed = gaps.allowed_approach(segment, contact.speed * contact.normal, time_step); allowed > 0.)
+      {
+        contact.speed -= allowed * contact.normal;
+        if (contact.speed * contact.normal <= 0.)
+          return; // The gap does not close in this step.
+      }
     // What neither presses nor comes near is left alone.
     if (is_unilateral && contact.speed * contact.normal <= 0. && !(base * contact.normal > 0.))
       return;
@@ -250,7 +251,7 @@ namespace scree
       if (cell.soil_mass > 0. && !cell.is_rigid)
         for_segments(cell.cell, [&](const unsigned int segment) {
           const Tensor<1, dim> nothing, first = time_step * of_segments[segment].predicted_soil;
-          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, nothing, first);
+          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, time_step, nothing, first);
         });
     project(nodes, step, relative_tolerance, balance);
     for (OfSegment &segment : of_segments)
@@ -275,12 +276,14 @@ namespace scree
       for_segments(cell.cell, [&](const unsigned int segment) {
         const OfSegment &known = of_segments[segment];
         if (cell.soil_mass > 0. && !cell.is_rigid)
-          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, known.soil, time_step * known.corrected_soil);
+          add_contact(
+              segment, Phase::soil, !is_fixed(segment), nodes, time_step, known.soil, time_step * known.corrected_soil);
         if (cell.water_volume > 0.)
           add_contact(segment,
                       Phase::water,
                       !surface.has_unknown(cell.cell),
                       nodes,
+                      time_step,
                       Tensor<1, dim>(),
                       time_step * known.corrected_water);
       });
@@ -338,7 +341,7 @@ namespace scree
           {
             const double work = impulse * cut_cells->velocity(segment);
             obstacle->impulse += impulse;
-            obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
+            obstacle->add_moment(cut_cells->segments()[s].middle - surface_of(s).obstacle->pivot, impulse);
             obstacle->work += work;
             obstacle->dissipation += work + dissipation;
           }
@@ -373,7 +376,7 @@ namespace scree
             mean += segment.vertex_weights[v] * corners[v];
           const Tensor<1, dim> impulse = -time_step * mean * segment.area * segment.normal;
           obstacle->pressure_impulse += impulse;
-          obstacle->add_moment(middles[s] - surface_of(s).obstacle->pivot, impulse);
+          obstacle->add_moment(cut_cells->segments()[s].middle - surface_of(s).obstacle->pivot, impulse);
           obstacle->work += impulse * cut_cells->velocity(segment);
         });
   }

@@ -10,8 +10,8 @@ namespace scree
 {
   void LinearElasticParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Young's modulus", young_modulus, "Young's modulus, Pa.", Patterns::Double(0));
-    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio, -.", Patterns::Double(-1, 0.5));
+    prm.add_parameter("Young's modulus", young_modulus, "Pa; Young's modulus.", Patterns::Double(0));
+    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
   }
 
 

@@ -39,13 +39,16 @@ namespace scree
 
   void MohrCoulombParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Young's modulus", young_modulus, "Young's modulus, Pa.", Patterns::Double(0));
-    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio, -.", Patterns::Double(-1, 0.5));
-    prm.add_parameter("Friction angle", friction_angle, "Friction angle phi, degrees.", Patterns::Double(0, 89));
-    prm.add_parameter("Dilation angle", dilation_angle, "Dilation angle psi, degrees.", Patterns::Double(0, 89));
-    prm.add_parameter("Cohesion", cohesion, "Cohesion c, Pa.", Patterns::Double(0));
+    prm.add_parameter("Young's modulus", young_modulus, "Pa; Young's modulus.", Patterns::Double(0));
+    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
+    prm.add_parameter("Friction angle", friction_angle, "degrees; friction angle phi.", Patterns::Double(0, 89));
+    prm.add_parameter("Dilation angle",
+                      dilation_angle,
+                      "degrees; dilation angle psi, at most the friction angle.",
+                      Patterns::Double(0, 89));
+    prm.add_parameter("Cohesion", cohesion, "Pa; cohesion c.", Patterns::Double(0));
     prm.add_parameter(
-        "Tension cut-off", tension_cut_off, "Largest principal stress, Pa; at most c cot(phi).", Patterns::Double(0));
+        "Tension cut-off", tension_cut_off, "Pa; largest principal stress, at most c cot(phi).", Patterns::Double(0));
   }
 
 

@@ -11,44 +11,45 @@ namespace scree
   void NorSandParameters::add_parameters(ParameterHandler &prm)
   {
     const Patterns::Double not_negative(0);
-    prm.add_parameter("Shear modulus", shear_modulus, "Elastic shear modulus G, Pa.", not_negative);
-    prm.add_parameter("Swelling index", swelling_index, "Elastic compressibility kappa in ln P, -.", not_negative);
+    prm.add_parameter("Shear modulus", shear_modulus, "Pa; elastic shear modulus G.", not_negative);
+    prm.add_parameter("Swelling index", swelling_index, "Elastic compressibility kappa in ln P.", not_negative);
     prm.add_parameter(
-        "Compression index", compression_index, "Slope lambda of the critical state line in ln P, -.", not_negative);
+        "Compression index", compression_index, "Slope lambda of the critical state line in ln P.", not_negative);
     prm.add_parameter("Critical state specific volume",
                       critical_state_specific_volume,
-                      "Specific volume v_c0 of the critical state line at the reference pressure, -.",
+                      "Specific volume v_c0 of the critical state line at the reference pressure.",
                       Patterns::Double(1));
-    prm.add_parameter("Reference pressure", reference_pressure, "Pressure at which v_c0 holds, Pa.", not_negative);
-    prm.add_parameter("Critical stress ratio M", critical_stress_ratio, "q/P at critical state, -.", not_negative);
+    prm.add_parameter("Reference pressure", reference_pressure, "Pa; pressure at which v_c0 holds.", not_negative);
+    prm.add_parameter(
+        "Critical stress ratio M", critical_stress_ratio, "Stress ratio q/P at critical state.", not_negative);
     prm.add_parameter("Yield constant N",
                       yield_constant,
-                      "Curvature N of the yield surface, -; 0 is original Cam-Clay.",
+                      "Curvature N of the yield surface; 0: original Cam-Clay.",
                       Patterns::Double(0, 0.99));
     prm.add_parameter("Potential constant N bar",
                       potential_constant,
-                      "Curvature of the plastic potential, -; at most N.",
+                      "Curvature of the plastic potential, at most N.",
                       Patterns::Double(0, 0.99));
-    prm.add_parameter("Hardening coefficient", hardening_coefficient, "Hardening coefficient h, -.", not_negative);
+    prm.add_parameter("Hardening coefficient", hardening_coefficient, "Hardening coefficient h.", not_negative);
     prm.add_parameter("Dilatancy multiplier",
                       dilatancy_multiplier,
-                      "Largest dilatancy over state parameter alpha, -; negative.",
+                      "Multiplier alpha: largest dilatancy over state parameter; negative.",
                       Patterns::Double(-100, 0));
     prm.add_parameter("Initial specific volume",
                       initial_specific_volume,
-                      "Specific volume v_0 = 1 + void ratio at the start, -.",
+                      "Specific volume v_0 = 1 + void ratio at the start.",
                       Patterns::Double(1));
     prm.add_parameter("Initial overconsolidation ratio",
                       initial_overconsolidation,
-                      "Image pressure at the start over that of the yield surface through the stress, -.",
+                      "Image pressure at the start over that of the yield surface through the stress.",
                       Patterns::Double(1));
     prm.add_parameter("Minimum pressure",
                       minimum_pressure,
-                      "Pressure below which grains are apart: no stress, the gap is kept, Pa.",
+                      "Pa; pressure below which the grains separate: the stress is 0, and the gap is stored.",
                       not_negative);
     prm.add_parameter("Substep strain",
                       substep_strain,
-                      "Largest component of the strain increment of one return map, -.",
+                      "Largest component of the strain increment of one return mapping.",
                       Patterns::Double(1e-6, 1));
   }
 

@@ -2,6 +2,7 @@
 #ifndef scree_contact_cut_cells_cut_cell_contact_h
 #define scree_contact_cut_cells_cut_cell_contact_h
 
+#include <scree/boundary/ground_gaps.h>
 #include <scree/contact/points/point_contact.h>
 #include <scree/contact/cut_cells/contact_solver.h>
 
@@ -27,11 +28,13 @@ namespace scree
     /// @param ground all surfaces; null: there is no contact, and all calls return at once
     /// @param surfaces what it consists of
     /// @param cut_cells of the ground, null without it
+    /// @param gaps between the ground and particles
     /// @param relative_tolerance of the velocities through the ground
     CutCellContact(const BackgroundGrid<dim> &grid,
                    const RigidBoundary<dim> *ground,
                    const std::vector<RigidSurface<dim>> &surfaces,
                    const CutCells<dim> *cut_cells,
+                   const GroundGaps<dim> &gaps,
                    const double relative_tolerance,
                    dealii::TimerOutput &timer);
 
@@ -117,6 +120,7 @@ namespace scree
                      const Phase phase,
                      const bool is_unilateral,
                      const MixtureNodes<dim> &nodes,
+                     const double time_step,
                      const dealii::Tensor<1, dim> &base,
                      const dealii::Tensor<1, dim> &first);
 
@@ -151,17 +155,18 @@ namespace scree
     /// What a segment's surface did, if it is an obstacle; else null.
     ObstacleBalance<dim> *balance_of(const unsigned int segment, Budget<dim> &balance) const;
 
-    /// Finds the segments' surfaces and middles.
+    /// Finds the segments' surfaces.
     void find_surfaces();
 
     /// The surface that a segment is of.
-    unsigned int find_surface(const CutFacet<dim> &segment, const dealii::Point<dim> &middle) const;
+    unsigned int find_surface(const CutFacet<dim> &segment) const;
 
     const BackgroundGrid<dim> &grid;
     const RigidBoundary<dim> *ground; // may be null
     const std::vector<RigidSurface<dim>> surfaces;
     const unsigned int n_obstacles; // the last of the surfaces
     const CutCells<dim> *cut_cells;
+    const GroundGaps<dim> &gaps;
     const double relative_tolerance;
     std::optional<ContactSolver<dim>> contacts; // nothing without ground
     dealii::TimerOutput &timer;
@@ -169,7 +174,6 @@ namespace scree
     std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
     std::vector<OfSegment> of_segments;        // by segment
     std::vector<unsigned int> surface_numbers; // the same
-    std::vector<dealii::Point<dim>> middles;   // of the segments, m
     double largest_flow = 0;                   // of the step, m/s m^((dim-1)/2)
   };
 } // namespace scree

@@ -55,7 +55,7 @@ def measure(run):
     counts = re.search(r"^mpi: ranks \d+ messages (\d+) (\d+) bytes (\d+) (\d+) collectives (\d+)$", run.log, re.MULTILINE)
     total = re.search(r"^total +([\d.e+-]+) ", run.log, re.MULTILINE)
     imbalance = re.search(r"^imbalance: ([\d.]+)", run.log, re.MULTILINE)
-    ghosts = re.search(r": (\d+) ghosts", run.log)
+    ghosts = re.search(r"; ghost nodes (\d+)", run.log)
     updates = re.search(r"/ ([\d.e+-]+) point updates", run.log)
     columns = run.columns
     return {**dict(zip(COUNTS, map(int, counts.groups()))), "wall s": float(total.group(1)), "imbalance": float(imbalance.group(1)) if imbalance else 1.,

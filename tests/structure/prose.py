@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""prose.py ROOT: limits of the texts below ROOT, which are README.md, CONTRIBUTING.md, CHANGELOG.md, doc/**/*.md and the comments of prm/**/*.prm.
+
+A line has at most 120 characters (in a table 300), a sentence at most 40 words, a cell of a table at most 25 words, and no text has a phrase
+of forbidden_phrases.txt. Code, formulas and targets of links do not count. The descriptions of entries are on the pages of doc/parameters."""
+
+import pathlib
+import re
+import sys
+
+# Not checked: pages that other pages replace, and pages that are still to be written anew.
+OLD_PAGES = {
+    "README.md",
+    "CONTRIBUTING.md",
+    "doc/manual.md",
+    "doc/verification.md",
+    "doc/developer.md",
+    "doc/step.md",
+    "doc/studies/defaults.md",
+    "doc/studies/pages/*.md",
+    "doc/tutorials/*.md",
+}
+
+LENGTH_OF_LINE, LENGTH_OF_ROW, WORDS_OF_SENTENCE, WORDS_OF_CELL = 120, 300, 40, 25
+
+
+def forbidden_phrases():
+    text = (pathlib.Path(__file__).parent / "forbidden_phrases.txt").read_text(encoding="utf-8")
+    return [line.strip() for line in text.splitlines() if line.strip() and not line.startswith("#")]
+
+
+PHRASES = {phrase: re.compile(r"(?<!\w)" + r"\s+".join(map(re.escape, phrase.split())) + r"(?!\w)", re.IGNORECASE) for phrase in forbidden_phrases()}
+
+
+def plain(line):
+    """A line without what does not count: a formula or code is one word, a link its text."""
+    line = re.sub(r"`[^`]*`", "`code`", line)
+    line = re.sub(r"\$[^$]+\$", "formula", line)
+    line = re.sub(r"(!?\[[^\]]*\])\([^()\s]*(?:\([^()]*\)[^()\s]*)*\)", r"\1", line)
+    line = re.sub(r"^(\[[^\]]+\]:) .*", r"\1", line)
+    return re.sub(r"<?https?://[^\s>)]+>?", "link", line)
+
+
+def words(text):
+    return len([word for word in text.split() if re.search(r"\w", word)])
+
+
+def sentences(text):
+    return re.split(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(`*_\[]*[A-Z0-9`])", text)
+
+
+def paragraph_faults(number, text):
+    for sentence in sentences(text):
+        if words(sentence) > WORDS_OF_SENTENCE:
+            yield number, f"a sentence of {words(sentence)} words: {sentence[:60]}..."
+    for phrase, pattern in PHRASES.items():
+        if pattern.search(text):
+            yield number, f'the phrase "{phrase}"'
+
+
+def blocks(lines):
+    """(number, text) of the lines that count: fences, display formulas, comments and front matter are left out."""
+    fence, hidden = None, None
+    for number, line in enumerate(lines, 1):
+        mark = re.match(r"\s*(?:[-*] +)?(`{3,}|~{3,}|:{3,})", line)
+        if fence:
+            if mark and line.strip() == mark.group(1) and mark.group(1).startswith(fence):
+                fence = None
+            yield number, ""
+        elif hidden:
+            hidden = None if hidden in line else hidden
+            yield number, ""
+        elif mark and mark.group(1)[0] != ":":
+            fence = mark.group(1)
+            yield number, ""
+        elif mark:
+            yield number, ""
+        elif line.strip().startswith("$$"):
+            hidden = None if line.strip().endswith("$$") and len(line.strip()) > 3 else "$$"
+            yield number, ""
+        elif line.strip().startswith("<!--"):
+            hidden = None if "-->" in line else "-->"
+            yield number, ""
+        elif number == 1 and line.strip() == "---":
+            hidden = "---"
+            yield number, ""
+        else:
+            yield number, plain(line)
+
+
+def markdown_faults(lines):
+    start, paragraph, indented = 0, [], False
+    for number, line in list(blocks(lines)) + [(len(lines) + 1, "")]:
+        text = line.strip()
+        is_row = text.startswith("|")
+        indented = line.startswith("    ") and not paragraph and not re.match(r"\s+([-*]|\d+\.) ", line) if text else indented
+        if indented and text:
+            continue  # code by indentation
+        if len(line) > (LENGTH_OF_ROW if is_row else LENGTH_OF_LINE):
+            yield number, f"a line of {len(line)} characters"
+        if is_row:
+            for cell in text.strip("|").split("|"):
+                if words(cell) > WORDS_OF_CELL:
+                    yield number, f"a cell of {words(cell)} words: {cell.strip()[:60]}..."
+            for phrase, pattern in PHRASES.items():
+                if pattern.search(text):
+                    yield number, f'the phrase "{phrase}"'
+        if paragraph and (not text or is_row or re.match(r"([-*+]|\d+\.) |#|>", text)):
+            yield from paragraph_faults(start, " ".join(paragraph))
+            paragraph = []
+        if text and not is_row:
+            start = start if paragraph else number
+            paragraph.append(re.sub(r"^([-*+]|\d+\.|#+|>) +", "", text))
+            if text.startswith("#"):
+                yield from paragraph_faults(start, " ".join(paragraph))
+                paragraph = []
+
+
+def comment_faults(lines):
+    """The comments of a case: lines in a row are one paragraph, a comment behind an entry is its own."""
+    start, paragraph = 0, []
+    for number, line in enumerate(lines + [""], 1):
+        text = line.strip()
+        if "#" in line and len(line) > LENGTH_OF_LINE:
+            yield number, f"a line of {len(line)} characters"
+        if text.startswith("#"):
+            start = start if paragraph else number
+            paragraph.append(plain(text.lstrip("# ")))
+            continue
+        if paragraph:
+            yield from paragraph_faults(start, " ".join(paragraph))
+            paragraph = []
+        if "#" in text:
+            yield from paragraph_faults(number, plain(text.split("#", 1)[1].strip()))
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    texts = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")] + sorted((root / "doc").rglob("*.md"))
+    checked, n_faults = 0, 0
+    for file in texts + sorted((root / "prm").rglob("*.prm")):
+        name = file.relative_to(root)
+        if not file.is_file() or any(name.match(old) and len(name.parts) == len(pathlib.PurePath(old).parts) for old in OLD_PAGES):
+            continue
+        lines = file.read_text(encoding="utf-8").splitlines()
+        checked += 1
+        for number, fault in comment_faults(lines) if file.suffix == ".prm" else markdown_faults(lines):
+            print(f"{name}, line {number}: {fault}")
+            n_faults += 1
+    print(f"{checked} files, {n_faults} faults")
+    sys.exit(bool(n_faults) or checked < 1)
+
+
+if __name__ == "__main__":
+    main()
