@@ -205,8 +205,8 @@ def row_of(study, run):
 # Pages ----------------------------------------------------------------------------------------------------------------
 
 
-def write_lists():
-    """The list of all studies with a table and what they say, and where the defaults lie on the work-precision charts."""
+def lists():
+    """{file: text}: the list of all studies with a table and what they say, and where the defaults lie on the work-precision charts."""
     studies = {}
     for name in names_of_studies():
         table = PAGES / f"{name}.csv"
@@ -214,8 +214,7 @@ def write_lists():
             study, rows = module_of(name).STUDY, read_table(table)
             studies[name] = study, rows, study.verdict(rows)
     charts = {name: (study, *position_of_defaults(rows)) for name, (study, rows, _) in studies.items() if isinstance(study.chart, WorkPrecision)}
-    (PAGES / "README.md").write_text(index_text(studies), encoding="utf-8")
-    (PAGES / "defaults.md").write_text(defaults_text(charts), encoding="utf-8")
+    return {PAGES / "README.md": index_text(studies), PAGES / "defaults.md": defaults_text(charts)}
 
 
 def finish(name, module, folder, rows=None):
@@ -289,7 +288,8 @@ def run_studies(arguments):
         print(f"{len(names)} studies, {sum(len(plan.missing) for plan in plans)} runs are missing; {_duration(seconds)}", flush=True)
     held = [run_study(name, arguments) for name in names]
     if not arguments.quick:
-        write_lists()
+        for file, text in lists().items():
+            file.write_text(text, encoding="utf-8")
     return 0 if all(held) else 1
 
 
