@@ -48,12 +48,11 @@ namespace scree
     if (!falls)
       return { "of the run-out", 3.8, 1., "", "its law is that of soil that falls and runs out" };
     if (!scene.has_water)
-      return {
-        "of the run-out",
-        3.8,
-        1.,
-        "1 to 3 % at H/h = 20 on a base with friction, 6 to 19 % on a fixed one, against the extrapolated front"
-      };
+      return { "of the run-out",
+               3.8,
+               1.,
+               "1 to 3 % at H/h = 20 on a base with friction (finest: 56), 6 to 19 % on a fixed one (finest: 30), "
+               "against the extrapolated front" };
     if (regime_of(scene) == Regime::undrained)
       return { "of the run-out",
                3.8,
