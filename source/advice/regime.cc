@@ -8,10 +8,10 @@ namespace scree
 {
   namespace
   {
-    std::string two_digits(const double value)
+    std::string three_digits(const double value)
     {
       char text[32];
-      std::snprintf(text, sizeof text, "%.2g", value);
+      std::snprintf(text, sizeof text, "%.3g", value);
       return text;
     }
   } // namespace
@@ -47,7 +47,7 @@ namespace scree
   std::string reason_for(const Regime regime, const SceneNumbers &scene)
   {
     const Groups groups     = groups_of(scene);
-    const std::string ratio = "drainage time over motion time is " + two_digits(groups.drainage);
+    const std::string ratio = "drainage time over motion time is " + three_digits(groups.drainage);
     switch (regime)
       {
       case Regime::dry:
@@ -55,20 +55,20 @@ namespace scree
       case Regime::free_water:
         return "the case has no soil that moves";
       case Regime::drained:
-        return ratio + ", below " + two_digits(thresholds::drained_below) +
+        return ratio + ", below " + three_digits(thresholds::drained_below) +
                ": soil alone serves, of the saturated density and under water with its buoyant weight";
       case Regime::undrained:
-        return ratio + ", above " + two_digits(thresholds::undrained_above) + ", and T_v at the end " +
-               two_digits(groups.time_factor) + ", below " + two_digits(thresholds::consolidates_above) +
+        return ratio + ", above " + three_digits(thresholds::undrained_above) + ", and T_v at the end " +
+               three_digits(groups.time_factor) + ", below " + three_digits(thresholds::consolidates_above) +
                ": water hardly moves through the soil";
       default:
         if (groups.drainage > thresholds::undrained_above)
-          return ratio + ", above " + two_digits(thresholds::undrained_above) + ", but T_v at the end is " +
-                 two_digits(groups.time_factor) + ": pressure leaves during the run";
+          return ratio + ", above " + three_digits(thresholds::undrained_above) + ", but T_v at the end is " +
+                 three_digits(groups.time_factor) + ": pressure leaves during the run";
         if (groups.drainage < thresholds::drained_below)
-          return ratio + ", below " + two_digits(thresholds::drained_below) + ", but its water must move, too";
-        return ratio + ", between " + two_digits(thresholds::drained_below) + " and " +
-               two_digits(thresholds::undrained_above);
+          return ratio + ", below " + three_digits(thresholds::drained_below) + ", but its water must move, too";
+        return ratio + ", between " + three_digits(thresholds::drained_below) + " and " +
+               three_digits(thresholds::undrained_above);
       }
   }
 

@@ -159,11 +159,16 @@ namespace scree
                               : scene.cell_size;
       writer.line("cell size",
                   rounded(size) + " m, H/h = " + rounded(scene.height / size) +
-                      (law.gap.empty() ? " (now " + rounded(scene.cell_size) + " m: error about " +
+                      (law.gap.empty() ? " (now " + rounded(scene.cell_size) + " m: error up to about " +
                                              rounded(law.error(scene.height / scene.cell_size)) + ")"
                                        : " as now: the error is not known"));
       if (!law.gap.empty())
-        writer.line("error", "not known: " + law.gap + ". Halve the cells and the step, and compare");
+        writer.line("error",
+                    "not known: " + law.gap +
+                        (law.refinement_helps ? ". Halve the cells and the step, and compare"
+                                              : ". Compare three cell sizes, and report their range"));
+      if (!law.range.empty())
+        writer.line("measured in such scenes", law.range);
       const SceneNumbers wanted = with_cell_size(scene, size);
       const Observation seen    = with_cell_size(advice.seen, scene, size);
       Schedule schedule         = advice.schedule;

@@ -8,7 +8,7 @@ import os
 
 import numpy as np
 
-from scree.results import read_table
+from scree.results import read_raster, read_table
 
 from scene_tools import ROOT, check, largest_fall, main, run
 
@@ -95,6 +95,8 @@ def inflow_debris(scree):
     check_books("debris", table, np.linalg.norm([table["Momentum entered %s (N s)" % axis][-1] for axis in "xyz"]))
     missing = np.array(table["Numerical dissipation (J)"])
     released = table["Bed dissipation (J)"][-1] + table["Plastic dissipation (J)"][-1]
+    # Near the inflow; doc/tutorials/debris_flow.md.
+    check("debris: largest thickness, m", read_raster("debris/maps/largest_thickness.asc").values.max(), 0.9 * 0.41, 1.1 * 0.41)
     check("debris: largest gain of energy over what friction took", largest_fall(missing) / released, 0, 1e-3)
 
 

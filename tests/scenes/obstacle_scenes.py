@@ -108,6 +108,13 @@ def obstacle_wall(scree):
     check("wall: largest force over the weight", max(force) / weight, 0.1, 3)
     check("wall: force at the end over the weight", force[-5:].mean() / weight, 0.01, 0.3)
     check("wall: smallest force", min(force), 0, max(force))
+    # Those of doc/tutorials/barrier.md, N and m, within a tenth.
+    time = np.array(table["Time (s)"])
+    rest = time > time[-1] - 0.305
+    lever = -np.array(table["Obstacle Wall moment z (N m)"])[rest].sum() / force[rest].sum()
+    check("wall: largest force after 1.45 s, N", max(force[time > 1.45]), 0.9 * 1760, 1.1 * 1760)
+    check("wall: force of the deposit, N", force[rest].mean(), 0.9 * 1350, 1.1 * 1350)
+    check("wall: its height, m", lever, 0.9 * 0.116, 1.1 * 0.116)
     # Nothing pulls the wall back.
     check("wall: vertical force on the smooth wall", max(map(abs, table["Obstacle Wall force y (N)"])), 0, 1e-9 * weight)
 

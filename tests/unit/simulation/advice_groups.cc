@@ -133,13 +133,20 @@ void test_resolution()
                 << ", halved cells " << law.error(20) / law.error(40) << '\n';
     }
   SceneNumbers cyclic = terzaghi(), reservoir = terzaghi(), early = terzaghi(), dam = slope(), still = slope(),
-               level         = slope();
+               level = slope(), dry = slope(), tight = slope();
+  dry.has_water              = false;
+  tight.conductivity         = 1e-9;
   cyclic.has_changing_forces = true;
   reservoir.water_fills_soil = false;
   early.end_time             = 0.5;
   dam.has_soil = still.has_soil = false;
   still.fall = level.fall = 0;
-  std::cout << "Whether the error is known: slope " << error_law_of(slope()).gap.empty() << ", dam "
+  std::cout << "Error of a dry slope with 20 and 30 cells over its height, in per cent, 19 and 12 measured: "
+            << 100 * error_law_of(dry).error(20) << ", " << 100 * error_law_of(dry).error(30) << '\n';
+  std::cout << "Whether finer cells help: slope " << error_law_of(slope()).refinement_helps << ", tight slope "
+            << error_law_of(tight).refinement_helps << '\n';
+  std::cout << "Whether the error is known: dry slope " << error_law_of(dry).gap.empty() << ", slope "
+            << error_law_of(slope()).gap.empty() << ", tight slope " << error_law_of(tight).gap.empty() << ", dam "
             << error_law_of(dam).gap.empty() << ", Terzaghi " << error_law_of(terzaghi()).gap.empty()
             << "; cyclic load " << error_law_of(cyclic).gap.empty() << ", reservoir "
             << error_law_of(reservoir).gap.empty() << ", before T_v = 0.1 " << error_law_of(early).gap.empty()

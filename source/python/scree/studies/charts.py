@@ -60,7 +60,7 @@ class WorkPrecision:
                 text = row[self.annotate]
                 axes.annotate(f"{text:.3g}" if isinstance(text, float) else text, (row["core-seconds"], row[self.error]),
                               textcoords="offset points", xytext=(4, 3), fontsize="x-small", color="0.4")
-        for column, style in (("Pareto", {"marker": "o", "markersize": 11, "markeredgecolor": "k", "label": "not beaten in both (Pareto)"}),
+        for column, style in (("Pareto", {"marker": "o", "markersize": 11, "markeredgecolor": "k", "label": "Pareto-optimal"}),
                               ("default", {"marker": "*", "markersize": 15, "markeredgecolor": "r", "label": "defaults"})):
             marked = [row for row in shown if row.get(column) is True]
             if marked:

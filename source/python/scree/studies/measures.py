@@ -89,22 +89,29 @@ def share_of_defaults(rows):
     others = [f"{state} in {count(state)}" + "".join(f" ({told(name)})" for name in columns if worst(name) > BOUNDS[name])
               for state, columns in {"blow-up": (), **DECIDING}.items() if count(state)]
     if not others:
-        others = [told(max((name for columns in DECIDING.values() for name in columns), key=lambda name: worst(name) / BOUNDS[name]))]
+        others = ["nearest to its bound: " + told(max((name for columns in DECIDING.values() for name in columns), key=lambda name: worst(name) / BOUNDS[name]))]
+    listed = ", ".join(others)
     within = [row for row in defaults if row.get("step/limit", 1.) <= 1]
-    return (f"{count('stable')} of {len(defaults)} default cells are stable; {', '.join(others)}."
-            + (f" Up to the limit step, {count('stable', within)} of {len(within)} are." if len(within) < len(defaults) else ""))
+    return (f"{count('stable')} of {len(defaults)} default cells are stable. {listed[0].upper()}{listed[1:]}."
+            + (f" Up to the limit time step, {count('stable', within)} of {len(within)} are." if len(within) < len(defaults) else ""))
 
 
-def bounds_in_words():
-    """The bounds of the maps and what a default cell is, for the list of the studies."""
-    bound = {name.replace("'", " prime"): f"{value:g}" for name, value in BOUNDS.items()}
-    return ("Stability maps share their bounds (`BOUNDS` in `source/python/scree/studies/measures.py`). A run is stable if it comes to its end with finite numbers, gains "
-            "at most {gain} of the energy that it releases, keeps V/V_0 (J) of each soil point between {smallest J} and {largest J}, lets p oscillate by at most "
-            "{oscillation of p} and p' by {oscillation of p prime}, and has an error of at most {error}, each in the unit that the page names; what a map does not "
-            "measure is not judged. ".format(**bound)
-            + "Each map had bounds of its own when it was run. The shared ones are those that most of them had for energy, volumes and p, and the strictest "
-            "that any had for p' and the error; no cell that was not stable has become so. A default cell has the program's defaults for the options that its map compares; what "
-            "describes the scene (conductivity, step, speed, size) is no option.")
+# The bounds of the maps and what a default cell is, for the list of the studies.
+BOUNDS_IN_WORDS = f"""Stability maps share their bounds (`BOUNDS` in `source/python/scree/studies/measures.py`).
+A run is stable if it meets all of these:
+
+- it comes to its end with finite numbers;
+- it gains at most {BOUNDS["gain"]:g} of the energy that it releases;
+- V/V_0 (J) of each soil point stays between {BOUNDS["smallest J"]:g} and {BOUNDS["largest J"]:g};
+- the oscillation of p is at most {BOUNDS["oscillation of p"]:g}, that of p' at most {BOUNDS["oscillation of p'"]:g};
+- the error is at most {BOUNDS["error"]:g}.
+
+Each is in the unit that the page names; what a map does not measure is not judged.
+Each map had bounds of its own when it was run.
+The shared ones are those that most of them had for energy, volumes and p, and the strictest that any had for p' and the error.
+No cell that was not stable has become so.
+A default cell has the program's defaults for the options that its map compares.
+What describes the scene (conductivity, step, speed, size) is no option."""
 
 
 def cause(run):

@@ -102,13 +102,12 @@ def costs(rows):
 
 
 def listed(found):
-    """"a 0.81, b 1.2": methods with their numbers."""
-    return ", ".join(f"{method} {cost:.2g}" for method, cost in found.items())
+    """The costs of methods as the table of a claim."""
+    return [("method", "core-seconds over those of the defaults"), *((method, f"{cost:.2g}") for method, cost in found.items())]
 
 
 def position_of_defaults(rows):
-    """On how many meshes no run beats the defaults in both, and each other method's error and time over theirs on the same meshes."""
+    """On how many meshes the defaults are Pareto-optimal, and {method: (error, time, fails on a mesh)} of the others over theirs on the same meshes."""
     own = curve(rows).values()
-    others = [f"{method} {ratio(rows, method):.2g} / {ratio(rows, method, 'core-seconds'):.2g}" + (" (fails on a mesh)" if failed(rows, method) else "")
-              for method in other_methods(rows)]
-    return f"{sum(row['Pareto'] for row in own)} of {len(own)}", ", ".join(others)
+    others = {method: (ratio(rows, method), ratio(rows, method, "core-seconds"), bool(failed(rows, method))) for method in other_methods(rows)}
+    return f"{sum(row['Pareto'] for row in own)} of {len(own)}", others

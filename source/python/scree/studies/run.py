@@ -16,14 +16,13 @@ import json
 import math
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import tempfile
 
 from scree.command import ROOT, Command, program
 from scree.studies.charts import StabilityMap, WorkPrecision
-from scree.studies.measures import bounds_in_words, share_of_defaults
+from scree.studies.pages import defaults_text, index_text, page_text
 from scree.studies.precision import position_of_defaults
 from scree.studies.study import Run, Variant, prm_files
 
@@ -206,44 +205,16 @@ def row_of(study, run):
 # Pages ----------------------------------------------------------------------------------------------------------------
 
 
-def _cost(core_seconds):
-    return f"{core_seconds:.0f} core-seconds" if core_seconds < 90 else f"{core_seconds / 60:.0f} core-minutes"
-
-
-def page_text(name, study, introduction, rows, claims):
-    seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
-    headline = f"- {share_of_defaults(rows)}\n" if isinstance(study.chart, StabilityMap) else ""
-    verdict = headline + "\n".join(f"- {claim.text}" + ("" if claim.holds else " **(Does not hold.)**") for claim in claims)
-    return (f"# {study.title}\n\n{introduction}\n\n![{study.title}]({name}.svg)\n\n## Verdict\n\n{verdict}\n\n"
-            f"`build/scree-study {name}` repeats it: {len(rows)} runs, {_cost(seconds)}. "
-            f"Numbers: [{name}.csv]({name}.csv); case: `{study.base}`.\n")
-
-
-def write_index():
-    """The list of all studies with a page, and what they say."""
-    lines = ["# Studies\n", "Each page is written by `build/scree-study NAME` from the runs of one study.\n", f"{bounds_in_words()}\n"]
+def lists():
+    """{file: text}: the list of all studies with a table and what they say, and where the defaults lie on the work-precision charts."""
+    studies = {}
     for name in names_of_studies():
-        page = PAGES / f"{name}.md"
-        if page.exists():
-            text = page.read_text(encoding="utf-8")
-            verdict = re.search(r"## Verdict\n\n- (.*)", text)
-            lines.append(f"- [{text.splitlines()[0][2:]}]({name}.md): {verdict.group(1) if verdict else ''}")
-    (PAGES / "README.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-def write_defaults():
-    """Where the defaults lie on the work-precision charts."""
-    lines = ["# Where the defaults lie on the work-precision charts\n",
-             "On how many meshes no other run is both faster and more accurate than the case as it stands, and error / core-seconds of each other method over its own on",
-             "the same meshes (geometric means). Errors are those of the tables: those of the slopes and the dam break are distances to a finer run of one of the methods, so",
-             "that ratios are farther from 1 than against the limit. Times have a noise of 10 to 20 %. What follows from it: [defaults.md](../defaults.md).\n",
-             "| chart | not beaten on | error / time of other methods |", "|---|---|---|"]
-    for name in names_of_studies():
-        study, table = module_of(name).STUDY, PAGES / f"{name}.csv"
-        if isinstance(study.chart, WorkPrecision) and table.exists():
-            meshes, others = position_of_defaults(read_table(table))
-            lines.append(f"| [{study.title}]({name}.md) | {meshes} meshes | {others} |")
-    (PAGES / "defaults.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        table = PAGES / f"{name}.csv"
+        if table.exists():
+            study, rows = module_of(name).STUDY, read_table(table)
+            studies[name] = study, rows, study.verdict(rows)
+    charts = {name: (study, *position_of_defaults(rows)) for name, (study, rows, _) in studies.items() if isinstance(study.chart, WorkPrecision)}
+    return {PAGES / "README.md": index_text(studies), PAGES / "defaults.md": defaults_text(charts)}
 
 
 def finish(name, module, folder, rows=None):
@@ -317,8 +288,8 @@ def run_studies(arguments):
         print(f"{len(names)} studies, {sum(len(plan.missing) for plan in plans)} runs are missing; {_duration(seconds)}", flush=True)
     held = [run_study(name, arguments) for name in names]
     if not arguments.quick:
-        write_index()
-        write_defaults()
+        for file, text in lists().items():
+            file.write_text(text, encoding="utf-8")
     return 0 if all(held) else 1
 
 

@@ -21,11 +21,14 @@ from scree.command import ROOT
 class Claim(NamedTuple):
     """A sentence of the verdict, its numbers taken from the table, and whether the table bears it out.
 
-    With `quick` False it needs the whole study, and the short version does not check it.
+    With `quick` False it needs the whole study, and the short version does not check it. `table`: rows that stand below the sentence, the first
+    is the head. `worst`: it stands in the head of the page.
     """
     text: str
     holds: bool
     quick: bool = True
+    table: list | None = None
+    worst: bool = False
 
 
 class Variant(NamedTuple):

@@ -1,8 +1,13 @@
-"""Closure of an air gap: a body 0.4 m high falls on another one, 0.4 m high, between smooth walls, so that the exact end is known: all is at rest, the gap
-is gone. Water on water, saturated soil on water, water on saturated soil, and soil on soil; the gap (in cells of 0.05 m) and the speed at the start
-vary. Air has no pressure here. Further row of panels: `Fading = 5`.
-State: `measures.BOUNDS`; the oscillation of p is its roughness at the end (`measures.roughness`) over rho_w g 0.8 m. The number is the air that stays in the
-closed gap, as a height in cells."""
+"""A body 0.4 m high falls on another one, 0.4 m high, between smooth walls.
+The exact end is known: all is at rest, and the gap is closed.
+Pairs: water on water, saturated soil on water, water on saturated soil, soil on soil.
+The gap (in cells of 0.05 m) and the speed at the start vary. Air has no pressure.
+Further row of panels: `Fading = 5`.
+
+State: `measures.BOUNDS`.
+The oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g 0.8 m.
+The number is the air that stays in the closed gap, as a height in cells.
+"""
 import numpy as np
 
 from scree.studies.charts import StabilityMap
@@ -57,19 +62,19 @@ def verdict(rows):
     gaining = {pair: [row for row in of(pair, "default") if row["state"] == "energy gain"] for pair in PAIRS}
     faded = [row for row in rows if row["old p"] == "fading"]
     return [
-        Claim("By default energy is gained by " + (", ".join(
+        Claim("By default an artificial energy gain occurs in " + (", ".join(
             f"{pair} in {len(gaining[pair])} of {len(of(pair, 'default'))} (up to {gain(of(pair, 'default')):.2g} % of what is released)"
             for pair in PAIRS if gaining[pair]) or "none")
               + f". With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of "
-              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Wanted: at most .5 % by default.",
+              f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Bound: 0.5 % by default.",
               gain([row for row in rows if row["old p"] == "default"]) <= 0.5),
-        Claim("The bodies do not touch: of a cell, air stays by default below " + ", ".join(
+        Claim("The bodies do not touch: by default, air remains in the closed gap. Its height in cells is, below " + ", ".join(
             f"{pair.split()[0]} on soil {min(left):.2g} to {max(left):.2g}" for pair in PAIRS[2:]
-            if (left := [row["air left, cells"] for row in of(pair, "default")])) + ". Wanted: at most half a cell.",
+            if (left := [row["air left, cells"] for row in of(pair, "default")])) + ". Bound: half a cell.",
               max(row["air left, cells"] for row in rows if row["old p"] == "default") <= 0.5, quick=False),
         Claim(f"Water on water gains no energy (at most {gain(water):.2g} %) and keeps {min(row['air left, cells'] for row in water):.2g} to "
-              f"{max(row['air left, cells'] for row in water):.2g} of a cell of air: bodies feel each other before they touch, and nothing "
-              "closes what is left.", gain(water) < 0.5 and max(row["air left, cells"] for row in water) < 0.5),
+              f"{max(row['air left, cells'] for row in water):.2g} of a cell of air. Bodies interact before they touch, and the remaining gap does "
+              "not close.", gain(water) < 0.5 and max(row["air left, cells"] for row in water) < 0.5),
         Claim(f"{len(ended)} of {len(rows)} closures run to their end.", len(ended) == len(rows)),
     ]
 

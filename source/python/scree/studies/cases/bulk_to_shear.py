@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How nearly incompressible may soil be before its stress oscillates? An elastic block, 0.5 m x 0.5 m in 8 x 8 cells, is left to its weight, sags
-and swings for 0.5 s; K/G from 1 to 10^4 at the same G. It bulges sideways into cells that were empty, or stands between smooth walls that touch
-it (strain along the vertical only). State: `measures.BOUNDS`. The number is the oscillation of p': the stress oscillation times the mean p', over
-rho g H/2, mean over time. (The energy of an elastic block in explicit steps swings by about .02, which counts as a gain.)
+"""How nearly incompressible soil may be before its stress oscillates.
+An elastic block, 0.5 m x 0.5 m in 8 x 8 cells, sags and vibrates under its weight for 0.5 s; K/G varies from 1 to 10^4 at the same G.
+It bulges sideways into cells that were empty, or stands between smooth walls that touch it (vertical strain only).
+
+State: `measures.BOUNDS`.
+The number is the oscillation of p': the stress oscillation times the mean p', over rho g H/2, mean over time.
+The energy of an elastic block in explicit time steps oscillates by about 0.02, which counts as a gain.
 """
 
 import numpy as np
@@ -46,17 +49,17 @@ def verdict(rows):
     linear, linear_between, quadratics, quadratics_between = (broken(basis, sides) for basis in ("linear", "quadratic")
                                                                 for sides in ("free", "walls"))
     return [
-        Claim(f"The defaults (splines, modified F-bar) are smooth with free sides up to K/G = {smooth:g}; at {stiffest:g} p' scatters by {ours[SCATTER]:.2g}, "
+        Claim(f"The defaults (splines, modified F-bar) are smooth with free sides up to K/G = {smooth:g}; at {stiffest:g} p' oscillates by {ours[SCATTER]:.2g}, "
               f"without F-bar by {none[SCATTER]:.2g}.", smooth >= 1000 and ours[SCATTER] < 0.3 and none[SCATTER] > 1),
         Claim(f"Standard F-bar gains {standard['gain']:.2g} of the released energy at K/G = {stiffest:g}, modified {ours['gain']:.1g}, and in no cell more than {swing:.2g}.",
               standard["gain"] > 0.1 > ours["gain"] and swing < 0.05),
         Claim(f"Without F-bar the block locks: at K/G = {stiffest:g} it sags {100 * stiffness:.0f} % less than with the modified one.",
               stiffness > 0.05),
-        Claim(f"Linear functions break when an edge of the block enters a new cell, whatever the F-bar: {linear[0]} of {linear[1]} runs with free sides, "
-              f"{linear_between[0]} of {linear_between[1]} between walls. The node beyond the edge has next to no mass, and a point in the new cell "
-              "feels its full gradient at once; a spline's gradient vanishes there, as its value does.",
+        Claim(f"With linear functions the run stops when an edge of the block enters a new cell, whatever the F-bar: {linear[0]} of {linear[1]} runs with free sides, "
+              f"{linear_between[0]} of {linear_between[1]} between walls. The node beyond the edge has little mass, and the gradient of its "
+              "function acts on a point in the new cell in full. The gradient of a spline vanishes there, as its value does.",
               linear[0] > linear[1] / 2 and linear_between[0] == 0, quick=False),
-        Claim(f"So do C0 quadratics ({quadratics[0]} of {quadratics[1]}), which without F-bar may break between walls, too "
+        Claim(f"With C0 quadratics the run stops, too ({quadratics[0]} of {quadratics[1]}). Without F-bar it may also stop between walls "
               f"({quadratics_between[0]} of {quadratics_between[1]}).", quadratics[0] > quadratics[1] / 2, quick=False),
     ]
 

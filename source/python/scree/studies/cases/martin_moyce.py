@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A column of water collapses on a dry floor: front and height against the experiment of Martin & Moyce 1952 (n^2 = 2).
 
-The column is a = 1 m wide and 2 a high, its floor and walls are smooth. Front Z = x/a over T = t sqrt(2 g/a), x that of the farthest
-point of water; height H = y/(2 a) of the column at the wall over Y = t sqrt(g/a), y the highest water within a/10 of it
-(`doc/studies/reference/martin_moyce_1952_*.csv`, a = 57 mm). The residual is the rms of computed minus measured over the measured times. The
-experiment has a gate, a floor and walls that wet and rub; none of them is computed. A delay of the motion is therefore fitted to the front
-(least squares), and the residuals after it are given separately: of the front and, with the same delay, of the height.
+The column is a = 1 m wide and 2 a high; floor and walls are smooth.
+Front: Z = x/a over T = t sqrt(2 g/a), with x of the farthest point of water.
+Height: H = y/(2 a) at the wall over Y = t sqrt(g/a), with y of the highest water within a/10 of the wall.
+The experiment (`doc/studies/reference/martin_moyce_1952_*.csv`) has a = 57 mm.
+The residual is the RMS of computed minus measured over the measured times.
+
+The gate, the wetting and the friction of floor and walls of the experiment are not modelled.
+A delay of the motion is fitted to the front by least squares.
+The residuals after it are given separately: of the front and, with the same delay, of the height.
 """
 import math
 
@@ -74,17 +78,17 @@ def verdict(rows):
     change = max(rows, key=lambda row: row["rms of Z"])["rms of Z"] - finest["rms of Z"]
     milliseconds = 1e3 * finest["delay (T)"] * math.sqrt(0.05715 / (2 * GRAVITY))
     return [
-        Claim(f"The front is ahead of the experiment: Z = {finest['Z at T = 2.98']:.2f} instead of {measured:.2f} at T = 2.98, rms of Z "
-              f"{finest['rms of Z']:.2f}.",
+        Claim(f"The front is {100 * (finest['Z at T = 2.98'] / measured - 1):.0f} % ahead of the experiment: Z = {finest['Z at T = 2.98']:.2f} instead of {measured:.2f} at T = 2.98, "
+              f"RMS of Z {finest['rms of Z']:.2f}.",
               holds=all(row["Z at T = 2.98"] > 1.05 * measured for row in rows)),
-        Claim(f"The height at the wall follows the experiment, without any fit: rms of H {finest['rms of H']:.3f} at h = {finest['h']:g} m, "
+        Claim(f"The height at the wall follows the experiment, without any fit: RMS of H {finest['rms of H']:.3f} at h = {finest['h']:g} m, "
               f"{coarsest['rms of H']:.3f} at {coarsest['h']:g} m.", holds=all(row["rms of H"] < 0.02 for row in rows)),
-        Claim(f"A delay by T = {finest['delay (T)']:.3g} ({milliseconds:.0f} ms of the experiment) brings the front to rms "
+        Claim(f"A delay by T = {finest['delay (T)']:.3g} ({milliseconds:.0f} ms of the experiment) reduces the RMS of the front to "
               f"{finest['rms of Z, delayed']:.3f}, "
-              f"but takes the height from {finest['rms of H']:.3f} to {finest['rms of H, delayed']:.3f}: a gate that opens late, "
-              "and would hold back the whole column, does not explain the front if both tables count from the same moment: what holds it back acts on it alone.",
+              f"but increases that of the height from {finest['rms of H']:.3f} to {finest['rms of H, delayed']:.3f}. A late opening of the gate would retard the whole column. "
+              "It does not explain the front if both tables count from the same moment: the retardation acts on the front alone.",
               holds=all(row["rms of Z, delayed"] < 0.2 * row["rms of Z"] and row["rms of H, delayed"] > 2 * row["rms of H"] for row in rows)),
-        Claim(f"It is not the mesh: from h = {coarsest['h']:g} to {finest['h']:g} m the front's residual falls by {change:.2f} of "
+        Claim(f"The cell size does not explain it: from h = {coarsest['h']:g} to {finest['h']:g} m the front's residual falls by {change:.2f} of "
               f"{coarsest['rms of Z']:.2f}.",
               holds=change < 0.25 * coarsest["rms of Z"]),
     ]

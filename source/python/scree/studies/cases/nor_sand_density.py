@@ -1,7 +1,7 @@
-"""Collapse of a small column of Nor-Sand, 1 m x 1 m, from very dense to very loose, with each stabilisation, dry and saturated. The critical state at the
-column's mean pressure of 5 kPa has a specific volume of 1.78; v_0 = 1.5 is denser than any sand.
-State: `measures.BOUNDS`; the oscillation of p' is the time mean of `Stress oscillation`, and the number. (p' of points without stabilisation scatters by .7 and
-more of its mean in a collapse.)"""
+"""Collapse of a small column of Nor-Sand, 1 m x 1 m, from very dense to very loose, with each stabilisation, dry and saturated.
+The critical state at the mean pressure of the column, 5 kPa, has a specific volume of 1.78; v_0 = 1.5 is denser than any sand.
+State: `measures.BOUNDS`; the oscillation of p' is the time mean of `Stress oscillation`, and the number.
+"""
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify, mean_oscillation
 from scree.studies.study import Claim, Study, axis, product, transfer
@@ -33,17 +33,17 @@ def verdict(rows):
     others = [row for row in modified if row not in loose]
     bad = len(standard) - count("standard", "stable") - count("standard", "oscillating")
     return [
-        Claim(f"With the modified F-bar (the default) p' scatters by {min(scatter(others)):.2g} to {max(scatter(others)):.2g} of its mean, v_0 from {min(row['v_0'] for row in rows):g} to "
+        Claim(f"With the modified F-bar (the default) p' oscillates by {min(scatter(others)):.2g} to {max(scatter(others)):.2g} of its mean, v_0 from {min(row['v_0'] for row in rows):g} to "
               f"{max(row['v_0'] for row in rows):g}, dry and saturated" + (
-                  f", but by {max(scatter(loose)):.2g} saturated with v_0 = {loose[0]['v_0']:g}, where the sand is looser than critical and liquefies: the mean of p' falls "
-                  "towards 0, and scatter over it grows" if loose else "")
+                  f". It is {max(scatter(loose)):.2g} saturated with v_0 = {loose[0]['v_0']:g}, where the sand is looser than critical and liquefies: the mean of p' falls "
+                  "towards 0" if loose else "")
               + f". None gains more than {100 * max(row['gain'] for row in modified):.2g} % of the energy released; V/V_0 of a point stays between "
               f"{min(row['smallest J'] for row in modified):.2g} and {max(row['largest J'] for row in modified):.2g}.",
               count("modified", "stable") + count("modified", "oscillating") == len(modified) and max(scatter(others)) < 0.5
               and all(0.5 < row["smallest J"] and row["largest J"] < 2 for row in modified)),
-        Claim(f"Without stabilisation none breaks, but p' scatters beyond the bound in {count('none', 'oscillating')} of {len(none)} (by {min(scatter(none)):.2g} to "
+        Claim(f"Without stabilisation no run stops, but p' oscillates beyond the bound in {count('none', 'oscillating')} of {len(none)} (by {min(scatter(none)):.2g} to "
               f"{max(scatter(none)):.2g}).", count("none", "oscillating") + count("none", "stable") == len(none) and count("none", "oscillating") > 0),
-        Claim(f"The standard F-bar gains energy, loses the volumes or breaks in {bad} of {len(standard)}: up to {100 * max(row['gain'] for row in standard):.2g} % of the energy "
+        Claim(f"With the standard F-bar {bad} of {len(standard)} runs gain energy, leave the bounds of V/V_0 or stop: up to {100 * max(row['gain'] for row in standard):.2g} % of the energy "
               f"released, V/V_0 up to {max(row['largest J'] for row in standard):.2g}.", bad > 0.5 * len(standard)),
         Claim(f"The return map leaves {sum(row['unresolved'] for row in rows):g} updates unresolved.", sum(row["unresolved"] for row in rows) == 0),
     ]

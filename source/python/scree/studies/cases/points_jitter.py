@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How many points does a cell need, and how irregular may they lie? Water at rest for 0.2 s, ten cells deep, with its surface on a face and at a
-quarter of a cell, and saturated soil. Points are moved at random from their lattice by up to the jitter, along each axis, and keep their volume,
-so that cells are no longer evenly filled. State: `measures.BOUNDS`. The number is the error, the rms of that of p at the water's points over
-rho g h, h the cell. One draw of the random numbers a cell of the map: neighbours may differ by a factor of two for that alone.
+"""Number of points per cell and irregularity of their positions.
+Water is at rest for 0.2 s, ten cells deep, with its surface on a face and at a quarter of a cell, and in saturated soil.
+Points are moved at random from their lattice by up to the jitter, along each axis, and keep their volume; cells are no longer evenly filled.
+State: `measures.BOUNDS`. The number is the error, the RMS error of p at the water points over rho g h, h the cell.
+Each cell of the map has one set of random numbers: neighbours may differ by a factor of two for that alone.
 """
 
 import math
@@ -43,12 +44,12 @@ def verdict(rows):
     one = max(errors(lambda row: row["points"] == 1 and row["jitter"] >= 0.3))
     gain = max(row["gain"] for row in rows)
     return [
-        Claim(f"With 4 points a cell and axis, the default, p is right to {default:.1g} rho g h for any jitter.", default < 0.015),
-        Claim(f"With 3 it is right to {three:.1g}; with 2 to {two:.1g} up to a jitter of .3.", three < 0.03 and two < 0.05, quick=False),
+        Claim(f"With 4 points a cell and axis, the default, the RMS error of p is {default:.1g} rho g h or less for any jitter.", default < 0.015),
+        Claim(f"With 3 it is {three:.1g} or less; with 2 {two:.1g} or less up to a jitter of 0.3.", three < 0.03 and two < 0.05, quick=False),
         Claim(f"On a regular lattice 2 points an axis are enough (error at most {regular:.1g}).", regular < 5e-3),
-        Claim("One point a cell fails as soon as points leave the middle: some cells are empty, read as free surfaces, and p is wrong by up to "
+        Claim("One point per cell fails as soon as points leave the middle: empty cells count as free surfaces, and p deviates by up to "
               f"{one:.1g} rho g h.", one > 0.5),
-        Claim(f"Nothing gains energy: at most {gain:.1g} of what lifts a layer of a cell's height by a cell.", gain < 0.005),
+        Claim(f"The energy gain is at most {gain:.1g} of the work that lifts a layer of a cell's height by a cell.", gain < 0.005),
     ]
 
 

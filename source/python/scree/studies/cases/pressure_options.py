@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which choices for the pore pressure are stable and right, for any conductivity and step? Terzaghi's column, 1 m in ten cells, under a sudden load
-q, 0.4 s, which is from T_v = 4.5 (k = 0.1 m/s) to 0. The number is the rms error of p/q at four times, below three cells from the drained top,
-against the solution with inertia. State: `measures.BOUNDS`; the oscillation of p is the scatter of that error about linear fits over three cells,
-energy is in parts of q^2 H/E_oed. Ours is each default; the other is `Previous pressure = average`. What else was tried, the plain fractional step
-among it, is in doc/verification.md, "Choices for the pressure that failed".
+"""Stability and error of the options of the pore pressure, over conductivity and time step.
+Terzaghi's column, 1 m in ten cells, is under a sudden load q for 0.4 s, from T_v = 4.5 (k = 0.1 m/s) to 0.
+The number is the RMS error of p/q at four times, below three cells from the drained top, against the solution with inertia.
+State: `measures.BOUNDS`; the oscillation of p is the RMS of that error about linear fits over three cells.
+Energy is in parts of q^2 H/E_oed.
+"Ours" has the defaults; the other is `Previous pressure = average`.
+Other variants, the plain fractional step among them, are in doc/verification.md, "Choices for the pressure that failed".
 """
 
 import math
@@ -60,17 +62,17 @@ def verdict(rows):
     failed = {step: sum(row["state"] != "stable" for row in select("ours", step, step)) for step in (1.2, 1.5)}
     return [
         Claim(f"Ours is stable for any conductivity from {max(row['k'] for row in ours):g} to {min(row['k'] for row in ours):g} m/s up to 0.9 of the "
-              f"limit step, with an error of at most {largest('ours'):.1g} of the load and a scatter of p of at most {max(row[SCATTER] for row in ours):.1g}.",
+              f"limit step, with an error of at most {largest('ours'):.1g} of the load and an oscillation of p of at most {max(row[SCATTER] for row in ours):.1g}.",
               all(row["state"] == "stable" for row in ours) and all(row[SCATTER] < 0.02 for row in ours)),
-        Claim(f"At 1.2 of the limit step {failed[1.2]} of {len(select('ours', 1.2, 1.2))} conductivities are no longer stable, at 1.5 {failed[1.5]} of "
-              f"{len(select('ours', 1.5, 1.5))}, with either: the limit is the soil's, and the pressure does not move it.",
+        Claim(f"At 1.2 of the limit time step {failed[1.2]} of {len(select('ours', 1.2, 1.2))} conductivities are no longer stable, at 1.5 {failed[1.5]} of "
+              f"{len(select('ours', 1.5, 1.5))}, with either option. The limit is that of the soil; the pressure does not change it.",
               all(row["state"] != "stable" for row in rows if row["step/limit"] == 1.5)),
-        Claim(f"p^n as a plain average of the points is wrong by up to {average:.2g}, more at larger steps and smaller k.", average > 0.05, quick=False),
+        Claim(f"p^n as a plain average of the points deviates by up to {average:.2g}, more at larger time steps and smaller k.", average > 0.05, quick=False),
     ]
 
 
 STUDY = Study(
-    title="Options of the pressure over conductivity and step", base="prm/consolidation/terzaghi.prm",
+    title="Options of the pressure over conductivity and time step", base="prm/consolidation/terzaghi.prm",
     entries={"Mesh/Cell size": CELL, "Mesh/Upper corner": "0.1, 1.2", "End time": END, "Output/Interval": END / 4,
              "Output/Statistics interval": END / 4, "Output/Graphics": "points"},
     variants=product([Variant({"pressure": name}, {f"Water/Pressure/{entry}": value for entry, value in entries.items()})

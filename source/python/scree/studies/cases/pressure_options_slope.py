@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The options of the pressure on soil that moves: a saturated slope of Mohr-Coulomb soil, 0.8 m high, in the first second of its slide. Here a free
-surface moves through the cells, cells empty, and points cross. State: `measures.BOUNDS`. The number is the oscillation of p: the rms about linear
-fits over 3 x 3 cells, over the mean p at the start, mean over time. The options are those of the column.
+"""The options of the pressure on soil that moves: a saturated slope of Mohr-Coulomb soil, 0.8 m high, in the first second of its slide.
+Here a free surface moves through the cells, cells empty, and points cross.
+State: `measures.BOUNDS`.
+The number is the oscillation of p: the RMS about linear fits over 3 x 3 cells, over the mean p at the start, mean over time.
+The options are those of [pressure_options](pressure_options.md).
 """
 
 import math
@@ -28,10 +30,10 @@ def verdict(rows):
 
     ours = select("ours")
     return [
-        Claim(f"Ours, from k = {max(row['k'] for row in ours):g} to {min(row['k'] for row in ours):g} m/s, gains {max(row['gain'] for row in ours):.1g} of the released energy, but stays "
-              f"only just within the bound of {measures.BOUNDS[SCATTER]:g} for the scatter of p: up to {scatter('ours'):.2g} of its mean at the start, highest where nothing drains.",
+        Claim(f"Ours, from k = {max(row['k'] for row in ours):g} to {min(row['k'] for row in ours):g} m/s, gains {max(row['gain'] for row in ours):.1g} of the released energy. Its oscillation of p is just "
+              f"within the bound of {measures.BOUNDS[SCATTER]:g}: up to {scatter('ours'):.2g} of the mean p at the start, highest where nothing drains.",
               all(row["state"] == "stable" for row in ours)),
-        Claim(f"The plain average of the points scatters less ({scatter('p^n average'):.2g}): what it takes from the noise it takes from hydrostatics, too "
+        Claim(f"The plain average of the points oscillates less ({scatter('p^n average'):.2g}), but damps the hydrostatic pressure, too "
               "(study of the column).", scatter("p^n average") < scatter("ours"), quick=False),
     ]
 

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which part of the method makes the front of a collapse depend on the size of the cells. The dense dry column of
-[run_out](run_out.md), 1 m x 1 m, after 1.5 s, is run with cells of 0.1 m and of 0.05 m, 3 x 3 points in a cell, FLIP with a PIC rate of 5/s, on a base that is
-fixed and on one with friction of the soil's own angle, 22.3 degrees. One thing at a time is changed: damping (PIC rate, TPIC), F-bar, points per
-cell, base. Bars: by how much the smaller cells bring the front forward, measured at 90 % and at 99 % of the mass. "Front by depth 0.05 m" in the table: the largest x at which the soil, averaged over
-0.1 m, is that deep.
+"""Parts of the method that make the front of a collapse depend on the cell size.
+The dense dry column of [run_out](run_out.md), 1 m x 1 m, is run to 1.5 s with cells of 0.1 m and of 0.05 m.
+It has 3 x 3 points per cell and FLIP with a PIC rate of 5/s.
+The base is fixed or has the friction of the soil's own angle, 22.3 degrees.
+One thing at a time is changed: damping (PIC rate, TPIC), F-bar, points per cell, base.
+Bars: advance of the front from the larger to the smaller cells, measured at 90 % and at 99 % of the mass.
+
+Column "front by depth 0.05 m": the largest x at which the soil, averaged over 0.1 m, is that deep.
 """
 
 from scree.studies.cases import run_out
@@ -56,22 +59,22 @@ def verdict(rows):
     plain = {base: both[run_out.COLUMN, base, "as it is"] for base in (run_out.FIXED, run_out.FRICTION)}
     large, small = (row["h"] for row in plain[run_out.FIXED])
     at = {(base, percent): 100 * advance(pair, percent) for base, pair in plain.items() for percent in (90, 99)}
-    claims = [Claim(f"The base: cells of {small:.3g} m instead of {large:.3g} m bring the front at 99 % forward by {at[run_out.FIXED, 99]:.1f} % on the fixed base, by "
-                    f"{at[run_out.FRICTION, 99]:.1f} % on the one with friction; at 90 %, where the deposit is several cells deep, by {at[run_out.FIXED, 90]:.1f} % and "
+    claims = [Claim(f"The base: cells of {small:.3g} m instead of {large:.3g} m advance the front at 99 % by {at[run_out.FIXED, 99]:.1f} % on the fixed base and by "
+                    f"{at[run_out.FRICTION, 99]:.1f} % on the one with friction. At 90 %, where the deposit is several cells deep, they advance it by {at[run_out.FIXED, 90]:.1f} % and "
                     f"{at[run_out.FRICTION, 90]:.1f} %.", at[run_out.FIXED, 99] > 1.5 * at[run_out.FRICTION, 99])]
     name = (run_out.COLUMN, run_out.FRICTION, "PIC rate 0")
     if name in both:
         free = {percent: 100 * advance(both[name], percent) for percent in (90, 99)}
         lost, kept = (pair[0]["energy lost numerically (-)"] for pair in (plain[run_out.FRICTION], both[name]))
-        claims.append(Claim(f"Damping: without PIC the rest on the base with friction falls to {free[99]:.1f} % (90 %: {free[90]:.1f} %), and the largest cells lose "
-                            f"{100 * kept:.1f} % of the energy instead of {100 * lost:.1f} %. A layer in shear as thick as a cell keeps within its cells what differs "
-                            "from the nodes' velocity, and PIC takes it at its rate: a loss in proportion to h.",
+        claims.append(Claim(f"Damping: without PIC the advance on the base with friction falls to {free[99]:.1f} % (90 %: {free[90]:.1f} %). The largest cells lose "
+                            f"{100 * kept:.1f} % of the energy instead of {100 * lost:.1f} %. In a layer in shear as thick as a cell, PIC damps the difference to the grid velocity "
+                            "at its rate: a loss in proportion to h.",
                             free[90] < 0.5 * at[run_out.FRICTION, 90] and free[99] < 0.6 * at[run_out.FRICTION, 99], quick=False))
         rates = [100 * advance(both[run_out.COLUMN, run_out.FIXED, changed], 90) for changed in ("PIC rate 0", "as it is", "PIC rate 20 1/s")]
-        claims.append(Claim("On the fixed base, too, it grows with the rate: " + ", ".join(f"{rate:.1f} %" for rate in rates) + " at 90 % for 0, 5 and 20 1/s.",
+        claims.append(Claim("On the fixed base, too, the advance grows with the rate: " + ", ".join(f"{rate:.1f} %" for rate in rates) + " at 90 % for 0, 5 and 20 1/s.",
                             rates == sorted(rates), quick=False))
         others = {changed: 100 * advance(both[run_out.COLUMN, run_out.FIXED, changed], 99) for changed in ("no F-bar", "2 x 2 points", "4 x 4 points", "TPIC")}
-        claims.append(Claim("Not F-bar, points or transfer: on the fixed base the front at 99 % still moves by " +
+        claims.append(Claim("F-bar, points and transfer are not the cause: on the fixed base the front at 99 % still advances by " +
                             ", ".join(f"{value:.1f} % ({changed})" for changed, value in others.items()) + ".",
                             min(others.values()) > 0.6 * at[run_out.FIXED, 99], quick=False))
     return claims
@@ -95,6 +98,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    title="What makes the run-out depend on the mesh", base="prm/columns/column_dense.prm", variants=VARIANTS,
+    title="Causes of the mesh dependence of the run-out", base="prm/columns/column_dense.prm", variants=VARIANTS,
     quick=lambda labels: labels["scene"] == run_out.COLUMN and labels["changed"] == "as it is" and labels["h"] > 0.06,
     measure=run_out.measure, verdict=verdict, chart=Curves(draw, size=(13, 4.2)))

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What ranks exchange, how evenly they share the work, and what that lets expect of more cores than were there.
+"""Communication and load balance of parallel runs, and a model for more cores than were available.
 
-1. Messages, bytes and collectives of a step for 1 to 64 ranks, counted by `doc/studies/count_mpi.c` through MPI's profiling interface: the difference
-   of a long and a short run, so that start-up and output are left out. With more ranks than cores only the numbers mean anything, not the times.
-   Imbalance is that of the log: the slowest rank's work over the mean (times on a crowded machine: an upper bound).
+1. Messages, bytes and collectives per time step for 1 to 64 ranks, counted by `doc/studies/count_mpi.c` through MPI's profiling interface.
+   They are the difference of a long and a short run, without start-up and output.
+   With more ranks than cores only these numbers are meaningful, not the times.
+   Imbalance is that of the log: the work of the slowest rank over the mean, an upper bound on a busy machine.
 2. Wall time on two ranks over that on one, each on a core of its own; the dam break with 12 800 points and with 16 times as many.
 3. Iterations of the pressure solve over unknowns and ranks: a dam break with finer and finer cells.
 
-The model: a step takes ns per point of one core x points/rank x imbalance + (messages x 1.5 us + bytes/(10 GB/s)) of the busiest rank + collectives x 1.5 us x
-log2(ranks): numbers of a common cluster network, not measured here."""
+The model: time per time step = (ns per point of one core) x (points/rank) x imbalance + communication.
+Communication is (messages x 1.5 us + bytes/(10 GB/s)) of the busiest rank + collectives x 1.5 us x log2(ranks).
+These are numbers of a common cluster network, not measured here.
+"""
 
 import math
 import re
@@ -101,15 +104,15 @@ def verdict(rows):
     claims = []
     if any(row["question"] == "two ranks" for row in rows):
         times = {scene: speed_up(rows, scene) for scene in LONG}
-        claims.append(Claim("Two ranks are " + ", ".join(f"{value:.2f} ({scene})" for scene, value in times.items()) + " times as fast as one; wanted: 1.8.",
+        claims.append(Claim("Two ranks are " + ", ".join(f"{value:.2f} ({scene})" for scene, value in times.items()) + " times as fast as one. Bound: 1.8.",
                             min(times.values()) >= 1.8, quick=False))
     most = max(ranks for steps in counted.values() for ranks in steps)
-    claims.append(Claim(f"On {most:g} ranks a step has " + ", ".join(
-        f"{steps[most]['collectives']:.0f} collectives and {steps[most]['messages of busiest']:.0f} messages of the busiest rank ({scene})"
-        for scene, steps in counted.items()) + "; one rank sends nothing.", all(steps[1]["messages"] == 0 for steps in counted.values())))
+    claims.append(Claim(f"Messages of the busiest rank and collectives per time step on {most:g} ranks. One rank sends nothing.", table=[
+        ("scene", "collectives", "messages"), *((scene, f"{steps[most]['collectives']:.0f}", f"{steps[most]['messages of busiest']:.0f}")
+                                                for scene, steps in counted.items())], holds=all(steps[1]["messages"] == 0 for steps in counted.values())))
     dry = [scene for scene in counted if scene in ("dry slope", "3D column")]
     claims.append(Claim("Dry scenes need " + ", ".join(f"{max(steps['collectives'] for steps in counted[scene].values()):.1f}" for scene in dry)
-                        + " collectives a step on any number of ranks.", all(max(steps["collectives"] for steps in counted[scene].values()) < 5 for scene in dry)))
+                        + " collectives per time step on any number of ranks.", all(max(steps["collectives"] for steps in counted[scene].values()) < 5 for scene in dry)))
     if most == max(RANKS):
         strong = {scene: modelled(steps[1], 1, ns_of_one_core(rows, scene), 100) / most
                   / modelled(steps[most], most, ns_of_one_core(rows, scene), 100, 3 if "3D" in scene else 2) for scene, steps in counted.items()}
@@ -118,7 +121,7 @@ def verdict(rows):
                             True, quick=False))
         solves = [row for row in rows if row["question"] == "unknowns"]
         coarse, fine = ([row["CG iterations"] for row in solves if row["scene"] == f"h = {cell:g} m"] for cell in (CELLS[0], CELLS[-1]))
-        claims.append(Claim(f"The pressure takes {min(coarse):.1f} to {max(coarse):.1f} CG iterations a step with cells of {CELLS[0]:g} m and {min(fine):.1f} to {max(fine):.1f} with "
+        claims.append(Claim(f"The pressure takes {min(coarse):.1f} to {max(coarse):.1f} CG iterations per time step with cells of {CELLS[0]:g} m and {min(fine):.1f} to {max(fine):.1f} with "
                             f"{CELLS[-1]:g} m, on 1 to 8 ranks: {2 / CELLS[0] ** 2:.0f} and {2 / CELLS[-1] ** 2:.0f} unknowns.", max(fine) < 3 * min(coarse), quick=False))
     return claims
 
@@ -146,6 +149,6 @@ def draw(figure, rows):
         plot.legend(fontsize="xx-small")
 
 
-STUDY = Study(title="Ranks: what they exchange", base="prm/slopes/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
+STUDY = Study(title="Parallel runs: messages and load balance", base="prm/slopes/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
               quick=lambda labels: labels["question"] == "counts" and labels["ranks"] <= 2 and labels["scene"] in ("dry slope", "dam break"),
               chart=Curves(draw, size=(15, 5), timed=True))

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where is it enough that water rides on the soil's points? A saturated block of Mohr-Coulomb soil, 1 m x 0.6 m, is thrown along its base against a
-wall two metres away, and splashes up. Single-point water fills the pores whatever they do: where grains part, it makes water. State:
-`measures.BOUNDS`; the number is the error, the largest change of the water's mass (with what left the box) over its mass at the start; the
-oscillation of p is its scatter (time mean) over the mean p at the start. The impact itself scatters, and grains may fly apart here, which counts
-as J out of bounds all the same.
+"""A saturated block of Mohr-Coulomb soil, 1 m x 0.6 m, is thrown along its base against a wall two metres away, and splashes up.
+The study shows where the single-point formulation is sufficient.
+Single-point water fills the pores at any porosity: where the grains part, it creates water.
+
+State: `measures.BOUNDS`.
+The number is the error: the largest change of the water's mass, with the part that left the box, over its mass at the start.
+The oscillation of p is its RMS (time mean) over the mean p at the start.
+The impact itself causes oscillation, and grains may separate, which counts as J out of bounds all the same.
 """
 
 import math
@@ -37,21 +40,21 @@ def verdict(rows):
     worst = max(single, key=lambda row: row["error"])
     gains = sum(row["gain"] > 0.005 for row in single)
     return [
-        Claim(f"Double-point water keeps its mass in all {len(double)} runs, which come to their end, and gains no energy (at most {max(row['gain'] for row in double):.1g} of the "
-              f"released one). What is not stable there is the spray: single points of soil open up to {max(row['largest J'] for row in double):.0f} times, beyond the bound in "
-              f"{len(open_)} runs, from {min((row['speed'] for row in open_), default=math.nan):g} m/s on, and p scatters by up to {max(row['oscillation of p'] for row in double):.2g}.",
+        Claim(f"Double-point water conserves its mass in all {len(double)} runs, which come to their end, and gains no energy (at most {max(row['gain'] for row in double):.1g} of the "
+              f"released energy). The spray is not stable: J of single soil points is up to {max(row['largest J'] for row in double):.0f}, beyond the bound in "
+              f"{len(open_)} runs, from {min((row['speed'] for row in open_), default=math.nan):g} m/s on. p oscillates by up to {max(row['oscillation of p'] for row in double):.2g}, bound 0.3.",
               all(row["ended"] and row["error"] < 1e-6 and row["gain"] < measures.BOUNDS["gain"] and row["oscillation of p"] < 0.3 for row in double)),
-        Claim(f"Single-point water makes {100 * min(made):.0f} % and more in each of {len(made)} runs; a column that only collapses makes "
+        Claim(f"Single-point water gains {100 * min(made):.0f} % of mass and more in each of {len(made)} runs; in a column that only collapses "
               f"{100 * min(rest):.0f} to {100 * max(rest):.0f} %.", min(made) > 0.01),
-        Claim(f"Where soil is thrown it may multiply: {worst['error']:.3g} times its mass at {worst['speed']:g} m/s, friction "
+        Claim(f"Where soil is thrown about, the gain reaches {worst['error']:.3g} times its mass at {worst['speed']:g} m/s, friction "
               f"{worst['friction']:g} degrees and k = {worst['k']:g} m/s.", worst["error"] > 1 and worst["speed"] > 0, quick=False),
-        Claim(f"That water brings energy: {gains} of {len(single)} single-point runs gain more than .005 of what is released, up to "
+        Claim(f"That water adds energy: {gains} of {len(single)} single-point runs gain more than 0.005 of the released energy, up to "
               f"{max(row['gain'] for row in single):.2g}.", gains > 0, quick=False),
     ]
 
 
 STUDY = Study(
-    title="Saturated soil thrown at a wall: water on its own points, and on the soil's", base="prm/slopes/slope_saturated_mohr_coulomb.prm",
+    title="Saturated soil thrown at a wall: double-point and single-point water", base="prm/slopes/slope_saturated_mohr_coulomb.prm",
     entries={"Mesh/Cell size": 0.1, "Mesh/Upper corner": "3, 5", "Soil/Region": "x < 1 && y < 0.6", "End time": 2.,
              "Soil/Mohr-Coulomb/Young's modulus": 1e6, "Time step/Maximum time step": 0.01, "Output/Interval": 0.1,
              "Output/Graphics": "points"},

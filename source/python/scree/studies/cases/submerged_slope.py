@@ -1,9 +1,13 @@
-"""A slope of Mohr-Coulomb sand (friction 30 degrees, no cohesion) under still water: what is less steep than 30 degrees must stay at rest, what is steeper
-slides. Crest 0.6 m high, surface of the water below the crest, just above it, or 0.4 m above it; conductivities from gravel to clay. The slope settles for at most 1 s with
-damping and is then released for 1 s.
-State: `measures.BOUNDS` with the work of the soil's weight over a centimetre as energy; the error is 1 if the front of a slope below the friction angle moves by a
-millimetre, or a steeper one stands (soil slower than 5 mm/s), else 0. No options are compared: all cells count as default cells. The number is the mean (rms) speed of the free water at the end, mm/s: spurious
-currents, where the slope is at rest."""
+"""A slope of Mohr-Coulomb sand (friction 30 degrees, no cohesion) under still water.
+Slopes below 30 degrees must stay at rest, steeper ones slide.
+The crest is 0.6 m high. The water surface lies below the crest, just above it, or 0.4 m above it; conductivities are from gravel to clay.
+The slope settles for at most 1 s with damping and is then released for 1 s.
+
+State: `measures.BOUNDS` with the work of the soil's weight over a centimetre as energy.
+The error is 1 if the front of a slope below the friction angle moves by a millimetre, or if a steeper one stands (soil slower than 5 mm/s); else 0.
+No options are compared: all cells count as default cells.
+The number is the mean (RMS) speed of the free water at the end, mm/s: spurious currents, where the slope is at rest.
+"""
 import math
 
 import numpy as np
@@ -40,13 +44,13 @@ def verdict(rows):
     def largest(chosen, column):
         return max(row[column] for row in chosen)
     return [
-        Claim(f"That holds for k from {largest(rows, 'k'):g} to {min(row['k'] for row in rows):g} m/s and any water level, on one mesh (h = 0.1 m).",
+        Claim(f"All are stable for k from {largest(rows, 'k'):g} to {min(row['k'] for row in rows):g} m/s and any water level, on one mesh (h = 0.1 m).",
               len(stable) == len(rows)),
         Claim(f"Below the friction angle the slope stays: the front moves by at most {largest(flat, 'front moved, mm'):.2g} mm, soil by at most "
               f"{largest(flat, 'soil, mm/s'):.2g} mm/s. Spurious currents are at most {largest(under, 'water, mm/s'):.2g} mm/s under water, and "
-              f"{largest(flat, 'water, mm/s'):.2g} mm/s where the water's surface cuts a slope that it passes easily (sqrt(g 0.6 m) is 2.4 m/s).",
+              f"{largest(flat, 'water, mm/s'):.2g} mm/s where the water surface cuts a slope of high conductivity (sqrt(g 0.6 m) is 2.4 m/s).",
               largest(flat, "front moved, mm") < 1 and largest(under, "water, mm/s") < 0.5 and largest(flat, "water, mm/s") < 5),
-        Claim(f"Above it, it slides: its soil is as fast as {min(row['soil, mm/s'] for row in steep):.2g} mm/s at the least.",
+        Claim(f"Above it the slope slides: the soil speed is at least {min(row['soil, mm/s'] for row in steep):.2g} mm/s.",
               min(row["soil, mm/s"] for row in steep) > 5),
     ]
 

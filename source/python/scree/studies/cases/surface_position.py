@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where in its cell may the water's surface lie? The surface's distance from the vertices is found from their fill; what p = 0 at vertices next to an
-empty cell, or at those that are less than half full, does here is in doc/verification.md, "Choices for the pressure that failed". Water alone, and saturated
-soil, at rest for 0.2 s, ten cells deep, on regular points and on points moved by up to a quarter of their spacing. State: `measures.BOUNDS`. The number
-is the error, the rms of that of p at the water's points over rho g h, h the cell, against rho g depth.
+"""Error of p over the position of the water surface in its cell.
+The distance of the surface from the nodes follows from their fill.
+Other conditions at the surface are in doc/verification.md, "Choices for the pressure that failed".
+Water alone, and saturated soil, are at rest for 0.2 s, ten cells deep, on regular points and on points moved by up to a quarter of their spacing.
+State: `measures.BOUNDS`.
+The number is the error, the RMS error of p at the water points over rho g h, h the cell, against rho g depth.
 """
 
 from scree.studies import measures
@@ -35,7 +37,7 @@ def verdict(rows):
     regular, jittered = (max(row["error"] for row in rows if row["points"] == points)
                          for points in ("regular", "jittered"))
     return [
-        Claim(f"p is right wherever the surface lies: error at most {regular:.1g} rho g h on regular points, {jittered:.2g} on "
+        Claim(f"At any position of the surface the RMS error of p is at most {regular:.1g} rho g h on regular points, {jittered:.2g} on "
               "jittered ones.", regular < 2e-3 and jittered < 0.02),
     ]
 

@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One material point of Nor-Sand under triaxial compression, dense and loose, drained and undrained: the soil of the landslides.
 
-The parameters are those of Xie, Navas & Lopez-Querol 2024, Table 1 (the defaults of the law; v_0 = 1.629 dense, 1.736 loose), started from an
-isotropic stress of 10 or 100 kPa on the yield surface. What the published text leaves out, and what is taken here: the curves of the
-grain-by-grain (DEM) tests that the parameters were fitted to are in its figures only, so that nothing is compared with them; the
-reference pressure of the critical state line (1 Pa: with 1 kPa the loose sand would dilate as a dense one); the overconsolidation at the start (none);
-for the slopes their geometry and K0 (crest 2 m, height 2 m, 45 degrees, K0 = 1 - sin phi_c = .683: ours). What can be checked without the
-curves is the theory: both sands must come to the same critical state, M and v_c = v_c0 - lambda ln(p'/p_ref).
+The parameters are those of Xie, Navas & Lopez-Querol 2024, Table 1 (the defaults of the law; v_0 = 1.629 dense, 1.736 loose).
+The start is an isotropic stress of 10 or 100 kPa on the yield surface.
+The curves of the discrete element tests behind the parameters are only in figures of the paper; nothing is compared with them.
+The paper leaves out three values, which are assumed:
 
-Strains are logarithmic, compression positive. q = sigma_1 - sigma_3; undrained tests hold the volume, so that the pore pressure is what
-p' lacks of the total mean stress. A path is followed in 2000 steps, to an axial strain of 50 % (drained) or 20 % (undrained).
+- the reference pressure of the critical state line: 1 Pa (with 1 kPa the loose sand would dilate as a dense one);
+- the overconsolidation at the start: none;
+- for the slopes, geometry and K0: crest 2 m, height 2 m, 45 degrees, K0 = 1 - sin phi_c = 0.683.
+
+The theory can be checked without the curves: both sands must come to the same critical state, M and v_c = v_c0 - lambda ln(p'/p_ref).
+
+Strains are logarithmic, compression positive, and q = sigma_1 - sigma_3.
+Undrained tests hold the volume; the pore pressure is the difference between p' and the total mean stress.
+A path has 2000 steps, to an axial strain of 50 % (drained) or 20 % (undrained).
 """
 import numpy as np
 
@@ -49,14 +54,14 @@ def verdict(rows):
         Claim(f"Drained, dense and loose sand come to one critical state: q/p' ends within {100 * off_ratio:.1f} % of M, v within {off_volume:.4f} of "
               f"the critical one, where they began {SOILS['loose'] - SOILS['dense']:.3f} apart.", holds=off_ratio < 0.02 and off_volume < 0.005),
         Claim(f"Dense sand has a peak, q/p' = {dense['peak stress ratio']:.2f} at {100 * dense['strain at peak']:.1f} % and 100 kPa, and grows by "
-              f"{100 * (dense['volume ratio at the end'] - 1):.1f} %; loose sand hardly ({loose['peak stress ratio']:.2f}, "
+              f"{100 * (dense['volume ratio at the end'] - 1):.1f} %; loose sand has nearly none ({loose['peak stress ratio']:.2f}, "
               f"{100 * (loose['volume ratio at the end'] - 1):.2f} %).",
               holds=dense["peak stress ratio"] > 1.3 * M and loose["peak stress ratio"] < 1.1 * M and loose["volume ratio at the end"] < 1.01),
         Claim(f"Undrained from 100 kPa, the loose sand loses {100 - closed['smallest effective stress (kPa)']:.0f} % of its p' at first but ends at "
               f"{closed['effective stress at the end (kPa)']:.0f} kPa: with these parameters it does not liquefy.",
               holds=closed["smallest effective stress (kPa)"] < 75 and closed["effective stress at the end (kPa)"] > 100),
-        Claim(f"The dense one wants {1e-3 * open_['effective stress at the end (kPa)']:.1f} MPa at 20 %, far beyond the suction at which water would cavitate: in a "
-              "saturated slope it is the inflow of water, not the undrained strength, that decides.", holds=open_["effective stress at the end (kPa)"] > 1000),
+        Claim(f"The dense sand reaches {1e-3 * open_['effective stress at the end (kPa)']:.1f} MPa at 20 %, far beyond the suction at which water cavitates. In a "
+              "saturated slope the inflow of water decides, not the undrained strength.", holds=open_["effective stress at the end (kPa)"] > 1000),
     ]
 
 

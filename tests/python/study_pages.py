@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""study_pages.py: the pages of the studies and their lists are what the committed tables say, begin with their worst result, and have no long lines."""
+
+import re
+import sys
+
+from scree.studies import pages, run
+from scree.studies.study import Claim
+
+LONGEST_SENTENCE = 40  # words
+
+faults = []
+
+
+def check(what, holds):
+    if not holds:
+        faults.append(what)
+
+
+def check_lines(file, text):
+    for number, line in enumerate(text.splitlines(), 1):
+        check(f"{file}, line {number}: {len(line)} characters", len(line) <= pages.LINE)
+
+
+for name in run.names_of_studies():
+    module = run.module_of(name)
+    check(f"{name}.md is not what its table says: scree-study {name} --page", run.page_is_current(name, module))
+    text = (run.PAGES / f"{name}.md").read_text(encoding="utf-8")
+    head, _, verdict = text.partition("## Verdict")
+    check(f"{name}: claims that do not hold in head and verdict", head.count("**Does not hold.**") == verdict.count("**(Does not hold.)**"))
+    check(f"{name}: no result in the third line", text.splitlines()[2].startswith(("- **Does not hold.**", "- **Not stable.**", "- **Worst result.**")))
+    check_lines(f"{name}.md", text)
+    parts = re.split(r"\n\s*\n|\n(?=- |\d+\. )", module.__doc__)
+    for sentence in (sentence for part in parts for sentence in pages.SENTENCES.split(" ".join(part.split()))):
+        words = len([word for word in sentence.split() if word[0].isalnum() or len(word) > 1])
+        check(f"{name}: a sentence of {words} words: {sentence[:60]}...", words <= LONGEST_SENTENCE)
+
+for file, text in run.lists().items():
+    check(f"{file.name} is not what the tables say", file.read_text(encoding="utf-8") == text)
+    check_lines(file.name, text)
+for file in (run.PAGES.parent / "defaults.md", run.PAGES.parent.parent / "choosing.md"):
+    check_lines(file.name, file.read_text(encoding="utf-8"))
+
+
+class Chart:
+    pass
+
+
+class Study:
+    chart = Chart()
+
+
+claims = [Claim("Good.", True), Claim("Bad.", False), Claim("Worse.", False, worst=True), Claim("Limited.", True, worst=True)]
+check("order of the worst results", [text for _, text in pages.worst_results(Study, [], claims)] == ["Worse.", "Bad.", "Limited."])
+check("the first claim, if nothing is worse", pages.worst_results(Study, [], claims[:1]) == [("Worst result.", "Good.")])
+check("a sentence a line", pages.sentences("One. Two et al. 2005 are there. 3 are not.", "- ", "  ") == ["- One.", "  Two et al. 2005 are there.", "  3 are not."])
+check("no line begins a list", all(not pages.MARKUP.match(line.split()[0]) for line in pages.filled("word - " * 60)))
+
+print(f"{len(run.names_of_studies())} pages")
+sys.exit("\n".join(faults) or 0)
