@@ -23,7 +23,7 @@ bibtex_default_style = "plain"
 # Code in the pages is C++, shell, Python, cases of Scree (text) and nothing else.
 highlight_language = "text"
 # Texts that are parts of pages, data, and the former manual.
-exclude_patterns = ["parameters/intro", "studies/reference", "manual.md", "verification.md", "step.md"]
+exclude_patterns = ["parameters/intro", "studies/reference"]
 
 html_theme = "furo"
 html_title = f"Scree {release}"

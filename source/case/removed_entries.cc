@@ -16,6 +16,6 @@ namespace scree
     const auto found = remedies.find(subsection_path(subsection, entry));
     return found == remedies.end() ? ""
                                    : "It was removed after version 0.9. " + found->second +
-                                         " Remove the line (measurements: doc/verification.md, chapter 5).";
+                                         " Remove the line (measurements: doc/developer/development_log.md#choices-for-the-pressure-that-failed).";
   }
 } // namespace scree

@@ -185,7 +185,7 @@ def bed_arc(scree):
     check("arc: half period over that of a pendulum", turns[0] / pendulum(length, height, radius, start), 0.999, 1.001)
     energy = sum(np.array(table[column + " energy (J)"]) for column in ("Kinetic", "Potential", "Elastic"))
     # The prototype loses .7 %, at the same PIC rate; that of its own rotation of the block that a PIC rate takes is in both.
-    # The bound of 0.012 is missed since slivers beside the bed join others (0.01207; verification.md): this guards what is reached.
+    # The bound of 0.012 is missed since slivers beside the bed join others (0.01207; doc/verification/bed_and_contact.md): this guards what is reached.
     check("arc: energy lost over released", (energy[0] - energy[-1]) / np.ptp(table["Potential energy (J)"]), 0, 0.0122)
     check_bed("arc", table)
 

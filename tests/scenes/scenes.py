@@ -17,7 +17,7 @@ from scene_tools import ROOT, at, check, check_balances, largest_fall, main, mea
 
 
 def columns(scree):
-    """Fronts (99.5 %) of the 1 m column at h = 0.05 m; doc/verification.md compares them with other codes'."""
+    """Fronts (99.5 %) of the 1 m column at h = 0.05 m; doc/verification/dry_columns_and_slopes.md compares them with other codes'."""
     fronts = {"dense": {0.2: 1.080, 0.4: 1.412, 0.6: 1.885, 0.8: 2.268, 1.0: 2.513, 1.5: 2.666},
               "loose": {0.2: 1.101, 0.4: 1.464, 0.6: 1.936, 0.8: 2.302, 1.0: 2.553, 1.5: 2.706}}
     for kind, expected in fronts.items():

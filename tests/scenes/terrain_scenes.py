@@ -8,7 +8,7 @@ from scene_tools import check, main
 
 def terrain_bank_short(scree):
     """No point is thrown, lost or pressed into the ground; the soil weighs what its map says; no energy from nothing. These three
-    meet the bound of depth at 15 s; others do not (doc/verification.md, "Faults found from outside")."""
+    meet the bound of depth at 15 s; others do not (doc/verification/bed_and_contact.md, "Terrain")."""
     for seed, options in ((1, {}), (2, {}), (3, {"rim": "cut"})):
         for method in ("FLIP", "AFLIP", "TPIC"):
             numbers = terrain_bank.run_case(scree, "%d_%s" % (seed, method), seed, options, 20., {"End time": "15", "Transfer/Method": method})

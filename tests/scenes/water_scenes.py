@@ -316,7 +316,7 @@ def surface_load(scree):
 def surface_load_wet(scree):
     """The same, consolidated, constant conductivity and Kozeny-Carman. At the end of consolidation the settlement is within 1 %.
 
-    On the way it is ahead (doc/manual.md, chapter 13), as water that leaves soil is not at its right place.
+    On the way it is ahead (doc/limits.md), as water that leaves soil is not at its right place.
     """
     modulus = closed_forms.oedometric_modulus(1e6, 0.2)
     for load, law, f_bar, factor in ((0.1, "constant", "none", 2), (0.4, "constant", "none", 2), (0.4, "constant", "modified", 2),
@@ -591,7 +591,7 @@ def wet_friction(scree):
 
 
 def submerged(scree):
-    """A column collapses under water: later and shorter than in air (2.20 m at 1 s, h = 0.1 m: doc/verification.md).
+    """A column collapses under water: later and shorter than in air (2.20 m at 1 s, h = 0.1 m: doc/verification/saturated_slopes.md).
 
     Dense sand of k = 5e-3 m/s creeps (front 1.01 m at 1 s, suction holds it); ten times the conductivity lets it go.
     """
@@ -861,7 +861,7 @@ def suspension(scree):
 
 def dam_break_wet(scree):
     """A bore runs into water at rest: Stoker's discharge through the gate within 3 %. Wanted as much of the bore's depth and speed: missed,
-    a bed two cells deep does not take the energy that a bore loses (doc/verification.md)."""
+    a bed two cells deep does not take the energy that a bore loses (doc/verification/free_water.md)."""
     upstream, downstream, gate, cell, name = 1., 0.2, 10., 0.1, "dam_break_wet"
     table = run(scree, "water/" + name, name, pictures({"Mesh/Cell size": str(cell), "Time step/Maximum time step": "4e-3",
                                                         "Water/Volume correction rate": "5"}))

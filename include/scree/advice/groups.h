@@ -6,7 +6,7 @@
 
 namespace scree
 {
-  /// The scales of a scene and the dimensionless groups they make; doc/manual.md, chapter "What a case will cost",
+  /// The scales of a scene and the dimensionless groups they make; doc/running.md, "Cost estimate",
   /// has the formulas and their sources. A number that a scene does not have is 0.
   struct Groups
   {

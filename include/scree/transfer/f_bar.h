@@ -50,7 +50,7 @@ namespace scree
   /// point becomes that of the cell, sum V / sum (V/J_e); the deviator stays. So the volume that the points would have
   /// without stress stays: the mean of ln J_e loses some where gaps, J_e > 1, mix with soil in contact. The points'
   /// volume follows the mean dJ, too: with the points' own dJ the volumes of a cell drift apart unfelt, until dense
-  /// points dilate against loose ones (doc/verification.md has the measurement).
+  /// points dilate against loose ones (doc/developer/development_log.md, "Stress averaging").
   ///
   /// @param first of the cell's points in the block
   /// @param volume_factor what the mean of dJ, and the change of the points' volume, are multiplied by

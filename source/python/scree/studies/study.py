@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a study is: variants of a case, a measure of each run, a chart and a verdict. doc/manual.md, chapter 10, shows how to write one."""
+"""What a study is: variants of a case, a measure of each run, a chart and a verdict. doc/developer/index.md shows how to write one."""
 
 import atexit
 import csv

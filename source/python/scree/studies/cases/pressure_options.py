@@ -5,7 +5,7 @@ The number is the RMS error of p/q at four times, below three cells from the dra
 State: `measures.BOUNDS`; the oscillation of p is the RMS of that error about linear fits over three cells.
 Energy is in parts of q^2 H/E_oed.
 "Ours" has the defaults; the other is `Previous pressure = average`.
-Other variants, the plain fractional step among them, are in doc/verification.md, "Choices for the pressure that failed".
+Other variants, the plain fractional step among them, are in doc/developer/development_log.md, "Choices for the pressure that failed".
 """
 
 import math

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Error of p over the position of the water surface in its cell.
 The distance of the surface from the nodes follows from their fill.
-Other conditions at the surface are in doc/verification.md, "Choices for the pressure that failed".
+Other conditions at the surface are in doc/developer/development_log.md, "Choices for the pressure that failed".
 Water alone, and saturated soil, are at rest for 0.2 s, ten cells deep, on regular points and on points moved by up to a quarter of their spacing.
 State: `measures.BOUNDS`.
 The number is the error, the RMS error of p at the water points over rho g h, h the cell, against rho g depth.
