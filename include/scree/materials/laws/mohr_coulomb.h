@@ -24,7 +24,6 @@ namespace scree
 
     /// See LawEntries.
     LawEntry modulus() const;
-    LawEntry stiffest() const;
     std::vector<UsualRange> usual_ranges() const;
   };
 
