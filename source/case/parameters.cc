@@ -185,8 +185,7 @@ namespace scree
                       "Where the map has x = 0, y = 0, m, 3D. Rasters and outlines that are read, and maps that are "
                       "written, are in the map's coordinates; all else is relative to this place.",
                       Patterns::List(Patterns::Double(), 2, 2));
-    body_force.add_parameters(prm);
-    base_motion.add_parameters(prm);
+    body_forces.add_parameters(prm);
     grid.add_parameters(prm);
     time_step.add_parameters(prm);
     transfer.add_parameters(prm);

@@ -43,8 +43,7 @@ namespace scree
     TimeStepParameters time_step;
     TransferParameters transfer;
     StabilisationParameters stabilisation;
-    BodyForceParameters body_force;
-    BaseMotionParameters base_motion;
+    BodyForceParameters body_forces;
     std::vector<BodyParameters> bodies;
     BoundaryParameters boundaries;
     BedParameters bed;
