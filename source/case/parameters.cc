@@ -245,12 +245,12 @@ namespace scree
   {
     const bool is_asked  = grid.box == "from raster";
     const bool has_lower = file.sets("Mesh", "Lower corner"), has_upper = file.sets("Mesh", "Upper corner");
-    require_entry(!is_asked || !bed.raster.empty(),
+    require_entry(!is_asked || !bed.raster().empty(),
                   "Mesh",
                   "Box",
                   grid.box,
                   "subsection Bed has no \"Raster\". Name one there, or write the corners.");
-    if (bed.raster.empty() || dimension != 3 || (has_lower && has_upper) || (!is_asked && (has_lower || has_upper)))
+    if (bed.raster().empty() || dimension != 3 || (has_lower && has_upper) || (!is_asked && (has_lower || has_upper)))
       return;
     const BoxOfRaster box     = box_of_raster(bed, bodies, grid.cell_size);
     std::vector<double> lower = has_lower ? grid.lower_corner : box.lower;

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -30,9 +31,9 @@ namespace scree
 
     std::string type      = "none";
     std::string for_water = "impermeable";
-    double friction_angle = 0; ///< degrees
-    std::string expression, profile, raster, closed_surface;
-    std::string friction_angles; ///< file; of the bed only
+    double friction_angle = 0;                 ///< degrees
+    std::map<std::string, std::string> shapes; ///< values by entries, see rigid_shapes(); empty: not given
+    std::string friction_angles;               ///< file; of the bed only
 
     void add_parameters(dealii::ParameterHandler &prm);
 
@@ -61,8 +62,11 @@ namespace scree
     /// Largest tangential over normal force; infinite if the bed is fixed.
     double friction_coefficient() const;
 
-    /// Entry and value of the geometry, for messages.
+    /// Entry and value of the shape; empty if none is given.
     std::pair<std::string, std::string> geometry() const;
+
+    /// File of the ground's heights; empty without one.
+    std::string raster() const;
   };
 
   /// The coefficients of friction of a raster of angles, which covers the box.
