@@ -27,7 +27,7 @@ namespace scree
     /// Whether it is the same everywhere.
     virtual bool is_uniform() const = 0;
 
-    /// m/s^2
+    /// Acceleration at a place in the step, m/s^2.
     virtual dealii::Tensor<1, dim> at(const dealii::Point<dim> &x) const = 0;
 
     /// What the log says of it; empty: nothing.
@@ -52,7 +52,10 @@ namespace scree
     /// Throws EntryError if entries are impossible; the force that is set is made to see.
     virtual void check(const unsigned int dim) const;
 
+    /// The force of a plane scene; throws EntryError if its entries or files are wrong.
     virtual std::unique_ptr<BodyForce<2>> make_2d() const = 0;
+
+    /// The force of a scene in space; throws EntryError if its entries or files are wrong.
     virtual std::unique_ptr<BodyForce<3>> make_3d() const = 0;
   };
 
@@ -60,10 +63,16 @@ namespace scree
   class BodyForceParameters
   {
   public:
+    /// With the default values of all kinds.
     BodyForceParameters();
 
+    /// Declares the entries of all kinds.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError if entries of a kind are impossible.
     void check(const unsigned int dim) const;
+
+    /// Whether the case has a force of any kind.
     bool is_set() const;
 
     /// Those that are set.
@@ -82,6 +91,7 @@ namespace scree
   class RegisterBodyForce
   {
   public:
+    /// @param name of the kind; kinds are in the order of their names
     explicit RegisterBodyForce(const std::string &name)
     {
       register_body_force(name, [] { return std::unique_ptr<BodyForceEntries>(std::make_unique<Entries>()); });

@@ -17,10 +17,13 @@ namespace scree
   class BodyForces
   {
   public:
+    /// Makes the forces that are set; throws EntryError if that fails.
+    /// @param gravity m/s^2, one number an axis
     BodyForces(const BackgroundGrid<dim> &grid,
                const std::vector<double> &gravity,
                const BodyForceParameters &parameters);
 
+    /// Gravity without other forces, m/s^2.
     const dealii::Tensor<1, dim> &gravity() const
     {
       return own_gravity;
@@ -50,6 +53,7 @@ namespace scree
       damping_rate = rate;
     }
 
+    /// Whether the damping of the settling is on.
     bool is_damped() const
     {
       return damping_rate > 0.;

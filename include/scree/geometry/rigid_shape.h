@@ -15,10 +15,13 @@ namespace scree
   /// Where a rigid surface is wanted, and the entry that tells its shape.
   struct ShapeRequest
   {
-    std::string subsection, entry, value;
-    dealii::Point<2> map_origin;      ///< where the map has the origin of the case's coordinates, m
-    std::vector<double> lower, upper; ///< corners of the box, m
-    double cell_size;                 ///< of the mesh, m
+    std::string subsection;      ///< Bed, or Obstacle NAME
+    std::string entry;           ///< such as Profile
+    std::string value;           ///< of the entry; of a file its path from the working folder
+    dealii::Point<2> map_origin; ///< where the map has the origin of the case's coordinates, m
+    std::vector<double> lower;   ///< corner of the box, m
+    std::vector<double> upper;   ///< corner of the box, m
+    double cell_size;            ///< of the mesh, m
 
     /// entry_name(), for messages.
     std::string where() const;
@@ -30,6 +33,7 @@ namespace scree
     void require_cover(const unsigned int axis, const double first, const double last, const double rounding) const;
   };
 
+  /// Makes the surface; throws EntryError if the value of the entry or its file is wrong.
   template <int dim>
   using MakeShape = std::function<std::unique_ptr<LevelSet<dim>>(const ShapeRequest &)>;
 
@@ -44,11 +48,12 @@ namespace scree
   struct RigidShape
   {
     std::string documentation; ///< of the entry
-    ShapeValue value;
-    std::string remedy;   ///< for scenes of the dimension that it is not for; empty: it is for both
-    MakeShape<2> make_2d; ///< null: it is for scenes in space only; throws EntryError
-    MakeShape<3> make_3d;
+    ShapeValue value;          ///< what the value of the entry is
+    std::string remedy;        ///< for scenes of the dimension that it is not for; empty: it is for both
+    MakeShape<2> make_2d;      ///< null: it is for scenes in space only
+    MakeShape<3> make_3d;      ///< null: it is for plane scenes only
 
+    /// make_2d or make_3d.
     template <int dim>
     const MakeShape<dim> &make() const
     {
@@ -69,6 +74,7 @@ namespace scree
   class RegisterShape
   {
   public:
+    /// @param entry its name in subsections Bed and Obstacle
     RegisterShape(const std::string &entry, RigidShape shape);
   };
 } // namespace scree

@@ -11,7 +11,7 @@ namespace scree
   template <int dim>
   struct RunTotals
   {
-    Budget<dim> balance;
+    Budget<dim> balance;                     ///< momentum and energy at the nodes
     dealii::Tensor<1, dim> lost_momentum;    ///< of soil and water points that left through an open wall, N s
     double lost_mass       = 0;              ///< of soil, kg
     double lost_volume     = 0;              ///< of soil as dense as at the start, m^3 (2D: per m)
@@ -25,7 +25,12 @@ namespace scree
     double plastic_dissipation = 0;          ///< J
 
     // Counts; doubles hold them exactly and travel like the rest.
-    double n_lost = 0, n_updates = 0, n_substeps = 0, n_fallbacks = 0, n_vertices = 0, n_unresolved = 0;
+    double n_lost    = 0, ///< points that left the box
+        n_updates    = 0, ///< updates of stress, points times steps
+        n_substeps   = 0, ///< return maps
+        n_fallbacks  = 0, ///< see UpdateReport::n_fallbacks
+        n_vertices   = 0, ///< see UpdateReport::n_vertices
+        n_unresolved = 0; ///< see UpdateReport::n_unresolved
 
     RunTotals() = default;
 
@@ -35,11 +40,13 @@ namespace scree
       balance.obstacles.resize(n_obstacles);
     }
 
+    /// Adds dissipation and counts of a step's stress updates.
     void add(const UpdateReport &report);
 
     /// The sums over ranks, on all of them. Collective.
     RunTotals sum_over_ranks(const MPI_Comm communicator) const;
 
+    /// Saves or loads all members (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -15,6 +15,8 @@ namespace scree
   class Statistics
   {
   public:
+    /// Without a row.
+    /// @param gravity m/s^2
     Statistics(const BackgroundGrid<dim> &grid,
                const dealii::Tensor<1, dim> &gravity,
                const FurtherColumns<dim> &further);
@@ -47,6 +49,7 @@ namespace scree
       return history.step;
     }
 
+    /// Saves or loads the last row and the state that differences start from (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -30,6 +30,7 @@ namespace scree
   /// Columns of any scene.
   struct Always
   {
+    /// True.
     template <typename Snapshot>
     bool operator()(const Snapshot &) const
     {

@@ -13,45 +13,50 @@ namespace scree
   template <int dim>
   struct FurtherColumns
   {
-    bool loads = false, volume_correction = false, viscosity = false, inflows = false, contacts = false;
-    const DiscreteLevelSet<dim> *bed          = nullptr;
-    const std::list<Obstacle<dim>> *obstacles = nullptr;
+    bool loads                                = false,   ///< surface loads
+        volume_correction                     = false,   ///< work of ParticleShifting
+        viscosity                             = false,   ///< viscosity of the water
+        inflows                               = false,   ///< what has entered
+        contacts                              = false;   ///< contact between bodies
+    const DiscreteLevelSet<dim> *bed          = nullptr; ///< the bed; null without it
+    const std::list<Obstacle<dim>> *obstacles = nullptr; ///< the obstacles; null without them
   };
 
   /// What rows need of the start of a run, and of all ranks at the last row.
   template <int dim>
   struct RowHistory
   {
-    bool has_start = false;
-    dealii::Tensor<1, dim> start_momentum;
-    double start_energy         = 0;
-    unsigned long long step     = 0;
-    double time                 = 0;
-    double n_iterations         = 0;
-    double n_cavitating         = 0;
-    double n_viscous_iterations = 0;
-    std::vector<ObstacleBalance<dim>> obstacles;
+    bool has_start = false;                      ///< whether there has been a row
+    dealii::Tensor<1, dim> start_momentum;       ///< N s
+    double start_energy         = 0;             ///< kinetic, potential and elastic, J
+    unsigned long long step     = 0;             ///< steps of the run
+    double time                 = 0;             ///< s
+    double n_iterations         = 0;             ///< see Budget::n_iterations
+    double n_cavitating         = 0;             ///< see Budget::n_cavitating
+    double n_viscous_iterations = 0;             ///< see Budget::n_viscous_iterations
+    std::vector<ObstacleBalance<dim>> obstacles; ///< see Budget::obstacles
   };
 
   /// What a column of the statistics may ask for: soil and water of all ranks when a row is due (2D: per m).
   template <int dim>
   struct Snapshot
   {
-    static constexpr unsigned int dimension = dim;
+    static constexpr unsigned int dimension = dim; ///< 2 or 3
 
-    const BackgroundGrid<dim> &grid;
-    const FurtherColumns<dim> &further;
-    const std::list<SoilBody<dim>> &bodies;
-    const std::list<WaterPhase<dim>> &water;
-    const RowHistory<dim> &before;
-    const UpdateReport &last_step; ///< of this rank
-    const PointSums<dim> sums;     ///< of one pass over all points
-    const WaterMeasures of_water;  ///< 0 without water
-    const RunTotals<dim> totals;   ///< since the start
-    const double time;             ///< s
-    const unsigned long long step;
-    const double time_step; ///< s
+    const BackgroundGrid<dim> &grid;         ///< with the mesh as it is
+    const FurtherColumns<dim> &further;      ///< what the scene has
+    const std::list<SoilBody<dim>> &bodies;  ///< points of this rank
+    const std::list<WaterPhase<dim>> &water; ///< points of this rank; empty without water
+    const RowHistory<dim> &before;           ///< the start and the last row
+    const UpdateReport &last_step;           ///< of this rank
+    const PointSums<dim> sums;               ///< of one pass over all points
+    const WaterMeasures of_water;            ///< 0 without water
+    const RunTotals<dim> totals;             ///< since the start
+    const double time;                       ///< s
+    const unsigned long long step;           ///< steps of the run
+    const double time_step;                  ///< s
 
+    /// Kinetic, potential and elastic energy, J.
     double energy() const
     {
       return sums.kinetic + sums.potential + sums.elastic;
