@@ -94,8 +94,7 @@ namespace scree
             parameters.bodies.begin(), parameters.bodies.end(), [](const auto &body) { return !body.is_rigid(); });
         scene.is_elastic          = scene.has_soil;
         scene.has_water           = parameters.has_water;
-        scene.has_changing_forces = parameters.surface_load.changes_with_time() ||
-                                    !parameters.body_force.expression.empty() || !parameters.base_motion.record.empty();
+        scene.has_changing_forces = parameters.surface_load.changes_with_time() || parameters.body_forces.is_set();
         if (!scene.has_water)
           return;
         scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;

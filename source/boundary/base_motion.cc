@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/boundary/body_force.h>
 #include <scree/input/input_error.h>
 #include <scree/input/named_file.h>
 #include <scree/input/number_table.h>
-#include <scree/boundary/base_motion.h>
+#include <scree/input/time_record.h>
 
 #include <deal.II/base/array_view.h>
 
@@ -12,61 +13,103 @@ namespace scree
 {
   using namespace dealii;
 
-  void BaseMotionParameters::add_parameters(ParameterHandler &prm)
+  namespace
   {
-    prm.enter_subsection("Base motion");
-    add_file_entry(prm,
-                   "Acceleration record",
-                   record,
-                   "File of the acceleration of the box with all its walls; empty: at rest. Each line has the time (s) "
-                   "and one component per axis, separated by commas. Values are linear between lines and 0 outside the "
-                   "record. Results are relative to the box.");
-    prm.add_parameter(
-        "Scale", scale, "Factor that converts the record to m/s^2; 9.81 if it is in g.", Patterns::Double());
-    prm.leave_subsection();
-  }
+    /// The motion of the box with all its walls. What is in it is described relative to the box, in whose frame the
+    /// negative acceleration acts on all masses.
+    template <int dim>
+    class BaseMotion : public BodyForce<dim>
+    {
+    public:
+      /// Reads the record; throws EntryError if that fails.
+      /// @param scale m/s^2 of a unit of the record
+      BaseMotion(const std::string &record, const double scale)
+      {
+        std::vector<std::string> columns{ "time (s)", "acceleration along x", "along y", "along z" };
+        columns.resize(1 + dim);
+        for (const auto &numbers : read_number_table(record, entry_name("Base motion", "Acceleration record"), columns))
+          acceleration.add(numbers[0], scale * Tensor<1, dim>(make_array_view(numbers.begin() + 1, numbers.end())));
+      }
+
+      /// The box's velocity, the integral of the record, linear between its rows, is met in each step, however long.
+      void set_step(const double time, const double time_step) override
+      {
+        mean = (acceleration.integral(time + time_step) - acceleration.integral(time)) / time_step;
+      }
+      void set_start() override
+      {
+        mean = Tensor<1, dim>();
+      }
+      bool is_uniform() const override
+      {
+        return true;
+      }
+      Tensor<1, dim> at(const Point<dim> &) const override
+      {
+        return -mean;
+      }
+      std::string text() const override
+      {
+        const auto &rows = acceleration.rows();
+        double largest   = 0;
+        for (const auto &row : rows)
+          largest = std::max(largest, row.value.norm());
+        return "Base motion: " + std::to_string(rows.size()) + " rows from " + number_text(rows.front().time) + " to " +
+               number_text(rows.back().time) + " s, at most " + number_text(largest) +
+               " m/s^2; the base's velocity after it is " + number_text(rows.back().integral.norm()) + " m/s";
+      }
+
+    private:
+      TimeRecord<Tensor<1, dim>> acceleration; // m/s^2
+      Tensor<1, dim> mean;                     // of the step
+    };
 
 
-  void BaseMotionParameters::check(const unsigned int dim) const
-  {
-    require_entry(!record.empty() || scale == BaseMotionParameters().scale,
-                  "Base motion",
-                  "Scale",
-                  scale,
-                  "there is nothing to scale. Write an \"Acceleration record\", or remove the entry.");
-    if (record.empty())
-      return;
-    if (dim == 2)
-      BaseMotion<2>{ *this };
-    else
-      BaseMotion<3>{ *this };
-  }
+    /// Subsection Base motion: an earthquake.
+    class BaseMotionEntries : public BodyForceEntries
+    {
+    public:
+      void add_parameters(ParameterHandler &prm) override
+      {
+        prm.enter_subsection("Base motion");
+        add_file_entry(
+            prm,
+            "Acceleration record",
+            record,
+            "File of the acceleration of the box with all its walls; empty: at rest. Each line has the time (s) "
+            "and one component per axis, separated by commas. Values are linear between lines and 0 outside the "
+            "record. Results are relative to the box.");
+        prm.add_parameter(
+            "Scale", scale, "Factor that converts the record to m/s^2; 9.81 if it is in g.", Patterns::Double());
+        prm.leave_subsection();
+      }
+      bool is_set() const override
+      {
+        return !record.empty();
+      }
+      void check(const unsigned int dim) const override
+      {
+        require_entry(is_set() || scale == BaseMotionEntries().scale,
+                      "Base motion",
+                      "Scale",
+                      scale,
+                      "there is nothing to scale. Write an \"Acceleration record\", or remove the entry.");
+        BodyForceEntries::check(dim);
+      }
+      std::unique_ptr<BodyForce<2>> make_2d() const override
+      {
+        return std::make_unique<BaseMotion<2>>(record, scale);
+      }
+      std::unique_ptr<BodyForce<3>> make_3d() const override
+      {
+        return std::make_unique<BaseMotion<3>>(record, scale);
+      }
 
+    private:
+      std::string record;
+      double scale = 1;
+    };
 
-  template <int dim>
-  BaseMotion<dim>::BaseMotion(const BaseMotionParameters &parameters)
-  {
-    std::vector<std::string> columns{ "time (s)", "acceleration along x", "along y", "along z" };
-    columns.resize(1 + dim);
-    for (const auto &numbers :
-         read_number_table(parameters.record, entry_name("Base motion", "Acceleration record"), columns))
-      acceleration.add(numbers[0],
-                       parameters.scale * Tensor<1, dim>(make_array_view(numbers.begin() + 1, numbers.end())));
-  }
-
-
-  template <int dim>
-  std::string BaseMotion<dim>::text() const
-  {
-    const auto &rows = acceleration.rows();
-    double largest   = 0;
-    for (const auto &row : rows)
-      largest = std::max(largest, row.value.norm());
-    return "Base motion: " + std::to_string(rows.size()) + " rows from " + number_text(rows.front().time) + " to " +
-           number_text(rows.back().time) + " s, at most " + number_text(largest) +
-           " m/s^2; the base's velocity after it is " + number_text(rows.back().integral.norm()) + " m/s";
-  }
-
-  template class BaseMotion<2>;
-  template class BaseMotion<3>;
+    const RegisterBodyForce<BaseMotionEntries> registered_base_motion("Base motion");
+  } // namespace
 } // namespace scree

@@ -33,12 +33,12 @@ namespace scree
 
   BoxOfRaster box_of_raster(const BedParameters &bed, const std::vector<BodyParameters> &bodies, const double cell_size)
   {
-    const Raster raster          = read_raster(bed.raster, entry_name(bed.subsection, "Raster"), bed.map_origin);
+    const Raster raster          = read_raster(bed.raster(), entry_name(bed.subsection, "Raster"), bed.map_origin);
     const auto [lowest, highest] = raster.range();
     require_entry(lowest <= highest,
                   bed.subsection,
                   "Raster",
-                  bed.raster,
+                  bed.raster(),
                   "all its heights are missing (NODATA). Look at the file.");
     double room = 0.;
     for (const BodyParameters &body : bodies)

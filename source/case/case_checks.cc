@@ -171,8 +171,7 @@ namespace scree
     for (const InflowParameters &inflow : parameters.inflows)
       check_inflow(parameters, inflow);
     parameters.surface_load.check(parameters.grid, parameters.dimension);
-    parameters.body_force.check(parameters.dimension);
-    parameters.base_motion.check(parameters.dimension);
+    parameters.body_forces.check(parameters.dimension);
     parameters.settling.check(parameters.gravity);
     parameters.probes.check(parameters.grid, parameters.dimension, !parameters.bodies.empty());
     require_entry(parameters.transfer.transfer_method() != TransferMethod::apic ||

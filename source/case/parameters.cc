@@ -186,8 +186,7 @@ namespace scree
                       "m; 3D. Map coordinates of the place x = 0, y = 0 of the case. Rasters, outlines and written "
                       "maps use map coordinates; everything else is relative to this place.",
                       Patterns::List(Patterns::Double(), 2, 2));
-    body_force.add_parameters(prm);
-    base_motion.add_parameters(prm);
+    body_forces.add_parameters(prm);
     grid.add_parameters(prm);
     time_step.add_parameters(prm);
     transfer.add_parameters(prm);
@@ -247,12 +246,12 @@ namespace scree
   {
     const bool is_asked  = grid.box == "from raster";
     const bool has_lower = file.sets("Mesh", "Lower corner"), has_upper = file.sets("Mesh", "Upper corner");
-    require_entry(!is_asked || !bed.raster.empty(),
+    require_entry(!is_asked || !bed.raster().empty(),
                   "Mesh",
                   "Box",
                   grid.box,
                   "subsection Bed has no \"Raster\". Name one there, or write the corners.");
-    if (bed.raster.empty() || dimension != 3 || (has_lower && has_upper) || (!is_asked && (has_lower || has_upper)))
+    if (bed.raster().empty() || dimension != 3 || (has_lower && has_upper) || (!is_asked && (has_lower || has_upper)))
       return;
     const BoxOfRaster box     = box_of_raster(bed, bodies, grid.cell_size);
     std::vector<double> lower = has_lower ? grid.lower_corner : box.lower;

@@ -6,16 +6,20 @@
 
 namespace scree
 {
-  std::string removed_entry_remedy(const std::string &subsection, const std::string &entry)
+  std::string removed_entry_remedy(const std::string &subsection, const std::string &entry, const std::string &value)
   {
+    const std::string removed = "It was removed after version 0.9. ";
+    const std::string source =
+        " (measurements: doc/developer/development_log.md#choices-for-the-pressure-that-failed).";
+    const std::string path = subsection_path(subsection, entry);
+    if (path == "Water/Pressure/Previous pressure" && (value == "grid" || value == "dropped"))
+      return removed + "Remove the line, or write affine, which is the default, or average" + source;
     static const std::map<std::string, std::string> remedies{
       { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\"." },
       { "Water/Pressure/Free surface", "The surface is always found inside the cells, as with \"distance\"." },
       { "Water/Pressure/Splitting", "Pressure and drag are always solved together, as with \"drag in correction\"." },
     };
-    const auto found = remedies.find(subsection_path(subsection, entry));
-    return found == remedies.end() ? ""
-                                   : "It was removed after version 0.9. " + found->second +
-                                         " Remove the line (measurements: doc/developer/development_log.md#choices-for-the-pressure-that-failed).";
+    const auto found = remedies.find(path);
+    return found == remedies.end() ? "" : removed + found->second + " Remove the line" + source;
   }
 } // namespace scree

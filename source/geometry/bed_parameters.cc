@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/bed_parameters.h>
-#include <scree/geometry/expression_surface.h>
-#include <scree/geometry/height_surface.h>
-#include <scree/geometry/profile.h>
-#include <scree/geometry/triangle_surface.h>
+#include <scree/geometry/rigid_shape.h>
 #include <scree/input/input_error.h>
 #include <scree/input/named_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,24 +41,11 @@ namespace scree
                       friction_angle,
                       "degrees; friction angle of \"Type = friction\", above 0 and below 90.",
                       Patterns::Double(0, 89.99));
-    prm.add_parameter("Level set expression",
-                      expression,
-                      "m; expression of x, y (z): positive in the open, 0 on the surface. A signed distance is best, "
-                      "such as (y - 0.2*x)/sqrt(1.04).",
-                      Patterns::Anything());
-    add_file_entry(
-        prm,
-        "Profile",
-        profile,
-        "m; 2D. File of ground points x, y, one per line, with ascending x; alternative to \"Level set expression\".");
-    add_file_entry(prm,
-                   "Raster",
-                   raster,
-                   "m; 3D. ESRI ASCII grid of the ground heights; alternative to \"Level set expression\".");
-    add_file_entry(prm,
-                   "Closed surface",
-                   closed_surface,
-                   "m; 3D. STL file of the surface of a solid; alternative to \"Level set expression\".");
+    for (const auto &[entry, shape] : rigid_shapes())
+      if (shape.value == ShapeValue::file)
+        add_file_entry(prm, entry, shapes[entry], shape.documentation);
+      else
+        prm.add_parameter(entry, shapes[entry], shape.documentation, Patterns::Anything());
   }
 
 
@@ -90,14 +75,37 @@ namespace scree
 
   std::pair<std::string, std::string> BedParameters::geometry() const
   {
-    if (!profile.empty())
-      return { "Profile", profile };
-    if (!raster.empty())
-      return { "Raster", raster };
-    if (!closed_surface.empty())
-      return { "Closed surface", closed_surface };
-    return { "Level set expression", expression };
+    std::pair<std::string, std::string> last;
+    for (const auto &[entry, shape] : rigid_shapes())
+      if (const auto value = shapes.find(entry); value != shapes.end() && !value->second.empty())
+        last = *value;
+    return last;
   }
+
+
+  std::string BedParameters::raster() const
+  {
+    const auto value = shapes.find("Raster");
+    return value == shapes.end() ? "" : value->second;
+  }
+
+
+  namespace
+  {
+    template <int dim>
+    std::unique_ptr<LevelSet<dim>> make_shape(const BedParameters &parameters,
+                                              const std::vector<double> &lower,
+                                              const std::vector<double> &upper,
+                                              const double cell_size)
+    {
+      const auto [given, value] = parameters.geometry();
+      for (const auto &[entry, shape] : rigid_shapes())
+        if (entry == given)
+          return shape.template make<dim>()(
+              { parameters.subsection, entry, value, parameters.map_origin, lower, upper, cell_size });
+      return nullptr;
+    }
+  } // namespace
 
 
   void BedParameters::check(const unsigned int dim) const
@@ -105,9 +113,10 @@ namespace scree
     const auto require = [this](const bool possible, const auto &entry, const std::string &remedy) {
       require_entry(possible, subsection, entry.first, entry.second, remedy);
     };
-    const auto given        = geometry();
-    const bool is_rough     = type_kind() == BedType::friction;
-    const int n_given       = !expression.empty() + !profile.empty() + !raster.empty() + !closed_surface.empty();
+    const auto given    = geometry();
+    const bool is_rough = type_kind() == BedType::friction;
+    const auto n_given =
+        std::count_if(shapes.begin(), shapes.end(), [](const auto &shape) { return !shape.second.empty(); });
     const auto type_entry   = std::make_pair(std::string("Type"), type);
     const auto angles_entry = std::make_pair(std::string("Friction angles"), friction_angles);
     require(is_rough || friction_angles.empty(),
@@ -132,101 +141,16 @@ namespace scree
             "\"Type = none\" does not take this entry. Choose another type, or remove the entry.");
     if (!is_set())
       return;
-    require(n_given > 0,
-            type_entry,
-            "the surface has no geometry. Write one of \"Level set expression\", \"Profile\" (2D), \"Raster\" and "
-            "\"Closed surface\" "
-            "(3D).");
-    require(n_given < 2, given, "it is given twice. Keep one of expression, profile, raster and closed surface.");
-    require(dim == 2 || profile.empty(),
-            given,
-            "a profile is ground of plane scenes. Write a \"Raster\" or a \"Level set expression\".");
-    require(dim == 3 || raster.empty(),
-            given,
-            "a raster is ground of scenes in space. Write a \"Profile\" or a \"Level set expression\".");
-    require(dim == 3 || closed_surface.empty(),
-            given,
-            "solids of triangles are for scenes in space. Write a \"Profile\" or a \"Level set expression\".");
-    if (dim == 2 && !expression.empty())
-      ExpressionSurface<2>(entry_name(subsection, given.first), expression, 1.);
-    if (dim == 3 && !expression.empty())
-      ExpressionSurface<3>(entry_name(subsection, given.first), expression, 1.);
+    require(n_given > 0, type_entry, "the surface has no geometry. Write one of " + names_of_shapes() + '.');
+    require(n_given < 2, given, "it is given twice. Keep one of " + names_of_shapes() + '.');
+    for (const auto &[entry, shape] : rigid_shapes())
+      if (entry == given.first)
+        {
+          require(dim == 2 ? bool(shape.make_2d) : bool(shape.make_3d), given, shape.remedy);
+          if (shape.value == ShapeValue::text)
+            dim == 2 ? void(make_shape<2>(*this, {}, {}, 1.)) : void(make_shape<3>(*this, {}, {}, 1.));
+        }
   }
-
-
-  namespace
-  {
-    /// Throws EntryError unless ground from `first` to `last` along an axis covers the box.
-    void require_cover(const bool covers,
-                       const BedParameters &parameters,
-                       const std::string &axis,
-                       const double first,
-                       const double last)
-    {
-      const auto [entry, value] = parameters.geometry();
-      require_entry(
-          covers,
-          parameters.subsection,
-          entry,
-          value,
-          "the ground reaches from " + axis + " = " + number_text(first) + " to " + number_text(last) +
-              " m only and does not cover the box of subsection Mesh. Write a longer ground or a smaller box.");
-    }
-
-
-    std::unique_ptr<LevelSet<2>> make_ground(const BedParameters &parameters,
-                                             const std::vector<double> &lower,
-                                             const std::vector<double> &upper,
-                                             const Point<2> &)
-    {
-      auto profile =
-          std::make_unique<Profile>(read_profile(parameters.profile, entry_name(parameters.subsection, "Profile")));
-      require_cover(profile->first_x() <= lower[0] && profile->last_x() >= upper[0],
-                    parameters,
-                    "x",
-                    profile->first_x(),
-                    profile->last_x());
-      return profile;
-    }
-
-
-    std::unique_ptr<LevelSet<3>>
-    make_solid(const BedParameters &parameters, const std::vector<double> &lower, const std::vector<double> &upper)
-    {
-      auto surface =
-          read_triangle_surface(parameters.closed_surface, entry_name(parameters.subsection, "Closed surface"));
-      const auto &[first, last] = surface->bounds();
-      bool is_in_box            = true;
-      for (unsigned int a = 0; a < 3; ++a)
-        is_in_box = is_in_box && first[a] < upper[a] && last[a] > lower[a];
-      require_entry(is_in_box,
-                    parameters.subsection,
-                    "Closed surface",
-                    parameters.closed_surface,
-                    "it reaches from " + number_text(first) + " to " + number_text(last) +
-                        " m and lies outside the box of subsection Mesh. Look at its unit of length and its origin.");
-      return surface;
-    }
-
-
-    std::unique_ptr<LevelSet<3>> make_ground(const BedParameters &parameters,
-                                             const std::vector<double> &lower,
-                                             const std::vector<double> &upper,
-                                             const Point<3> &)
-    {
-      if (!parameters.closed_surface.empty())
-        return make_solid(parameters, lower, upper);
-      Raster raster =
-          read_raster(parameters.raster, entry_name(parameters.subsection, "Raster"), parameters.map_origin);
-      const double rounding = 1e-6 * raster.spacing;
-      const auto covers     = [&](const double first, const double last, const unsigned int axis) {
-        return first <= lower[axis] + rounding && last >= upper[axis] - rounding;
-      };
-      require_cover(covers(raster.x, raster.last_x(), 0), parameters, "x", raster.x, raster.last_x());
-      require_cover(covers(raster.y, raster.last_y(), 1), parameters, "y", raster.y, raster.last_y());
-      return std::make_unique<HeightSurface>(std::move(raster));
-    }
-  } // namespace
 
 
   Raster
@@ -264,12 +188,7 @@ namespace scree
                                           const std::vector<double> &upper,
                                           const double cell_size)
   {
-    if (!parameters.is_set())
-      return nullptr;
-    if (!parameters.expression.empty())
-      return std::make_unique<ExpressionSurface<dim>>(
-          entry_name(parameters.subsection, "Level set expression"), parameters.expression, cell_size);
-    return make_ground(parameters, lower, upper, Point<dim>());
+    return parameters.is_set() ? make_shape<dim>(parameters, lower, upper, cell_size) : nullptr;
   }
 
   template std::unique_ptr<LevelSet<2>>

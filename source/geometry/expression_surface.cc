@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/expression_surface.h>
+#include <scree/geometry/rigid_shape.h>
 
 #include <cmath>
 
@@ -68,4 +69,24 @@ namespace scree
 
   template class ExpressionSurface<2>;
   template class ExpressionSurface<3>;
+
+
+  namespace
+  {
+    template <int dim>
+    std::unique_ptr<LevelSet<dim>> make_expression(const ShapeRequest &request)
+    {
+      return std::make_unique<ExpressionSurface<dim>>(request.where(), request.value, request.cell_size);
+    }
+
+
+    const RegisterShape registered_expression_surface(
+        "Level set expression",
+        { "m; expression of x, y (z): positive in the open, 0 on the surface. A signed distance is best, "
+          "such as (y - 0.2*x)/sqrt(1.04).",
+          ShapeValue::text,
+          "",
+          make_expression<2>,
+          make_expression<3> });
+  } // namespace
 } // namespace scree

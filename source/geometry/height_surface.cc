@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/height_surface.h>
+#include <scree/geometry/rigid_shape.h>
 #include <scree/geometry/triangle.h>
 
 #include <algorithm>
@@ -83,4 +84,26 @@ namespace scree
         }
     return best;
   }
+
+
+  namespace
+  {
+    std::unique_ptr<LevelSet<3>> make_height_surface(const ShapeRequest &request)
+    {
+      Raster raster         = read_raster(request.value, request.where(), request.map_origin);
+      const double rounding = 1e-6 * raster.spacing;
+      request.require_cover(0, raster.x, raster.last_x(), rounding);
+      request.require_cover(1, raster.y, raster.last_y(), rounding);
+      return std::make_unique<HeightSurface>(std::move(raster));
+    }
+
+
+    const RegisterShape registered_height_surface(
+        "Raster",
+        { "m; 3D. ESRI ASCII grid of the ground heights; alternative to \"Level set expression\".",
+          ShapeValue::file,
+          "a raster is ground of scenes in space. Write a \"Profile\" or a \"Level set expression\".",
+          nullptr,
+          make_height_surface });
+  } // namespace
 } // namespace scree

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/profile.h>
+#include <scree/geometry/rigid_shape.h>
 #include <scree/input/number_table.h>
 
 #include <algorithm>
@@ -76,4 +77,24 @@ namespace scree
       points.emplace_back(row[0], row[1]);
     return Profile(points);
   }
+
+
+  namespace
+  {
+    std::unique_ptr<LevelSet<2>> make_profile(const ShapeRequest &request)
+    {
+      auto profile = std::make_unique<Profile>(read_profile(request.value, request.where()));
+      request.require_cover(0, profile->first_x(), profile->last_x(), 0.);
+      return profile;
+    }
+
+
+    const RegisterShape registered_profile(
+        "Profile",
+        { "m; 2D. File of ground points x, y, one per line, with ascending x; alternative to \"Level set expression\".",
+          ShapeValue::file,
+          "a profile is ground of plane scenes. Write a \"Raster\" or a \"Level set expression\".",
+          make_profile,
+          nullptr });
+  } // namespace
 } // namespace scree

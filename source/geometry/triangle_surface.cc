@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/stl_file.h>
+#include <scree/geometry/rigid_shape.h>
 #include <scree/geometry/triangle_surface.h>
 #include <scree/input/input_error.h>
 
@@ -326,4 +327,30 @@ namespace scree
     const std::string name = where + " = " + file + ": ";
     return std::make_unique<TriangleSurface>(read_stl(file, name), name);
   }
+
+
+  namespace
+  {
+    std::unique_ptr<LevelSet<3>> make_triangle_surface(const ShapeRequest &request)
+    {
+      auto surface              = read_triangle_surface(request.value, request.where());
+      const auto &[first, last] = surface->bounds();
+      bool is_in_box            = true;
+      for (unsigned int a = 0; a < 3; ++a)
+        is_in_box = is_in_box && first[a] < request.upper[a] && last[a] > request.lower[a];
+      request.require(is_in_box,
+                      "it reaches from " + number_text(first) + " to " + number_text(last) +
+                          " m and lies outside the box of subsection Mesh. Look at its unit of length and its origin.");
+      return surface;
+    }
+
+
+    const RegisterShape registered_triangle_surface(
+        "Closed surface",
+        { "m; 3D. STL file of the surface of a solid; alternative to \"Level set expression\".",
+          ShapeValue::file,
+          "solids of triangles are for scenes in space. Write a \"Profile\" or a \"Level set expression\".",
+          nullptr,
+          make_triangle_surface });
+  } // namespace
 } // namespace scree

@@ -264,16 +264,16 @@ namespace scree
       return statement.error(entry_message(statement.path, statement.name, statement.value, remedy));
     };
     const DeclaredNames::Name *entry = declared.entry(statement.path, statement.name);
+    std::string remedy = entry_remedy ? entry_remedy(statement.path, statement.name, statement.value) : "";
     if (!entry)
       {
-        std::string remedy = entry_remedy ? entry_remedy(statement.path, statement.name) : "";
         if (remedy.empty())
           remedy = declared.suggest_entry(statement.path, statement.name);
         throw error(std::string("there is no such entry") + (statement.path.empty() ? ". " : " here. ") +
                     (remedy.empty() ? last_remedy : remedy));
       }
     if (!Patterns::pattern_factory(entry->pattern)->match(statement.value))
-      throw error(value_remedy(*entry, statement.value));
+      throw error(remedy.empty() ? value_remedy(*entry, statement.value) : "there is no such value. " + remedy);
   }
 
 

@@ -21,7 +21,7 @@ namespace scree
                         ? std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries)
                         : nullptr)
       , constraints(grid, walls, water_walls.get())
-      , forcing(grid, parameters.gravity, parameters.body_force, parameters.base_motion)
+      , forcing(grid, parameters.gravity, parameters.body_forces)
       , parameters(parameters)
       , groups(parameters.contact_groups())
       , communicator(communicator)

@@ -64,8 +64,8 @@ namespace scree
         folder.log(remark);
     if (scene.bed)
       log_thin_bed(*scene.bed, folder, communicator);
-    if (const std::string base = scene.forcing.text_of_base(); !base.empty())
-      folder.log(base);
+    if (const std::string forces = scene.forcing.text(); !forces.empty())
+      folder.log(forces);
     for (const std::string &text : scene.texts_of_inflows())
       folder.log(text);
   }

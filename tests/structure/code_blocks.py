@@ -3,7 +3,8 @@
 """code_blocks.py [--write] ROOT PAGE...: code blocks of pages are what the source says.
 
 Before such a block stands a line `<!-- code: FILE FUNCTION -->`; the block has the definition of FUNCTION (as in `Simulation<dim>::advance`) from
-FILE, without its indentation. --write puts the present definition in.
+FILE, without its indentation. --write puts the present definition in. Without FUNCTION the block is an excerpt of FILE: its lines stand there in
+this order, whatever their indentation, and a line `...` stands for what is left out.
 """
 
 import pathlib
@@ -11,6 +12,16 @@ import re
 import sys
 
 BLOCK = re.compile(r"<!-- code: (\S+) (\S+) -->\n```cpp\n(.*?)```\n", re.DOTALL)
+
+
+EXCERPT = re.compile(r"<!-- code: (\S+) -->\n```cpp\n(.*?)```\n", re.DOTALL)
+
+
+def missing_line(root, file, block):
+    """The first line of an excerpt that FILE does not have behind those before it; None if it has all."""
+    rest = iter([line.strip() for line in (root / file).read_text(encoding="utf-8").splitlines()])
+    wanted = [line.strip() for line in block.splitlines()]
+    return next((line for line in wanted if line not in ("", "...") and line not in rest), None)
 
 
 def definition(root, file, function):
@@ -40,6 +51,10 @@ def main():
             if block != code:
                 wrong.append(f"{page.name}: {function} is not what {file} says (code_blocks.py --write mends it).")
                 text = text.replace(f"{function} -->\n```cpp\n{block}", f"{function} -->\n```cpp\n{code}")
+        for file, block in EXCERPT.findall(text):
+            n_blocks += 1
+            if (line := missing_line(root, file, block)) is not None:
+                wrong.append(f"{page.name}: {file} has no line \"{line}\" there.")
         if write:
             page.write_text(text, encoding="utf-8")
     if not n_blocks:

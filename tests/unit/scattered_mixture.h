@@ -43,7 +43,7 @@ struct ScatteredMixture
       , walls(grid, scree::BoundaryParameters())
       , water_walls(grid, scree::WaterBoundaryParameters())
       , constraints(grid, walls, &water_walls)
-      , forcing(grid, std::vector<double>(dim, 0.), scree::BodyForceParameters(), scree::BaseMotionParameters())
+      , forcing(grid, std::vector<double>(dim, 0.), scree::BodyForceParameters())
       , wall_gaps(grid, constraints)
       , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
       , step(grid, constraints, wall_gaps, forcing, 1000., timer)

@@ -43,8 +43,7 @@ namespace scree
     TimeStepParameters time_step;              ///< subsection Time step
     TransferParameters transfer;               ///< subsection Transfer
     StabilisationParameters stabilisation;     ///< subsection Stabilisation
-    BodyForceParameters body_force;            ///< entry Body force
-    BaseMotionParameters base_motion;          ///< subsection Base motion
+    BodyForceParameters body_forces;           ///< all kinds of body force
     std::vector<BodyParameters> bodies;        ///< one subsection each
     BoundaryParameters boundaries;             ///< subsection Boundaries, for the soil
     BedParameters bed;                         ///< subsection Bed

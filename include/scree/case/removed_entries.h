@@ -6,8 +6,8 @@
 
 namespace scree
 {
-  /// What to write instead of an entry that earlier versions had; empty if there was none of that name.
-  std::string removed_entry_remedy(const std::string &subsection, const std::string &entry);
+  /// What to write instead of an entry, or of a value of it, that earlier versions had; empty if there was none.
+  std::string removed_entry_remedy(const std::string &subsection, const std::string &entry, const std::string &value);
 } // namespace scree
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,14 +29,11 @@ namespace scree
   {
     std::string subsection = "Bed"; ///< Bed, or Obstacle NAME
 
-    std::string type      = "none";        ///< none | fixed | free slip | friction
-    std::string for_water = "impermeable"; ///< impermeable | no slip
-    double friction_angle = 0;             ///< degrees
-    std::string expression,                ///< of x, y (z), m: positive in the open, 0 on the surface
-        profile,                           ///< file of the ground in 2D: a line through points
-        raster,                            ///< file of heights, m; 3D
-        closed_surface;                    ///< file (STL) of a solid; 3D
-    std::string friction_angles;           ///< file; of the bed only
+    std::string type      = "none";            ///< none | fixed | free slip | friction
+    std::string for_water = "impermeable";     ///< impermeable | no slip
+    double friction_angle = 0;                 ///< degrees
+    std::map<std::string, std::string> shapes; ///< values by entries, see rigid_shapes(); empty: not given
+    std::string friction_angles;               ///< file; of the bed only
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -67,8 +65,11 @@ namespace scree
     /// Largest tangential over normal force; infinite if the bed is fixed.
     double friction_coefficient() const;
 
-    /// Entry and value of the geometry, for messages.
+    /// Entry and value of the shape; empty if none is given.
     std::pair<std::string, std::string> geometry() const;
+
+    /// File of the ground's heights; empty without one.
+    std::string raster() const;
   };
 
   /// The coefficients of friction of a raster of angles, which covers the box.

@@ -62,8 +62,9 @@ namespace scree
     std::string text_of(const unsigned int column, const unsigned int row) const;
   };
 
-  /// Reads an ESRI ASCII grid, whose values are those at the middles of its cells; what is no text is left to GDAL.
-  /// Throws EntryError, which begins with `where` (see entry_name()), if it is none.
+  /// Reads a raster by the format that claims it most, see RegisterRasterFormat: an ESRI ASCII grid if it is text, else
+  /// GDAL. Values are those at the middles of its cells. Throws EntryError, which begins with `where` (see
+  /// entry_name()), if it is none.
   /// @param origin where the map has the origin of the raster's x and y, m
   Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 } // namespace scree

@@ -91,11 +91,24 @@ namespace scree
     }
     LawEntry stiffest() const override
     {
-      return parameters.stiffest();
+      return stiffest_of(parameters, 0);
     }
     std::vector<UsualRange> usual_ranges() const override
     {
       return parameters.usual_ranges();
+    }
+
+  private:
+    /// A struct without a member stiffest() has modulus().
+    template <typename Law>
+    static auto stiffest_of(const Law &law, int) -> decltype(law.stiffest())
+    {
+      return law.stiffest();
+    }
+    template <typename Law>
+    static LawEntry stiffest_of(const Law &law, long)
+    {
+      return law.modulus();
     }
   };
 

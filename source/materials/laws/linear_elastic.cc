@@ -32,12 +32,6 @@ namespace scree
   }
 
 
-  LawEntry LinearElasticParameters::stiffest() const
-  {
-    return modulus();
-  }
-
-
   std::vector<UsualRange> LinearElasticParameters::usual_ranges() const
   {
     return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure } };

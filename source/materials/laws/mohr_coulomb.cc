@@ -80,12 +80,6 @@ namespace scree
   }
 
 
-  LawEntry MohrCoulombParameters::stiffest() const
-  {
-    return modulus();
-  }
-
-
   std::vector<UsualRange> MohrCoulombParameters::usual_ranges() const
   {
     return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },

@@ -38,7 +38,7 @@ struct Box
       , points(grid.triangulation(), grid.mapping(), 1)
       , soil(grid)
       , water(grid)
-      , forcing(grid, { 0., -10. }, BodyForceParameters(), BaseMotionParameters())
+      , forcing(grid, { 0., -10. }, BodyForceParameters())
   {
     forcing.set_start();
     gaps.add({ &soil, &water });

@@ -3,12 +3,11 @@
 // The measures of the statistics on fields made by hand, on one rank and on two.
 
 #include "../expect.h"
+#include "soil_scene.h"
 
-#include <scree/materials/table.h>
 #include <scree/postprocess/measures.h>
 #include <scree/tensor/invariants.h>
 #include <scree/postprocess/point_sums.h>
-#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -23,39 +22,17 @@ using namespace dealii;
 using namespace scree;
 
 template <int dim>
-struct Scene
+struct Scene : SoilScene<dim>
 {
-  BackgroundGrid<dim> grid;
-  std::list<SoilBody<dim>> bodies;
-  std::list<WaterPhase<dim>> water;
-
-  static GridParameters box()
-  {
-    GridParameters parameters;
-    parameters.lower_corner.assign(dim, -0.3);
-    parameters.upper_corner.assign(dim, 0.9);
-    return parameters;
-  }
+  using SoilScene<dim>::grid;
+  using SoilScene<dim>::bodies;
+  using SoilScene<dim>::water;
 
   explicit Scene(const std::vector<std::string> &regions)
-      : grid(box(), MPI_COMM_WORLD)
+      : SoilScene<dim>(-0.3, 0.9)
   {
-    MaterialParameters material;
-    material.law = "linear elastic";
     for (const auto &region : regions)
-      {
-        SeedingParameters seeding;
-        seeding.region          = region;
-        seeding.points_per_cell = 2;
-        bodies.emplace_back("Soil",
-                            1000.,
-                            1000.,
-                            make_material<dim>(material),
-                            PropertyLayout<dim>(0, false),
-                            grid.triangulation(),
-                            grid.mapping());
-        seed(bodies.back(), seeding, grid.triangulation(), grid.cell_size());
-      }
+      this->add_soil(region);
   }
 
   /// Water with 2^dim points in each cell whose middle is in the region; it fills `part` of these cells.
@@ -256,29 +233,12 @@ template <int dim>
 void test_carried_water(std::ostream &out)
 {
   Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
-  MaterialParameters material;
-  material.law               = "linear elastic";
-  const unsigned int n_water = WaterLayout<dim>(0, true).n_properties();
-  scene.bodies.emplace_back("Wet",
-                            1000.,
-                            2000.,
-                            make_material<dim>(material),
-                            PropertyLayout<dim>(0, false, n_water),
-                            scene.grid.triangulation(),
-                            scene.grid.mapping());
-  SoilBody<dim> &soil = scene.bodies.back();
-  SeedingParameters seeding;
-  seeding.region          = "x > 0.5 && x < 0.8 && y < 0.3";
-  seeding.points_per_cell = 2;
-  seed(soil, seeding, scene.grid.triangulation(), scene.grid.cell_size());
-  scene.water.emplace_back(1000., true, soil);
+  SoilBody<dim> &soil          = scene.add_wet_soil("x > 0.5 && x < 0.8 && y < 0.3", 0.5);
   const WaterPhase<dim> &water = scene.water.back();
   for_each_point(soil.points, [&](const auto &point) {
     double *properties                        = point.properties;
     properties[soil.layout.velocity]          = 2.;
     properties[water.layout.velocity]         = 3.;
-    properties[water.layout.volume]           = 0.5 * properties[soil.layout.volume];
-    properties[water.layout.mass]             = 1000. * properties[water.layout.volume];
     properties[soil.layout.left_cauchy_green] = 1.1;
   });
   const WaterMeasures wet = measure_water(scene.bodies, scene.water, scene.grid);

@@ -4,11 +4,10 @@
 // one rank and on two.
 
 #include "../expect.h"
+#include "soil_scene.h"
 
-#include <scree/materials/table.h>
 #include <scree/postprocess/columns.h>
 #include <scree/postprocess/place_values.h>
-#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -25,44 +24,15 @@ using namespace scree;
 
 /// A block of soil in a box from -0.3 m to 0.9 m with cells of 0.1 m, full of water.
 template <int dim>
-struct Block
+struct Block : SoilScene<dim>
 {
-  BackgroundGrid<dim> grid;
-  std::list<SoilBody<dim>> bodies;
-  std::list<WaterPhase<dim>> water;
-
-  static GridParameters box()
-  {
-    GridParameters parameters;
-    parameters.lower_corner.assign(dim, -0.3);
-    parameters.upper_corner.assign(dim, 0.9);
-    return parameters;
-  }
-
   Block(const std::string &region, const double jitter)
-      : grid(box(), MPI_COMM_WORLD)
+      : SoilScene<dim>(-0.3, 0.9)
   {
-    MaterialParameters material;
-    material.law = "linear elastic";
-    SeedingParameters seeding;
-    seeding.region          = region;
-    seeding.points_per_cell = 3;
-    seeding.jitter          = jitter;
-    bodies.emplace_back("Soil",
-                        1000.,
-                        2000.,
-                        make_material<dim>(material),
-                        PropertyLayout<dim>(0, false, WaterLayout<dim>(0, false).n_properties()),
-                        grid.triangulation(),
-                        grid.mapping());
-    SoilBody<dim> &soil = bodies.back();
-    seed(soil, seeding, grid.triangulation(), grid.cell_size());
-    water.emplace_back(1000., false, soil);
-    const auto &layout = water.back().layout;
+    SoilBody<dim> &soil = this->add_wet_soil(region, 0.5, 3, jitter);
+    const auto &layout  = this->water.back().layout;
     for_each_point(soil.points, [&](const auto &point) {
       double *properties                     = point.properties;
-      properties[layout.volume]              = 0.5 * properties[soil.layout.volume];
-      properties[layout.mass]                = 1000. * properties[layout.volume];
       properties[layout.pressure]            = linear(point.location);
       properties[soil.layout.velocity]       = 2. * linear(point.location);
       properties[soil.layout.stress + 1]     = -3. * linear(point.location);

@@ -4,11 +4,10 @@
 // with known velocities.
 
 #include "../expect.h"
+#include "soil_scene.h"
 
-#include <scree/materials/table.h>
 #include <scree/postprocess/visualization/graphics.h>
 #include <scree/postprocess/statistics.h>
-#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -27,48 +26,19 @@ using namespace scree;
 
 /// Soil on the left that carries water at p = 100 Pa, single-point; 8 x 8 (x 8) cells.
 template <int dim>
-struct Scene
+struct Scene : SoilScene<dim>
 {
-  BackgroundGrid<dim> grid;
-  std::list<SoilBody<dim>> bodies;
-  std::list<WaterPhase<dim>> water;
+  using SoilScene<dim>::grid;
   NodalField<dim> soil_field, water_field;
 
-  static GridParameters box()
-  {
-    GridParameters parameters;
-    parameters.lower_corner.assign(dim, 0.);
-    parameters.upper_corner.assign(dim, 0.8);
-    return parameters;
-  }
-
   Scene()
-      : grid(box(), MPI_COMM_WORLD)
+      : SoilScene<dim>(0., 0.8)
       , soil_field(grid)
       , water_field(grid)
   {
-    MaterialParameters material;
-    material.law = "linear elastic";
-    bodies.emplace_back("Soil",
-                        1000.,
-                        2000.,
-                        make_material<dim>(material),
-                        PropertyLayout<dim>(0, false, WaterLayout<dim>(0, false).n_properties()),
-                        grid.triangulation(),
-                        grid.mapping());
-    SoilBody<dim> &soil = bodies.back();
-    SeedingParameters seeding;
-    seeding.region          = "x < 0.4";
-    seeding.points_per_cell = 2;
-    seed(soil, seeding, grid.triangulation(), grid.cell_size());
-    water.emplace_back(1000., false, soil);
-    const auto &layout = water.back().layout;
-    for_each_point(soil.points, [&](const auto &point) {
-      double *properties          = point.properties;
-      properties[layout.volume]   = 0.25 * properties[soil.layout.volume];
-      properties[layout.mass]     = 1000. * properties[layout.volume];
-      properties[layout.pressure] = 100.;
-    });
+    SoilBody<dim> &soil = this->add_wet_soil("x < 0.4", 0.25);
+    const auto &layout  = this->water.back().layout;
+    for_each_point(soil.points, [&](const auto &point) { point.properties[layout.pressure] = 100.; });
   }
 
   /// Soil at 1 m/s everywhere and water at 3 m/s where x > `from`.

@@ -29,9 +29,6 @@ namespace scree
     LawEntry modulus() const;
 
     /// See LawEntries.
-    LawEntry stiffest() const;
-
-    /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
   };
 

@@ -27,9 +27,6 @@ namespace scree
     LawEntry modulus() const;
 
     /// See LawEntries.
-    LawEntry stiffest() const;
-
-    /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
   };
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/postprocess/statistics/column.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace scree
+{
+  namespace
+  {
+    /// Mass of soil below the coordinate x that is returned, m, over all of it: `part`.
+    template <int dim>
+    double soil_front(const Snapshot<dim> &now, const double part)
+    {
+      return mass_percentiles(now.bodies, now.grid, 0, { part })[0];
+    }
+
+
+    template <int dim>
+    double n_separated(const Snapshot<dim> &now)
+    {
+      return dealii::Utilities::MPI::sum(double(now.last_step.n_separated),
+                                         now.grid.triangulation().get_communicator());
+    }
+
+
+    const RegisterColumns soil_columns(
+        ColumnTopic::soil,
+        [](const auto &now) { return !now.bodies.empty(); },
+        Column{ "Front 90 %", "m", [](const auto &now) { return soil_front(now, 0.90); } },
+        Column{ "Front 99 %", "m", [](const auto &now) { return soil_front(now, 0.99); } },
+        Column{ "Front 99.5 %", "m", [](const auto &now) { return soil_front(now, 0.995); } },
+        Column{ "Height",
+                "m",
+                [](const auto &now) { return std::max(now.sums.height, now.grid.lower_corner()[now.dimension - 1]); } },
+        Column{ "Stress oscillation", "-", [](const auto &now) { return stress_oscillation(now.bodies, now.grid); } },
+        Column{
+            "Mean effective stress",
+            "Pa",
+            [](const auto &now) { return now.sums.soil_points > 0 ? now.sums.pressure / now.sums.soil_points : 0.; } },
+        Column{ "Largest effective stress", "Pa", [](const auto &now) { return now.sums.largest_pressure; } },
+        Column{ "Separated points", "", [](const auto &now) { return n_separated(now); } },
+        Column{ "Substeps per update",
+                "",
+                [](const auto &now) {
+                  return now.totals.n_updates > 0 ? now.totals.n_substeps / now.totals.n_updates : 0.;
+                } },
+        Column{ "Fallbacks", "", [](const auto &now) { return now.totals.n_fallbacks; } },
+        Column{ "Vertices", "", [](const auto &now) { return now.totals.n_vertices; } },
+        Column{ "Unresolved", "", [](const auto &now) { return now.totals.n_unresolved; } });
+  } // namespace
+} // namespace scree

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Columns of one file: registered here, they are the last ones of each row of the statistics, in order of their names.
+#include "../unit_test.h"
+
+#include <scree/postprocess/statistics.h>
+
+#include <iostream>
+#include <sstream>
+
+namespace test_registered_column
+{
+using namespace dealii;
+using namespace scree;
+
+bool is_asked = false; // other tests of this program print all columns
+
+const auto exists = [](const auto &) { return is_asked; };
+
+const RegisterColumns registered_mean(
+    Column{ "Mean velocity", "m/s", [](const auto &now) { return now.sums.momentum / now.sums.soil_mass; }, exists });
+
+const RegisterColumns registered_cells(
+    Column{ "Cells", "", [](const auto &now) { return now.grid.triangulation().n_active_cells(); }, exists });
+
+
+template <int dim>
+void print_last_columns(std::ostream &out)
+{
+  GridParameters box;
+  box.lower_corner.assign(dim, 0.);
+  box.upper_corner.assign(dim, 0.4);
+  const BackgroundGrid<dim> grid(box, MPI_COMM_WORLD);
+  Statistics<dim> statistics(grid, Tensor<1, dim>(), {});
+  for (const bool asks : { false, true })
+    {
+      is_asked = asks;
+      statistics.collect({}, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
+      std::istringstream head(statistics.head());
+      std::string line;
+      while (std::getline(head, line))
+        if (line.find("lost") != std::string::npos || line.find("Cells") != std::string::npos ||
+            line.find("Mean") != std::string::npos)
+          out << line << '\n';
+    }
+  is_asked = false;
+}
+
+
+void run()
+{
+  print_last_columns<2>(std::cout);
+  print_last_columns<3>(std::cout);
+}
+
+const UnitTest registered_test("registered_column", run);
+} // namespace test_registered_column
