@@ -42,18 +42,6 @@ namespace scree
           }
   }
 
-
-  template <int dim>
-  void GroundGaps<dim>::add(const Mixture<dim> &mixture)
-  {
-    if (cut_cells == nullptr)
-      return;
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.fill >= closures::full_cell_at_wall)
-        if (const CutCell<dim> *cut = cut_cells->find(cell.cell))
-          std::fill_n(gaps.begin() + cut->first_segment, cut->n_segments, 0.);
-  }
-
   template class GroundGaps<2>;
   template class GroundGaps<3>;
 } // namespace scree

@@ -168,7 +168,6 @@ namespace scree
     wall_gaps.clear();
     wall_gaps.add(mixture);
     ground_gaps.clear();
-    ground_gaps.add(mixture);
     for (const PointSet<dim> *points : point_sets())
       {
         wall_gaps.add(*points, spacing);

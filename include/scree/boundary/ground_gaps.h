@@ -3,7 +3,6 @@
 #define scree_boundary_ground_gaps_h
 
 #include <scree/mesh/cut_cells.h>
-#include <scree/mixture/mixture.h>
 #include <scree/particles/point_set.h>
 
 #include <vector>
@@ -13,9 +12,9 @@ namespace scree
   /// Rigid ground inside the cells, in scenes with water, constrains the velocity at its facets only once a particle
   /// has reached them: the rule of WallGaps, for which a facet is what a node is on a wall of the box.
   ///
-  /// The gap of a facet is that of the nearest particle of its cell, less .6 of the particle spacing; there is none in
-  /// a full cell. Until it closes, neither contact nor the pressure act on what approaches the facet faster than after
-  /// a fall through an eighth of a cell.
+  /// The gap of a facet is that of the nearest particle of its cell, less .6 of the particle spacing. Until it closes,
+  /// neither contact nor the pressure act on what approaches the facet faster than after a fall through an eighth of a
+  /// cell. A cell may be full by the volume of its particles before they are there, so that its fill does not count.
   template <int dim>
   class GroundGaps
   {
@@ -27,12 +26,9 @@ namespace scree
     /// Forgets the gaps, before a new step.
     void clear();
 
-    /// Heeds points.
+    /// Looks at points.
     /// @param spacing of the points at the start, m
     void add(const PointSet<dim> &points, const double spacing);
-
-    /// Heeds cells that are full of water and wet soil, which have no gap.
-    void add(const Mixture<dim> &mixture);
 
     /// Velocity, m/s, with which material at a facet may approach it in a step of `time_step` s: what closes the gap
     /// within it; 0 where there is none.

@@ -48,14 +48,21 @@ namespace scree
     Exists exists = {}; ///< whether the scene has it: the same in all rows
   };
 
+  /// A column of any scene.
   template <typename Value>
   Column(const char *, const char *, Value) -> Column<Value>;
+
+  /// A column of some scenes.
   template <typename Value, typename Exists>
   Column(const char *, const char *, Value, Exists) -> Column<Value, Exists>;
 
+  /// Adds a value under its column's whole name.
   void add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const double value);
+
+  /// Adds values that have whole names.
   void add_value(StatisticsRow &row, const std::string &, const std::string &, const StatisticsRow &values);
 
+  /// Adds a vector: a column an axis.
   template <int dim>
   void
   add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const dealii::Tensor<1, dim> &value)
