@@ -150,10 +150,13 @@ def displacements(results):
 
 
 def water():
-    """Both phases on one rank and two; water at rest: p, level, and forces on the walls."""
+    """Both phases on one rank and two, with friction of the floor; water at rest: p, level, and forces on the walls."""
     short = DRY.replace("End time         = 0.12", "End time = 0.06") + WATER
     one, two = run("one", short), run("two", short, ranks=2)
     compare(one, two, 1e-5)
+    walls = read_table(one / "probe_walls")
+    friction = walls["Bottom soil x (N)"][1:] / -walls["Bottom soil y (N)"][1:]
+    check(np.all(friction > 0.1) and np.all(friction < 0.6), f"friction of wet soil on the floor over its pressure: {friction}")
 
     still = run("still", """
 set End time         = 0.02
