@@ -48,6 +48,12 @@ def read_map(results, name):
     return read_raster(results / "maps" / f"{name}.asc").values[::-1]
 
 
+def read_profile(results):
+    """Columns of the table of a plane run."""
+    lines = (results / "maps" / "profile.csv").read_text(encoding="utf-8").splitlines()
+    return dict(zip(lines[0].split(", "), np.array([[float(word) for word in line.split(",")] for line in lines[1:]]).T))
+
+
 def close(values, wanted, what):
     difference = np.max(np.abs(np.asarray(values) - wanted))
     check(difference <= 1e-7 * max(1, np.max(np.abs(wanted))), f"{what}: differs by {difference}")
@@ -134,8 +140,7 @@ def profile():
     plane = plane.replace("y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6", "y > 1000.2 && y < 1000.6").replace("3; 0; 1", "3; 1")
     for ranks in (1, 2):
         results = run(f"profile_{ranks}", plane + MAPS, ranks=ranks)
-        lines = (results / "maps" / "profile.csv").read_text(encoding="utf-8").splitlines()
-        table = dict(zip(lines[0].split(", "), np.array([[float(word) for word in line.split(",")] for line in lines[1:]]).T))
+        table = read_profile(results)
         close(table["x (m)"], 600000 + 0.1 * (np.arange(12) + 0.5), "x")
         at_end = np.zeros(12)
         at_end[4:9] = 0.05, 0.35, 0.4, 0.35, 0.05
@@ -151,6 +156,13 @@ def profile():
         check(np.array_equal(np.isnan(table["arrival time (s)"]), np.isnan(arrival)), "arrival where there was nothing")
         close(np.nan_to_num(table["arrival time (s)"]), np.nan_to_num(arrival), "arrival time")
         check((results / "maps" / "profile_0s.csv").exists() and (results / "maps" / "profile_0.1s.csv").exists(), "profiles of their times")
+
+    # Slowed down from 3 to 2 m/s: where it is at the start, that is its largest speed, and its largest pressure.
+    table = read_profile(run("slowed", "set Body force = -10; 0\n" + plane + MAPS))
+    speed = table["largest speed (m/s)"]
+    close(speed[at_start >= 0.02], np.sqrt(10), "largest speed of what slows down")
+    check(0 < np.min(speed[speed > 0]) < 3, "nothing is reached late")
+    close(table["largest impact pressure (Pa)"] / 2000, speed**2, "largest impact pressure over density of what slows down")
 
 
 {"block": block, "slide": slide, "scour": scour, "profile": profile}[sys.argv[3]]()

@@ -55,6 +55,8 @@ def dry():
     check(np.all(front["Rear (m)"] == 0) and front["Front (m)"][-1] > front["Front (m)"][0], "the front advances")
     base = read_table(one / "probe_base")
     check(len(base["x (m)"]) == 3 * 17 and len(set(base["Time (s)"])) == 3, "17 places in three pictures")
+    check(np.allclose(base["x (m)"], np.tile(np.linspace(0, 1.6, 17), 3), atol=1e-9), "places from end to end of the line")
+    check(np.allclose(base["Distance (m)"], base["x (m)"], atol=1e-9) and np.all(base["y (m)"] == 0.02), "distances from the first end")
 
     for name in ("toe", "base", "walls"):
         render_probe(one, name, f"{name}.png")
@@ -148,10 +150,13 @@ def displacements(results):
 
 
 def water():
-    """Both phases on one rank and two; water at rest: p, level, and forces on the walls."""
+    """Both phases on one rank and two, with friction of the floor; water at rest: p, level, and forces on the walls."""
     short = DRY.replace("End time         = 0.12", "End time = 0.06") + WATER
     one, two = run("one", short), run("two", short, ranks=2)
     compare(one, two, 1e-5)
+    walls = read_table(one / "probe_walls")
+    friction = walls["Bottom soil x (N)"][1:] / -walls["Bottom soil y (N)"][1:]
+    check(np.all(friction > 0.1) and np.all(friction < 0.6), f"friction of wet soil on the floor over its pressure: {friction}")
 
     still = run("still", """
 set End time         = 0.02

@@ -378,7 +378,7 @@ def lost_rows():
 
 
 def log_header():
-    """log.txt begins with what ran where, also on two ranks and after a resume."""
+    """log.txt begins with what ran where, also on two ranks and after a resume, and tells the time at the end."""
     write_case("case.prm", ["End time = 0.01", "Checkpoint interval = 0.004"])
     header = (
         r"Scree [0-9.]+ \(commit \S+\)\n"
@@ -396,6 +396,7 @@ def log_header():
         check(begin and most, log())
         ratio = int(begin.group(2)) / int(most.group(1))
         check(0.5 < ratio < 2, f"the estimate is {ratio} times the largest memory")
+        check(re.search(r"^t = 0\.01 s \(100 %\), step [1-9]\d* of \S+ s, wall time", log(), re.MULTILINE), log())
     run("case.prm", "--resume")
     check(len(re.findall(header.replace("{ranks}", r"\d"), log())) == 2, log())
     print(log())

@@ -138,16 +138,25 @@ def contact_bars(scree):
     check_contact_energy("bars", table)
 
 
+def distance(time, speed):
+    """Of each row from the first one, m."""
+    return np.concatenate(([0.], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time))))
+
+
 def contact_rigid(scree):
     """On ground of "Material = rigid": slides as Coulomb says, or stays."""
     rigid = {"Ground/Material": "rigid"}
     for make, box, what in ((level_plane, LEVEL, "level"), (oblique_plane, OBLIQUE, "oblique")):
         for slope, angle in ((30, 25), (20, 0)):
-            _, speed, table = run_block(scree, "slides", make(slope, 0.3), angle, {"End time": "0.6", **rigid, **box})
+            time, speed, table = run_block(scree, "slides", make(slope, 0.3), angle, {"End time": "0.6", **rigid, **box})
             exact = math.sin(math.radians(slope)) - math.tan(math.radians(angle)) * math.cos(math.radians(slope))
             check("block on %s rigid ground, friction %g: error of acceleration over g" % (what, angle),
                   abs(slope_of(table, speed, 0.3) / GRAVITY - exact), 0, 5e-3)
             check_contact("block on %s rigid ground" % what, table)
+            friction = 450 * GRAVITY * math.tan(math.radians(angle)) * math.cos(math.radians(slope))
+            lost, way = (np.ptp(values[time > 0.3]) for values in (np.array(table["Contact dissipation (J)"]), distance(time, speed)))
+            check("block on %s rigid ground, friction %g: energy lost in contact over weight times way, less that of Coulomb's friction" % (what, angle),
+                  (lost - friction * way) / (450 * GRAVITY * way), -0.02, 0.01)
         _, speed, table = run_block(scree, "rests", make(20, 0.3), 25, {"End time": "1.5", **rigid, **box})
         check("block on %s rigid ground: creep, m/s" % what,
               abs(slope_of(table, np.array(table["Potential energy (J)"]), 1) / (450 * GRAVITY * math.sin(math.radians(20)))), 0, 1e-5)
