@@ -30,8 +30,8 @@ namespace scree
   ErrorLaw error_law_of(const SceneNumbers &scene)
   {
     // Measured: doc/studies/pages/dry_slope.md and run_out.md (dry, against the extrapolated front),
-    // saturated_slope.md (against the run with H/h = 40); doc/verification/saturated_slopes.md: undrained heap in total stress,
-    // Terzaghi's column at T_v = .1 with 20 cells, order 1.9 to 2.25, the dam break's tip at h = .1 and .05 m.
+    // saturated_slope.md (against the run with H/h = 40); doc/verification/saturated_slopes.md: undrained heap in total
+    // stress, Terzaghi's column at T_v = .1 with 20 cells, order 1.9 to 2.25, the dam break's tip at h = .1 and .05 m.
     const bool falls = scene.falls();
     if (!scene.has_soil)
       return { "of the water's tip",
@@ -95,9 +95,9 @@ namespace scree
 
   TimeStepParameters time_step_for(const SceneNumbers &scene, TimeStepParameters present)
   {
-    // Measured, doc/developer/development_log.md: the front of a dense column differs by 0.7 % between Courant numbers 0.2 and 0.6,
-    // and larger ones contaminate the stress; Terzaghi's error is the same at 0.1 and 0.9; the dam breaks ran with 0.04
-    // s/m.
+    // Measured, doc/developer/development_log.md: the front of a dense column differs by 0.7 % between Courant numbers
+    // 0.2 and 0.6, and larger ones contaminate the stress; Terzaghi's error is the same at 0.1 and 0.9; the dam breaks
+    // ran with 0.04 s/m.
     constexpr double free_water_step_over_cell = 0.04; // s/m
     present.courant_number = scene.is_elastic && scene.has_water && scene.water_fills_soil ? 0.9 : 0.6;
     present.choose_maximum(scene.has_water, scene.gravity, scene.cell_size);

@@ -84,7 +84,8 @@ namespace scree
     if (!at_rest.empty())
       parts.insert(parts.begin(), { joined_samples ? joined_samples.get() : bed.get() });
     wet_ground = std::make_unique<RigidBoundary<dim>>(parts);
-    // Between a half and the whole of the points' spacing; doc/developer/development_log.md, "Moving obstacles in water", has what others do.
+    // Between a half and the whole of the points' spacing; doc/developer/development_log.md, "Moving obstacles in
+    // water", has what others do.
     constexpr double thinnest = 0.75;
     const unsigned int points = parameters.water.point_sets_kind() == PointSets::double_point
                                     ? parameters.water.points_per_cell
