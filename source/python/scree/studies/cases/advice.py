@@ -79,7 +79,7 @@ def ask(run, program):
 def predicted(run, turn):
     """Core-seconds of the run and its steps, as the advice says."""
     text = advice(run, turn).read_text(encoding="utf-8")
-    cost = text[text.index("Cost of the case"):text.index("Recommendation")]
+    cost = text[text.index("Estimated cost of this case"):text.index("Recommendation")]
     return [float(re.search(pattern, cost, re.MULTILINE).group(1)) for pattern in (r"^  run +([\d.e+-]+)", r"^  steps to .* ([\d.e+-]+)$")]
 
 
