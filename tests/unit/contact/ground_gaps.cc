@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Oblique ground in a wet scene and a point in each of its cells: how fast what is at a facet may approach it in a
+// step, by the distance of the point from the facet; that slow motion and touching points may not; in cells without a
+// point a cell's width counts; the same on 1 and 2 ranks.
+
+#include "../expect.h"
+#include "../scattered_mixture.h"
+
+#include <scree/boundary/ground_gaps.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+#include "../unit_test.h"
+
+namespace test_ground_gaps
+{
+using namespace dealii;
+using namespace scree;
+
+template <int dim>
+void test(const std::string &ground_expression, std::ostream &out)
+{
+  const ScatteredMixture<dim> mixture(ground_expression);
+  const BackgroundGrid<dim> &grid = mixture.grid;
+  const auto &facets              = mixture.cut_cells.segments();
+  const double gravity = 10., h = grid.cell_size(), spacing = 0.2 * h, time_step = 1e-3;
+  const double slow = std::sqrt(2. * 0.125 * gravity * h); // after a fall through an eighth of a cell
+  GroundGaps<dim> gaps(grid, &mixture.cut_cells, gravity);
+
+  gaps.clear();
+  for (unsigned int f = 0; f < facets.size(); ++f)
+    expect(gaps.allowed_approach(f, 2. * slow, time_step), h / time_step, 1e-9, "approach without a point");
+
+  unsigned int n_far = 0, n_touching = 0;
+  for (const double distance : { 0.1 * h, 0.2 * h })
+    {
+      PointSet<dim> points(grid.triangulation(), grid.mapping(), 1);
+      std::vector<double> of_facets(facets.size(), -1.); // m; less than 0: the place is in another cell
+      for (unsigned int f = 0; f < facets.size(); ++f)
+        {
+          const Point<dim> x = facets[f].middle - distance * facets[f].normal;
+          for (const auto &cell : grid.triangulation().active_cell_iterators())
+            if (cell->active_cell_index() == facets[f].cell && cell->bounding_box().point_inside(x))
+              {
+                points.add(cell, x, 0, { 0. });
+                of_facets[f] = distance;
+              }
+        }
+      points.finish_adding();
+      gaps.clear();
+      gaps.add(points, spacing);
+      for (unsigned int f = 0; f < facets.size(); ++f)
+        {
+          const double gap     = of_facets[f] < 0. ? h : of_facets[f] - 0.6 * spacing; // of one ground in a cell
+          const double allowed = gaps.allowed_approach(f, 1.01 * slow, time_step);
+          expect(allowed, gap > 0. ? gap / time_step : 0., 1e-6, "allowed approach");
+          expect(gaps.allowed_approach(f, 0.99 * slow, time_step), 0., 0., "allowed approach of what is slow");
+          n_far += of_facets[f] > 0. && gap > 0.;
+          n_touching += gap <= 0.;
+        }
+    }
+  out << dim << "D: " << Utilities::MPI::sum(facets.size(), MPI_COMM_WORLD) << " facets, points with a gap "
+      << Utilities::MPI::sum(n_far, MPI_COMM_WORLD) << ", touching " << Utilities::MPI::sum(n_touching, MPI_COMM_WORLD)
+      << std::endl;
+}
+
+
+void run()
+{
+  std::ostream silent(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
+  test<2>("0.8*y - 0.6*x - 0.05", out);
+  test<3>("0.7*z - 0.6*x - 0.38*y - 0.05", out);
+}
+
+const UnitTest registered("ground_gaps", run);
+} // namespace test_ground_gaps
