@@ -3,7 +3,6 @@
 #include <scree/mixture/closures.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -13,7 +12,7 @@ namespace scree
   GroundGaps<dim>::GroundGaps(const BackgroundGrid<dim> &grid, const CutCells<dim> *cut_cells, const double gravity)
       : grid(grid)
       , cut_cells(cut_cells)
-      , slow(std::sqrt(2. * closures::fall_of_wet_soil * gravity * grid.cell_size()))
+      , slow(speed_after_fall(closures::fall_of_wet_soil, gravity, grid.cell_size()))
   {
   }
 

@@ -3,7 +3,6 @@
 #include <scree/mixture/closures.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace scree
@@ -100,7 +99,7 @@ namespace scree
     if (!constraints.has_water() && gravity == 0.)
       return std::numeric_limits<double>::infinity(); // Nothing falls.
     const double fall = constraints.has_water() ? closures::fall_of_wet_soil : closures::fall_onto_fixed_wall;
-    return std::sqrt(2. * fall * gravity * grid.cell_size());
+    return speed_after_fall(fall, gravity, grid.cell_size());
   }
 
 

@@ -13,19 +13,23 @@ import subprocess
 import sys
 
 MODULES = ("sphinx", "myst_parser", "furo", "sphinxcontrib.bibtex")
-# Not checked: texts that become part of a page elsewhere, and the former manual, which other pages replace.
+# Not checked: texts that become part of a page elsewhere.
 NOT_CHECKED = ("doc/parameters/intro/",)
 
 
+def text_without_blocks(page):
+    """A page without its blocks of code."""
+    return re.sub(r"^(`{3,}).*?^\1`*$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+
+
 def text_without_code(page):
-    """A page without its blocks of code, and without code within lines."""
-    text = re.sub(r"^(`{3,}).*?^\1`*$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-    return re.sub(r"`[^`\n]*`", "", text)
+    """The same, and without code within lines."""
+    return re.sub(r"`[^`\n]*`", "", text_without_blocks(page))
 
 
 def anchors(page):
     """The anchors of a page's headings, as GitHub and MyST name them."""
-    text = re.sub(r"^(`{3,}).*?^\1`*$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    text = text_without_blocks(page)
     names = set(re.findall(r"^\(([\w-]+)\)=$", text, re.MULTILINE))
     for heading in re.findall(r"^#{1,6} +(.+?) *$", text, re.MULTILINE):
         plain = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").lower()

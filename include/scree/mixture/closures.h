@@ -3,6 +3,7 @@
 #define scree_mixture_closures_h
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -78,6 +79,12 @@ namespace scree
     constexpr double loose = 1.2;
   } // namespace closures
 
+
+  /// Speed, m/s, after a fall through `height` cells of this size, m, with gravity in m/s^2.
+  inline double speed_after_fall(const double height, const double gravity, const double cell_size)
+  {
+    return std::sqrt(2. * height * gravity * cell_size);
+  }
 
   /// Effective saturation: part of the pores that water fills; 1 also where the scatter of points explains what is
   /// missing (CellContents::saturation() is the part itself). Without this the scatter takes buoyancy from the grains:

@@ -64,7 +64,7 @@ def verdict(rows):
         Claim(f"The error follows the cell size, order {order(rows):.2g}: Courant number 0.15 instead of 0.6 changes it by {100 * (small - 1):.0f} %, for "
               f"{ratio(rows, 'Courant number 0.15', 'core-seconds'):.2g} times the time.",
               order(rows) > 1.7 and 0.9 < small < 1.2),
-        Claim(f"Courant number 0.9 blows up at h = {', '.join(f'{h:.2g}' for h in rejected)} m; use the default 0.6.", len(rejected) == 3, quick=False, worst=True),
+        Claim(f"Courant number 0.9 diverges at h = {', '.join(f'{h:.2g}' for h in rejected)} m; use the default 0.6.", len(rejected) == 3, quick=False, worst=True),
         Claim(f"As long as points stay in their cells, 2 x 2 are sufficient: {few:.3g} times the error, "
               f"{ratio(rows, '2 x 2 points', 'core-seconds'):.2g} times the time.", few < 1.05),
         Claim(f"Linear functions give a stress of first order only: {linear:.2g} on the finest mesh, against {splines:.2g} with splines.", linear > 3 * splines,
