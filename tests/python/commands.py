@@ -152,6 +152,17 @@ def check_maps(commands):
     commands.refuses("^scree-maps: --times one: write numbers", "scree-maps", "flume", "--times", "one")
 
 
+def check_report(commands):
+    """The pages of a run in 2D with pictures, and of one with maps: each picture is in the file."""
+    commands.refuses("^scree-report: nowhere/parameters.prm: No such file", "scree-report", "nowhere")
+    commands.writes(["run/report.html"], "scree-report", "run")
+    commands.writes(["flume.html"], "scree-report", "flume", "--output", "flume.html")
+    for page, pictures in (("run/report.html", 3), ("flume.html", 1)):
+        text = pathlib.Path(page).read_text(encoding="utf-8")
+        if text.count('src="data:image/png;base64,') != pictures or len(text) > 2e6 or "not drawn" in text:
+            commands.faults.append(f"{page}: {text.count('src=')} pictures, {len(text)} bytes, {re.findall('.*not drawn.*', text)}")
+
+
 def check_mountain(commands):
     """The rasters of prm/terrain are those that the generator makes, to the digits that it writes."""
     commands.refuses("^scree-mountain: .*case.prm", "scree-mountain", "1", "case.prm/folder")
@@ -198,8 +209,9 @@ def main():
     commands = Commands(build, os.path.dirname(scree))
     check_variants(commands)
     check_plot_element(commands)
-    check_render(commands)
     check_maps(commands)
+    check_report(commands)
+    check_render(commands)
     check_mountain(commands)
     check_others(commands)
     check_help(commands)

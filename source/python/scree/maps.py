@@ -22,6 +22,7 @@ import matplotlib.pyplot as plt
 import matplotlib.ticker
 import matplotlib.transforms
 import numpy as np
+import PIL.Image
 
 from scree import results, terrain, variants
 from scree.command import Command
@@ -299,7 +300,7 @@ def render_maps(run, names, output):
         draw_map(panel, bar, one, *range_of([other for other in maps if TIME.fullmatch(other.name)] if TIME.fullmatch(one.name) else [one]))
         if ground:
             terrain.draw_shade(panel, ground, 0.4, 0)
-            terrain.draw_shade(panel, ground, 0.15, 2)
+            terrain.draw_shade(panel, ground, 0.15, 2, one.raster)
             terrain.draw_contours(panel, ground, 3)
         if source:
             draw_release(panel, source, least)
@@ -316,8 +317,20 @@ def render_maps(run, names, output):
     save(figure, output)
 
 
-def save(figure, output):
-    figure.savefig(output, dpi=120, **({"pil_kwargs": {"optimize": True}} if pathlib.Path(output).suffix == ".png" else {}))
+def save(figure, output, dpi=120):
+    """A PNG gets the 256 commonest colours, of which the others, at the edges of letters and lines, take the nearest: half the space."""
+    if pathlib.Path(output).suffix.lower() != ".png":
+        figure.savefig(output)
+    else:
+        figure.set_dpi(dpi)
+        figure.canvas.draw()
+        pixels = np.asarray(figure.canvas.buffer_rgba())[..., :3]
+        colours, place, count = np.unique(pixels.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True)
+        palette = colours[np.argsort(-count)[:256]].astype(float)
+        nearest = np.array([np.argmin(((palette - colour) ** 2).sum(axis=1)) for colour in colours], dtype=np.uint8)
+        picture = PIL.Image.fromarray(nearest[place].reshape(pixels.shape[:2]), "P")
+        picture.putpalette(palette.astype(np.uint8).tobytes())
+        picture.save(output, optimize=True)
     plt.close(figure)
 
 
@@ -346,9 +359,11 @@ def render_profiles(run, names, output):
 
 
 def _read_profile(path):
-    """{"x": values, "largest_thickness": values, ...} of a table of columns, SI units."""
+    """{"x": values, "largest_thickness": values, ...} of a table of columns such as "largest thickness (m)" or "largest_thickness_m"; SI units."""
     head, *lines = path.read_text(encoding="utf-8").splitlines()
-    names = [re.sub(r"\s*\(.*\)", "", word.strip()).replace(" ", "_") for word in head.split(",")]
+    words = [word.strip().replace(" ", "_") for word in head.split(",")]
+    known = sorted([*KINDS, "x"], key=len, reverse=True)
+    names = [next((name for name in known if word == name or word.startswith(name + "_")), word) for word in words]
     return dict(zip(names, np.array([[float(word) for word in line.split(",")] for line in lines if line]).reshape(-1, len(names)).T))
 
 

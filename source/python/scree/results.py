@@ -31,7 +31,7 @@ class Box(NamedTuple):
 
 
 class Raster(NamedTuple):
-    """A raster: values, the northern row first, nan where there are none; lower corner and width of a cell, m."""
+    """An ESRI ASCII grid: values, the northern row first, nan where there are none; lower corner and width of a cell, m."""
     values: np.ndarray
     x: float
     y: float
@@ -181,31 +181,7 @@ def _number(word):
 
 
 def read_raster(path):
-    """An ESRI ASCII grid, or a GeoTIFF if the Python package of GDAL is installed. Throws a ValueError at another file."""
-    return _read_geotiff(path) if pathlib.Path(path).suffix.lower() in (".tif", ".tiff") else _read_ascii_grid(path)
-
-
-def _read_geotiff(path):
-    try:
-        from osgeo import gdal  # pylint: disable=import-outside-toplevel
-    except ImportError as error:
-        raise ValueError(f"{path}: GeoTIFF needs the Python package of GDAL. Install it; in Debian: python3-gdal") from error
-    gdal.UseExceptions()
-    try:
-        data = gdal.Open(str(path))
-    except RuntimeError as error:
-        raise ValueError(f"{path} is not a GeoTIFF: {error}") from error
-    west, width, row_turn, north, column_turn, height = data.GetGeoTransform()
-    if row_turn != 0 or column_turn != 0 or abs(width + height) > 1e-9 * width:
-        raise ValueError(f"{path}: its cells must be squares along the axes, the first row in the north")
-    band = data.GetRasterBand(1)
-    values, no_data = band.ReadAsArray().astype(float), band.GetNoDataValue()
-    if no_data is not None:
-        values[values == no_data] = np.nan
-    return Raster(values, west, north - values.shape[0] * width, width)
-
-
-def _read_ascii_grid(path):
+    """Throws a ValueError at what is no ESRI ASCII grid."""
     head, rows = {}, []
     with open(path, encoding="utf-8") as file:
         for line in file:

@@ -74,16 +74,36 @@ def contour_step(raster, count=12):
     return next(power * factor for factor in (1, 2, 5, 10) if power * factor * count >= largest - least)
 
 
-def draw_shade(axes, raster, strength, zorder):
-    """Light from the north-west, as a shadow over what lies below: it leaves the hue of a map, and darkens it by up to `strength`."""
-    filled = np.where(np.isnan(raster.values), np.nanmin(raster.values), raster.values)
-    slope = max(1e-9, np.percentile(np.hypot(*np.gradient(filled, raster.width)), 90))
+def draw_shade(axes, ground, strength, zorder, soil=None):
+    """Light from the north-west, as a shadow over what lies below: it leaves its hue, and darkens it by up to `strength`; only where `soil` has values."""
+    filled = np.where(np.isnan(ground.values), np.nanmin(ground.values), ground.values)
+    slope = max(1e-9, np.percentile(np.hypot(*np.gradient(filled, ground.width)), 90))
     light = matplotlib.colors.LightSource(azdeg=315, altdeg=45)
     # Steep and gentle terrain get the same contrast.
-    shade = light.hillshade(filled, vert_exag=0.7 / slope, dx=raster.width, dy=raster.width)
-    image = np.zeros((*shade.shape, 4))
-    image[..., 3] = np.where(np.isnan(raster.values), 0., strength * (0.1 + 0.9 * (1 - shade)))
-    axes.imshow(image, extent=raster.extent, interpolation="bilinear", zorder=zorder)
+    shade = light.hillshade(filled, vert_exag=0.7 / slope, dx=ground.width, dy=ground.width)
+    dark = strength * _smooth(np.where(np.isnan(ground.values), 0., 0.1 + 0.9 * (1 - shade)))
+    image = np.zeros((*dark.shape, 4))
+    image[..., 3] = np.round(60 * dark) / 60  # Steps that nobody sees make a small file.
+    if soil is not None:
+        x, y = places(Raster(dark, ground.x, ground.y, ground.width * ground.values.shape[1] / dark.shape[1]))
+        column, row = (np.floor((place - start) / soil.width).astype(int) for place, start in ((x, soil.x), (y, soil.y)))
+        row = soil.values.shape[0] - 1 - row
+        is_inside = np.outer((row >= 0) & (row < soil.values.shape[0]), (column >= 0) & (column < soil.values.shape[1]))
+        has_soil = np.isfinite(soil.values[np.clip(row, 0, soil.values.shape[0] - 1)][:, np.clip(column, 0, soil.values.shape[1] - 1)])
+        image[~(is_inside & has_soil), 3] = 0.
+    axes.imshow(image, extent=ground.extent, interpolation="nearest", zorder=zorder)
+
+
+def _smooth(values, longest=700):
+    """Values of small cells by linear interpolation between the centres of large ones."""
+    parts = max(1, round(longest / max(values.shape)))
+    for axis in (0, 1):
+        count = values.shape[axis]
+        place = np.clip((np.arange(count * parts) + 0.5) / parts - 0.5, 0, count - 1)
+        below = np.minimum(place.astype(int), max(0, count - 2))
+        weight = np.expand_dims(place - below, 1 - axis)
+        values = (1 - weight) * np.take(values, below, axis) + weight * np.take(values, np.minimum(below + 1, count - 1), axis)
+    return values
 
 
 def draw_contours(axes, raster, zorder):
