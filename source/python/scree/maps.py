@@ -182,7 +182,9 @@ def draw_map(axes, bar, one, low, high):
     colours, bounds = colours_of(one.kind, low, high)
     image = axes.imshow(np.ma.masked_invalid(one.raster.values), cmap=colours, norm=matplotlib.colors.BoundaryNorm(bounds, colours.N),
                         extent=one.raster.extent, interpolation="nearest", zorder=1)
-    axes.figure.colorbar(image, cax=bar, spacing="proportional", ticks=bounds)
+    every = int(np.ceil(0.13 * len(bounds) / (bar.get_position().height * axes.figure.get_figheight())))  # inches of a number
+    ticks = bounds[np.argmin(np.abs(bounds)) % every::every]  # with 0
+    axes.figure.colorbar(image, cax=bar, spacing="proportional", ticks=ticks)
     bar.tick_params(labelsize=8, length=2)
     bar.yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     bar.set_title(one.kind.unit, fontsize=8, loc="left", pad=4)
@@ -208,9 +210,11 @@ def draw_release(axes, raster, least):
 def draw_scale_bar(axes, window):
     """A bar of 1, 2 or 5 times a power of ten, about a quarter of the width."""
     width = window[1] - window[0]
-    power = 10. ** np.floor(np.log10(0.3 * width))
-    length = max(power * factor for factor in (1, 2, 5) if power * factor <= 0.3 * width)
-    x, y, thick = window[0] + 0.05 * width, window[2] + 0.05 * width, 0.016 * width
+    inch = width / (axes.figure.get_figwidth() * axes.get_position().width)
+    longest = min(0.3 * width, 1.5 * inch)
+    power = 10. ** np.floor(np.log10(longest))
+    length = max(power * factor for factor in (1, 2, 5) if power * factor <= longest)
+    x, y, thick = window[0] + 0.15 * inch, window[2] + 0.13 * inch, 0.05 * inch
     for part, colour in ((0, "black"), (1, "white")):
         axes.add_patch(matplotlib.patches.Rectangle((x + part * length / 2, y), length / 2, thick, facecolor=colour, edgecolor="black", lw=0.6, zorder=8))
     text = f"{length / 1000:g} km" if length >= 1000 else f"{length:g} m"
@@ -218,8 +222,10 @@ def draw_scale_bar(axes, window):
 
 
 def draw_north(axes):
-    axes.annotate("N", xy=(0.93, 0.975), xytext=(0.93, 0.885), xycoords="axes fraction", ha="center", va="center", fontsize=9, fontweight="bold",
-                  arrowprops={"arrowstyle": "-|>", "facecolor": "black", "lw": 1.2, "shrinkA": 5, "shrinkB": 0}, path_effects=HALO, zorder=8)
+    axes.annotate("N", xy=(1, 1), xytext=(-14, -42), xycoords="axes fraction", textcoords="offset points", ha="center", va="center", fontsize=9,
+                  fontweight="bold", path_effects=HALO, zorder=8)
+    axes.add_patch(matplotlib.patches.FancyArrowPatch((-14 / 72, -36 / 72), (-14 / 72, -10 / 72), arrowstyle="-|>", mutation_scale=9, lw=1.2, color="black",
+                   transform=axes.figure.dpi_scale_trans + matplotlib.transforms.ScaledTranslation(1, 1, axes.transAxes), zorder=8))
 
 
 class Sheet(NamedTuple):
@@ -318,7 +324,7 @@ def render_maps(run, names, output):
 
 
 def save(figure, output, dpi=120):
-    """A PNG gets the 256 commonest colours, of which the others, at the edges of letters and lines, take the nearest: half the space."""
+    """A PNG gets 256 colours, half the space: those of areas are kept, those at the edges of letters and lines may be replaced by the nearest."""
     if pathlib.Path(output).suffix.lower() != ".png":
         figure.savefig(output)
     else:
@@ -326,12 +332,24 @@ def save(figure, output, dpi=120):
         figure.canvas.draw()
         pixels = np.asarray(figure.canvas.buffer_rgba())[..., :3]
         colours, place, count = np.unique(pixels.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True)
-        palette = colours[np.argsort(-count)[:256]].astype(float)
-        nearest = np.array([np.argmin(((palette - colour) ** 2).sum(axis=1)) for colour in colours], dtype=np.uint8)
+        palette, nearest = reduced(colours.astype(float), count)
         picture = PIL.Image.fromarray(nearest[place].reshape(pixels.shape[:2]), "P")
         picture.putpalette(palette.astype(np.uint8).tobytes())
         picture.save(output, optimize=True)
     plt.close(figure)
+
+
+def reduced(colours, count, size=256):
+    """A palette and the index in it for each of the colours: a third of the commonest ones, then again and again the one that is farthest from all."""
+    chosen = list(np.argsort(-count)[:size // 3])
+    distances = np.stack([((colours - colours[one]) ** 2).sum(axis=1) for one in chosen])
+    nearest, distance = distances.argmin(axis=0), distances.min(axis=0)
+    while len(chosen) < size and np.any(distance > 0):
+        chosen.append(np.argmax(distance * (1 + np.minimum(count, 20))))
+        new = ((colours - colours[chosen[-1]]) ** 2).sum(axis=1)
+        nearest[new < distance] = len(chosen) - 1
+        distance = np.minimum(distance, new)
+    return colours[chosen], nearest.astype(np.uint8)
 
 
 def render_profiles(run, names, output):

@@ -117,7 +117,7 @@ def _table(rows, head=()):
     lines = [f"<tr>{cells}</tr>"] if head else []
     for row in rows:
         lines.append("<tr>" + "".join(f'<td{" class=number" if isinstance(cell, float) else ""}>'
-                                      f"{f'{cell:.6g}' if isinstance(cell, float) else html.escape(cell)}</td>" for cell in row) + "</tr>")
+                                      f"{f'{cell + 0.:.6g}' if isinstance(cell, float) else html.escape(cell)}</td>" for cell in row) + "</tr>")
     return "<table>\n" + "\n".join(lines) + "\n</table>"
 
 
