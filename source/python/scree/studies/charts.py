@@ -217,6 +217,8 @@ class RunCurves(Curves):
                 writer = csv.writer(file, lineterminator="\n")
                 writer.writerow(["curve", "x", "y"])
                 writer.writerows([name, f"{x:.4g}", f"{y:.4g}"] for name, points in self.found.items() for x, y in zip(*points))
+        if not table.exists():  # none of the runs of a short version has a curve
+            return
         curves = {}
         with open(table, newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):

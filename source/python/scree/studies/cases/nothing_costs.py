@@ -94,7 +94,7 @@ def verdict(rows):
 
 def table(rows):
     return [("question", "scene", "choice", "ms per time step", "time on water (%)", "time on soil (%)"),
-            *((row["question"], row["scene"], f"{row['choice']} times" if row["question"] == "empty cells" else row["choice"], f"{row['ms per step']:.3g}",
+            *((row["question"], row["scene"], f"{row['choice']:g} times" if row["question"] == "empty cells" else row["choice"], f"{row['ms per step']:.3g}",
                f"{row['share of water (%)']:.1f}", f"{row['share of soil (%)']:.1f}") for row in rows if row["question"] != "empty cells" or row["choice"] in (1, 16))]
 
 

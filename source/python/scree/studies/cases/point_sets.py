@@ -102,8 +102,9 @@ def verdict(rows):
 
 def table(rows):
     return [("soil, water", "front of 99.5 % (m)", "p oscillation (-)", "change of water mass", "dissipation over released energy", "ended at (s)"),
-            *((f"{row['soil']}, {row['points']}-point", f"{row['front 99.5 % (m)']:.2f}", f"{row['p oscillation']:.3f}", f"{100 * row['change of water mass']:+.1f} %",
-               f"{100 * row['numerical dissipation (J)'] / row['J released']:.0f} %", f"{row['reached (s)']:.1f}") for row in rows if row["end"] > 1)]
+            *((f"{row['soil']}, {row['points']}-point", f"{row['front 99.5 % (m)']:.2f}", f"{row['p oscillation']:.3f}",
+               *((f"{100 * row['change of water mass']:+.1f} %", f"{100 * row['numerical dissipation (J)'] / row['J released']:.0f} %") if row["ended"]
+                 else ("diverges", "diverges")), f"{row['reached (s)']:.1f}") for row in rows if row["end"] > 1)]
 
 
 def draw(figure, runs):
