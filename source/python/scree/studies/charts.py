@@ -47,7 +47,7 @@ def tick_axis(axis):
     """Several ticks with plain numbers on a logarithmic axis, however few decades it spans."""
     low, high = axis.get_view_interval()
     decades = math.log10(high / low)
-    subs = (1, 2, 3, 4, 5, 6, 7, 8, 9) if decades < 0.4 else (1, 1.5, 2, 3, 5, 7) if decades < 1.3 else (1, 2, 5) if decades < 2.2 else (1, 3) if decades < 3 else (1,)
+    subs = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8) if decades < 0.7 else (1, 1.5, 2, 3, 5, 7) if decades < 1.3 else (1, 2, 5) if decades < 2.2 else (1, 3) if decades < 3 else (1,)
     axis.set_major_locator(matplotlib.ticker.LogLocator(subs=subs, numticks=20))
     axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:.6f}".rstrip("0").rstrip(".") if 0.9e-4 < value < 1e5 else f"{value:.0e}"))
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
