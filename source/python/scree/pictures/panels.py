@@ -47,7 +47,7 @@ class _Plane:
         if other and self.collection == "water":
             plane.draw_outline(panel, other)
         plane.draw_ground(panel)
-        if first:
+        if first and self.ratio < 1.5:
             plane.legend(axes, self.collection == "points" or other, other, self.collection, panel.surfaces, self.structures)
 
 
@@ -103,9 +103,24 @@ def _scale(pictures, name, limits):
     return fields.colour_scale(np.concatenate([fields.field_values(points, name) for points in pictures]), name, limits)
 
 
-def _figure(rows, columns, ratio, is_plane, width=10.):
-    height = rows * (ratio * (width - 1.5) / columns + 0.4) + 0.4
-    return plt.subplots(rows, columns, figsize=(width, height), squeeze=False, layout="constrained", sharex=is_plane, sharey=is_plane)
+WIDTH, HEIGHT, BESIDE, ABOVE = 10., 12.5, 1.5, 0.4  # inches: figure, at most; colour bar with labels; title of a panel
+
+
+def _layout(number, ratio):
+    """Rows, columns and size in inches for panels of a ratio of height to width: as large as possible on a page."""
+    for columns in range(1, number + 1):
+        rows = -(-number // columns)
+        width = (WIDTH - BESIDE) / columns
+        if ratio <= 0.5 * columns and rows * (ratio * width + ABOVE) + ABOVE <= HEIGHT:
+            return rows, columns, (WIDTH, rows * (ratio * width + ABOVE) + ABOVE)
+    # Tall panels side by side, narrower than the page.
+    height = min(ratio * (WIDTH - BESIDE) / number, 0.7 * HEIGHT)
+    return 1, number, (max(number * (height / ratio + 0.6) + BESIDE, 5.), height + 2 * ABOVE)
+
+
+def _figure(number, ratio, is_plane):
+    rows, columns, size = _layout(number, ratio)
+    return plt.subplots(rows, columns, figsize=size, squeeze=False, layout="constrained", sharex=is_plane, sharey=is_plane)
 
 
 def _colour_bar(figure, axes, scale):
@@ -124,12 +139,9 @@ def render_points(run, output, name, times=None, limits=None, collection="points
     scale = _scale(pictures, name, limits)
     shown = _fitted(run, box, pictures, collection)
     is_plane = box.dim == 2
-    size = shown.upper - shown.lower
-    columns = 1 if is_plane and size[0] > 2 * size[1] else min(2, len(pictures))
-    rows = -(-len(pictures) // columns)
     with contextlib.ExitStack() as stack:
-        drawing = (_Plane if is_plane else _Space)(run, shown, scale, collection, pictures, stack, view, 1300 // columns if is_plane else 1300 // columns + 200)
-        figure, axes = _figure(rows, columns, drawing.ratio, is_plane)
+        drawing = (_Plane if is_plane else _Space)(run, shown, scale, collection, pictures, stack, view, 1300 if len(pictures) == 1 else 850)
+        figure, axes = _figure(len(pictures), drawing.ratio, is_plane)
         for panel in axes.flat[len(pictures):]:
             panel.set_visible(False)
         for number, (panel, points) in enumerate(zip(axes.flat, pictures)):
@@ -173,14 +185,20 @@ class _Gif:
     def add(self, image):
         self.frames.append(image)
 
-    def close(self):
-        # Colours from several frames at once: the first one may be empty.
+    def _palette(self):
+        """256 colours, two thirds of them for what is coloured, although grey ground and paper cover more of the frames."""
         from PIL import Image  # pylint: disable=import-outside-toplevel
-        chosen = [self.frames[i] for i in np.unique(np.linspace(0, len(self.frames) - 1, 4).astype(int))]
-        sheet = Image.new("RGB", (chosen[0].width, sum(image.height for image in chosen)))
-        for number, image in enumerate(chosen):
-            sheet.paste(image, (0, number * image.height))
-        palette = sheet.quantize(160, method=0)
+        chosen = [self.frames[i] for i in np.unique(np.linspace(0, len(self.frames) - 1, 8).astype(int))]
+        pixels = np.concatenate([np.asarray(image).reshape(-1, 3) for image in chosen])
+        is_coloured = np.ptp(pixels.astype(int), axis=1) > 40
+        random, sample = np.random.default_rng(0), []
+        for group, number in ((pixels[is_coloured], 40000), (pixels[~is_coloured], 20000)):
+            if len(group):
+                sample.append(group[random.integers(len(group), size=number)])
+        return Image.fromarray(np.concatenate(sample)[None]).quantize(256, method=0, kmeans=1)
+
+    def close(self):
+        palette = self._palette()
         first, *others = (image.quantize(palette=palette, dither=0) for image in self.frames)
         pause = 1000 // FRAMES_PER_SECOND
         first.save(self.output, save_all=True, append_images=others, duration=[pause] * len(others) + [1500], loop=0, optimize=False)
@@ -224,9 +242,9 @@ def animate_points(run, outputs, name, times=None, limits=None, collection="poin
     is_plane = box.dim == 2
     with contextlib.ExitStack() as stack:
         drawing = (_Plane if is_plane else _Space)(run, shown, scale, collection, sample, stack, view, 900)
-        figure, axes = _figure(1, 1, drawing.ratio, is_plane, width=9.)
+        figure, axes = _figure(1, drawing.ratio, is_plane)
         panel = axes[0, 0]
-        figure.set_dpi(100)
+        figure.set_dpi(90)
         _colour_bar(figure, axes, scale)
         for number, time in enumerate(frames):
             panel.clear()

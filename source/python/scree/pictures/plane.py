@@ -151,7 +151,7 @@ def _show(panel, covered, colours, order):
 def _line(panel, filled, colour, width, order):
     """The surface of a material; it has none where it touches what is rigid."""
     level = np.ma.masked_where(~panel.is_open, filled)
-    if level.min() < 0.5 < level.max():
+    if level.count() and level.min() < 0.5 < level.max():
         panel.axes.contour(*panel.pixels.centres, level, levels=[0.5], colors=[colour], linewidths=width, zorder=order)
 
 
@@ -166,8 +166,12 @@ def draw_material(panel, points, scale, colour=None, structures=()):
     colours[np.isin(body, structures)] = matplotlib.colors.to_rgba(STRUCTURE)
     _show(panel, covered, colours[nearest[covered]], 2)
     if colour is None:
-        for one in fills:
-            _line(panel, one, OUTLINE, 0.6, 5)
+        whole = sum(fills)
+        _line(panel, whole, OUTLINE, 0.6, 5)
+        for number, one in enumerate(fills[:-1]):
+            # Where two bodies meet: both fill equal parts.
+            others = np.max([other for other_number, other in enumerate(fills) if other_number != number], axis=0)
+            _line(panel, np.ma.masked_where(whole < 0.5, 0.5 + one - others), OUTLINE, 0.6, 5)
 
 
 def draw_water_around(panel, water):

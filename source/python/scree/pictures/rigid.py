@@ -3,6 +3,7 @@
 
 import pathlib
 import re
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -80,6 +81,22 @@ def displacement(run, subsection, time, dim):
     return np.array([np.interp(time, statistics["Time (s)"], statistics[way]) if way in statistics else 0. for way in ways])
 
 
+def _report(subsection, error, reported=set()):  # pylint: disable=dangerous-default-value  # once per subsection
+    if subsection not in reported:
+        print(f"scree-render: subsection {subsection} is not drawn: {error or type(error).__name__}.", file=sys.stderr)
+        reported.add(subsection)
+
+
+def _level_set(prm, entries, subsection, here, origin):
+    """The level set that an expression or a file gives."""
+    for ending, read in (("Profile", lambda file: _profile(file, here)), ("Raster", lambda file: _raster(file, here, origin)),
+                         ("Closed surface", lambda file: _closed_surface(file, here))):
+        name = entries.get(f"{subsection}/{ending}", "")
+        if name:
+            return read(pathlib.Path(prm).parent / name)
+    return _expression(entries[subsection + "/Level set expression"], here)
+
+
 def rigid_surfaces(run, places, time):
     """The bed and the obstacles of a run at `places` (arrays x, y, or x, y, z) and a time. Those that cannot be read are left out."""
     prm = pathlib.Path(run) / "parameters.prm"
@@ -94,17 +111,10 @@ def rigid_surfaces(run, places, time):
             continue
         moved = displacement(run, subsection, time, len(places))
         here = [place - way for place, way in zip(places, moved)]
-        files = {ending: variants.file_named(prm, entries.get(f"{subsection}/{ending}", "")) for ending in ("Profile", "Raster", "Closed surface")}
         try:
-            if files["Profile"]:
-                level_set = _profile(files["Profile"], here)
-            elif files["Raster"]:
-                level_set = _raster(files["Raster"], here, origin)
-            elif files["Closed surface"]:
-                level_set = _closed_surface(files["Closed surface"], here)
-            else:
-                level_set = _expression(entries[subsection + "/Level set expression"], here)
-        except (SyntaxError, NameError, TypeError, ValueError, KeyError):
+            level_set = _level_set(prm, entries, subsection, here, origin)
+        except (OSError, SyntaxError, NameError, TypeError, ValueError, KeyError) as error:
+            _report(subsection, error)
             continue
         surfaces.append(Surface(subsection, level_set, moved))
     return surfaces

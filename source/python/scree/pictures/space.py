@@ -80,6 +80,7 @@ def camera_of(frame, view, width=1000):
     up = np.cross(towards, right)
     corners = np.array([[frame[i][0], frame[j][1], frame[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
     low, high = ((extreme(corners @ right), extreme(corners @ up)) for extreme in (np.min, np.max))
+    low = low[0], low[1] - 0.12 * (high[1] - low[1])  # room for the scale
     middle = 0.5 * (np.array(low) + high)
     extent = 1.06 * (np.array(high) - low)
     height = int(np.clip(width * extent[1] / extent[0], 0.3 * width, 1.1 * width))
@@ -146,7 +147,7 @@ def _blurred(values, width):
     return values
 
 
-def _actor(surface, colour=None, ambient=0.25):
+def _actor(surface, colour=None, ambient=0.32):
     """`colour`: of all; without it the array "colour" of the surface."""
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
@@ -260,7 +261,11 @@ class Scene:
         for actor in self.ground:
             self.renderer.RemoveActor(actor)
         self.ground = []
+        beds = [surface.level_set for surface in surfaces if surface.is_bed]
         for surface in surfaces:
+            if beds and not surface.is_bed:
+                # Only what stands out of the bed: two surfaces in one place would flicker.
+                surface = surface._replace(level_set=np.maximum(surface.level_set, -beds[0]))
             solid = _solid(self.coordinates, surface.level_set)
             if not solid.GetNumberOfPoints():
                 continue
@@ -336,7 +341,7 @@ class Scene:
         filled = spread(volumes)
         colour = {f"colour {part}": spread(volumes * colours[inside, part]) / np.maximum(filled, 1e-12) for part in range(3)}
         filled = filled / np.maximum(_blurred(is_open.astype(float), width), 0.25)
-        alone[inside] = filled[index] < 0.2
+        alone[inside] = filled[index] < 0.75 * LEVEL
         skin = _contour(coordinates, filled, LEVEL, 0., colour)
         if not skin.GetNumberOfPoints():
             return None, alone

@@ -86,7 +86,8 @@ def render_statistics(run, output, titles=None):
     for panel, (title, columns) in zip(axes.flat, groups.items()):
         unit = re.search(r"\(([^()]*)\)\s*$", next(iter(columns))).group(1)
         columns, unit = _scaled(columns, unit)
-        panel.axhline(0, color="0.6", lw=0.6)
+        if title not in ("front", "step size"):
+            panel.axhline(0, color="0.6", lw=0.6)
         lines = [panel.plot(time, values, lw=1.3, label=_short(name, columns), color=f"C{number}")[0] for number, (name, values) in enumerate(columns.items())]
         panel.set_ylabel(("change of energy" if title == "energy" else title) + f" ({unit})")
         panel.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.)
