@@ -70,7 +70,7 @@ def _output(arguments, name, ending=".png"):
     if arguments.output:
         output = arguments.output.with_name(arguments.output.stem + (f"_{name}" if name else "") + (arguments.output.suffix or ending))
         if ending != ".png" and output.suffix != ending:
-            raise ValueError(f"{output}: this file ends with {ending}")
+            raise ValueError(f"{output}: a film of --animate {ending[1:]} ends with {ending}")
         if output.exists() and not arguments.force:
             raise ValueError(f"{output} is there already: write another name, or add --force.")
         return output
@@ -141,8 +141,10 @@ def main():
     parser.add_argument("--times", help="times of pictures in s, separated by commas; default: first, 1/4, 1/2 and last")
     parser.add_argument("--panels", help=f"of the statistics, separated by commas: {', '.join(PANELS)}; default: {', '.join(DEFAULT_PANELS)}")
     parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
-    parser.add_argument("--view", help="of 3D runs: azimuth from the x axis and elevation of the camera, degrees: -60,32; default: across the way of the material")
-    parser.add_argument("--animate", nargs="?", const="both", choices=["gif", "mp4", "both"], help="films of all pictures, or of those of --times: GIF and MP4, or one of them; after the run folder")
+    parser.add_argument("--view", help="of 3D runs: azimuth from the x axis and elevation of the camera, degrees, such as -60,32; "
+                        "default: across the way of the material")
+    parser.add_argument("--animate", nargs="?", const="both", choices=["gif", "mp4", "both"],
+                        help="films of all pictures, or of those of --times, as GIF and MP4 or one of them; write it after the run folder")
     parser.add_argument("--paraview", action="store_true", help="paraview.py, which shows the points in ParaView with the colours of the picture")
     parser.add_argument("--output", type=pathlib.Path, help="another file, which must not be there; default: in the run folder, named after what it shows")
     parser.add_argument("--force", action="store_true", help="overwrite the file of --output")

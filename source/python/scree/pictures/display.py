@@ -6,8 +6,10 @@ import os
 import shutil
 import subprocess
 
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 pylint: disable=unused-import  # what draws for vtkRenderingCore
+from vtkmodules import vtkRenderingOpenGL2  # what draws for vtkRenderingCore
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
+BACKEND = vtkRenderingOpenGL2.__name__
 
 
 @contextlib.contextmanager

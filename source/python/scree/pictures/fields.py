@@ -95,4 +95,5 @@ def colour_scale(values, name, limits=None):
     margin = 0.02 * (high - low)
     below = np.any(values < low - margin) and (field_style(name).signed or low > 0)
     above = np.any(values > high + margin)
-    return Scale(name, low, high, {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[bool(below), bool(above)])
+    extend = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
+    return Scale(name, low, high, extend[bool(below), bool(above)])

@@ -150,7 +150,7 @@ def render_points(run, output, name, times=None, limits=None, collection="points
             if is_plane:
                 panel.label_outer()
         _colour_bar(figure, axes, scale)
-        save_picture(figure, output, 130 if is_plane else 110)
+        save_picture(figure, output, 130 if is_plane else 105)
 
 
 def save_picture(figure, output, dpi=130):

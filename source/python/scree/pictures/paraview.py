@@ -94,14 +94,15 @@ def write_state(run, output, chosen, limits=None):
         volumes = [points.arrays["volume"] for points in pictures if "volume" in points.arrays]
         radius = 0.6 * np.median(np.concatenate(volumes)) ** (1 / box.dim) if volumes else box.cell_size / 6
         preset = PRESETS.get(style.colours, ("Viridis (matplotlib)", False))
-        shown.append(f"show({collection + '.pvd'!r}, {name!r}, {low / style.factor:.6g}, {high / style.factor:.6g}, {preset[0]!r}, {preset[1]}, {radius:.4g}, "
-                     f"{style.label!r})")
+        limits_si = f"{low / style.factor:.6g}, {high / style.factor:.6g}"
+        shown.append(f"show({collection + '.pvd'!r}, {name!r}, {limits_si}, {preset[0]!r}, {preset[1]}, {radius:.4g}, {style.label!r})")
         seen += pictures
     focus, position, up, scale = _camera(box, seen)
     output = pathlib.Path(output)
     output.write_text(SCRIPT.format(
         run=run, name=output.name, name_of_picture=output.stem + ".png", absolute=str(output.resolve()), shown="\n".join(shown),
-        shape="Plain circle" if box.dim == 2 else "Sphere", interaction="2D" if box.dim == 2 else "3D", focus=_list(focus), position=_list(position), up=_list(up), scale=scale), encoding="utf-8")
+        shape="Plain circle" if box.dim == 2 else "Sphere", interaction=f"{box.dim}D", focus=_list(focus), position=_list(position), up=_list(up),
+        scale=scale), encoding="utf-8")
 
 
 def _list(vector):

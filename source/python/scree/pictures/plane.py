@@ -9,7 +9,7 @@ import matplotlib.patches
 import numpy as np
 
 from scree.pictures import rigid
-from scree.pictures.fields import field_values
+from scree.pictures.fields import Scale, field_values
 
 GROUND, STRUCTURE, WATER, WATER_LINE, SOIL_LINE, OUTLINE = "0.78", "0.45", "#cfe4f4", "#1763a6", "#7a3b10", "0.15"
 WIDTH_OF_FILL = 0.3  # cells; a gap of one cell in stretched material is closed, a layer of half a cell is kept
@@ -33,7 +33,8 @@ class Pixels(NamedTuple):
 
 def pixels_of(box, longest=1300):
     size = box.upper - box.lower
-    width = max(size) / longest
+    # Large cells need no more pixels.
+    width = max(max(size) / longest, box.cell_size / 60)
     return Pixels(box.lower, width, *(max(1, int(np.ceil(side / width - 1e-9))) for side in size))
 
 
@@ -148,11 +149,12 @@ def _show(panel, covered, colours, order):
     panel.axes.set(xlim=(panel.box.lower[0], panel.box.upper[0]), ylim=(panel.box.lower[1], panel.box.upper[1]))
 
 
-def _line(panel, filled, colour, width, order):
-    """The surface of a material; it has none where it touches what is rigid."""
+def _line(panel, filled, colour, width, order, edge=0.):
+    """The surface of a material; it has none where it touches what is rigid. `edge`: width of white on both sides, for lines over colours."""
     level = np.ma.masked_where(~panel.is_open, filled)
     if level.count() and level.min() < 0.5 < level.max():
-        panel.axes.contour(*panel.pixels.centres, level, levels=[0.5], colors=[colour], linewidths=width, zorder=order)
+        for one, line_width in [("white", width + 2 * edge)] * (edge > 0) + [(colour, width)]:
+            panel.axes.contour(*panel.pixels.centres, level, levels=[0.5], colors=[one], linewidths=line_width, zorder=order)
 
 
 def draw_material(panel, points, scale, colour=None, structures=()):
@@ -162,7 +164,9 @@ def draw_material(panel, points, scale, colour=None, structures=()):
     body = np.round(points.arrays["body"]).astype(int) if "body" in points.arrays else np.zeros(len(points.positions), dtype=int)
     fills = [fill(points, panel.box, panel.pixels, panel.is_open, body == one) for one in np.unique(body)]
     covered, nearest = _covered(points, panel.box, panel.pixels, sum(fills))
-    colours = scale.mappable.to_rgba(field_values(points, scale.name)) if colour is None else np.tile(matplotlib.colors.to_rgba(colour), (len(body), 1))
+    colours = np.tile(matplotlib.colors.to_rgba(colour or STRUCTURE), (len(body), 1))
+    if colour is None:
+        colours = scale.mappable.to_rgba(field_values(points, scale.name))
     colours[np.isin(body, structures)] = matplotlib.colors.to_rgba(STRUCTURE)
     _show(panel, covered, colours[nearest[covered]], 2)
     if colour is None:
@@ -179,13 +183,13 @@ def draw_water_around(panel, water):
     filled = fill(water, panel.box, panel.pixels, panel.is_open)
     covered, _ = _covered(water, panel.box, panel.pixels, filled)
     _show(panel, covered, matplotlib.colors.to_rgba(WATER), 1)
-    _line(panel, filled, WATER_LINE, 1.3, 4)
+    _line(panel, filled, WATER_LINE, 1.3, 4, 0.5)
 
 
 def draw_outline(panel, soil):
     """The outline of the soil, over a picture of the water."""
     if len(soil.positions):
-        _line(panel, fill(soil, panel.box, panel.pixels, panel.is_open), SOIL_LINE, 1., 4)
+        _line(panel, fill(soil, panel.box, panel.pixels, panel.is_open), SOIL_LINE, 1., 4, 0.6)
 
 
 def draw_ground(panel):
@@ -200,7 +204,6 @@ def draw_ground(panel):
 
 def draw_points(axes, points, box, name, limits, colour=None):
     """The points of one picture in axes of their own, coloured by a field, or in one colour; returns what a colour bar needs."""
-    from scree.pictures.fields import Scale  # pylint: disable=import-outside-toplevel
     scale = Scale(name, *limits, "neither")
     draw_material(panel_of(axes, box, longest=700), points, scale, colour)
     return scale.mappable
@@ -210,7 +213,8 @@ def legend(axes, has_soil, has_water, collection, surfaces, structures):
     """Names what has no colour of the field."""
     entries = []
     if collection == "points" and has_water:
-        entries += [matplotlib.patches.Patch(color=WATER, label="water"), matplotlib.lines.Line2D([], [], color=WATER_LINE, lw=1.3, label="water surface")]
+        entries.append(matplotlib.patches.Patch(color=WATER, label="water"))
+        entries.append(matplotlib.lines.Line2D([], [], color=WATER_LINE, lw=1.3, label="water surface"))
     if collection == "water" and has_soil:
         entries.append(matplotlib.lines.Line2D([], [], color=SOIL_LINE, lw=1., label="outline of the soil"))
     if any(surface.is_bed for surface in surfaces):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Rigid ground of a run: level sets of its bed and obstacles, from their expressions, profiles, rasters and closed surfaces."""
 
+import ast
 import pathlib
 import re
 import sys
@@ -22,15 +23,30 @@ class Surface(NamedTuple):
         return self.name == "Bed"
 
 
+class _Elementwise(ast.NodeTransformer):
+    """and, or of arrays."""
+
+    def visit_BoolOp(self, node):
+        self.generic_visit(node)
+        name = "all_of" if isinstance(node.op, ast.And) else "any_of"
+        return ast.copy_location(ast.Call(ast.Name(name, ast.Load()), node.values, []), node)
+
+
+def _reduced(function):
+    return lambda *values: function.reduce(np.broadcast_arrays(*values))
+
+
+FUNCTIONS = {**{name: getattr(np, name) for name in ("sqrt", "abs", "sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log", "log10", "floor", "ceil",
+                                                     "sign", "pi", "where")},
+             "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "ln": np.log, "Pi": np.pi, "pow": np.power,
+             "min": _reduced(np.minimum), "max": _reduced(np.maximum), "all_of": _reduced(np.logical_and), "any_of": _reduced(np.logical_or)}
+
+
 def _expression(text, places):
     """The value of a case's expression where numpy and muParser agree but for the spelling."""
-    text = re.sub(r"\bif\(", "where(", text.replace("^", "**").replace("&&", "&").replace("||", "|"))
-    functions = {name: getattr(np, name) for name in ("where", "sqrt", "abs", "sin", "cos", "tan", "exp", "log", "log10", "tanh", "sinh", "cosh", "floor",
-                                                      "ceil", "sign", "pi")}
-    functions.update(asin=np.arcsin, acos=np.arccos, atan=np.arctan, atan2=np.arctan2, ln=np.log, Pi=np.pi, pow=np.power,
-                     min=lambda *values: np.minimum.reduce(np.broadcast_arrays(*values)),
-                     max=lambda *values: np.maximum.reduce(np.broadcast_arrays(*values)))
-    value = eval(text, {"__builtins__": {}}, {**functions, **dict(zip("xyz", places))})  # pylint: disable=eval-used
+    text = re.sub(r"\bif\s*\(", "where(", text.replace("^", "**").replace("&&", " and ").replace("||", " or "))
+    tree = ast.fix_missing_locations(_Elementwise().visit(ast.parse(text.strip(), mode="eval")))
+    value = eval(compile(tree, "expression", "eval"), {"__builtins__": {}}, {**FUNCTIONS, **dict(zip("xyz", places))})  # pylint: disable=eval-used
     return np.broadcast_to(np.asarray(value, dtype=float), np.broadcast_shapes(*(np.shape(place) for place in places)))
 
 

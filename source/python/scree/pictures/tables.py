@@ -88,7 +88,7 @@ def render_statistics(run, output, titles=None):
         columns, unit = _scaled(columns, unit)
         if title not in ("front", "step size"):
             panel.axhline(0, color="0.6", lw=0.6)
-        lines = [panel.plot(time, values, lw=1.3, label=_short(name, columns), color=f"C{number}")[0] for number, (name, values) in enumerate(columns.items())]
+        lines = [panel.plot(time, values, lw=1.3, label=_short(name))[0] for name, values in columns.items()]
         panel.set_ylabel(("change of energy" if title == "energy" else title) + f" ({unit})")
         panel.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.)
         panel.grid(alpha=0.3)
@@ -98,10 +98,9 @@ def render_statistics(run, output, titles=None):
     return True
 
 
-def _short(name, columns):
+def _short(name):
     """A column's name without its unit, and without what its panel says."""
-    name = _without_unit(name).replace(" energy", "").replace("Obstacle ", "")
-    return name[0].upper() + name[1:] if columns else name
+    return _without_unit(name).replace(" energy", "").replace("Obstacle ", "")
 
 
 def _by_unit(columns):
