@@ -341,6 +341,9 @@ class Scene:
         filled = spread(volumes)
         colour = {f"colour {part}": spread(volumes * colours[inside, part]) / np.maximum(filled, 1e-12) for part in range(3)}
         filled = filled / np.maximum(_blurred(is_open.astype(float), width), 0.25)
+        if surfaces:
+            # The surface ends half a node below the ground; cut faces must not cover those of the ground.
+            filled = np.minimum(filled, LEVEL * (1.5 + np.min([surface.level_set for surface in surfaces], axis=0) / spacing))
         alone[inside] = filled[index] < 0.75 * LEVEL
         skin = _contour(coordinates, filled, LEVEL, 0., colour)
         if not skin.GetNumberOfPoints():
