@@ -111,7 +111,8 @@ def _layout(number, ratio):
     for columns in range(1, number + 1):
         rows = -(-number // columns)
         width = (WIDTH - BESIDE) / columns
-        if ratio <= 0.5 * columns and rows * (ratio * width + ABOVE) + ABOVE <= HEIGHT:
+        is_rectangle = columns == 1 or (columns - 1) * rows < number
+        if is_rectangle and ratio <= 0.6 * columns and rows * (ratio * width + ABOVE) + ABOVE <= HEIGHT:
             return rows, columns, (WIDTH, rows * (ratio * width + ABOVE) + ABOVE)
     # Tall panels side by side, narrower than the page.
     height = min(ratio * (WIDTH - BESIDE) / number, 0.7 * HEIGHT)
@@ -262,6 +263,6 @@ def animate_points(run, outputs, name, times=None, limits=None, collection="poin
 
 
 def _decimals(times):
-    """Enough digits to tell the times apart."""
+    """Enough digits to write the times."""
     step = np.min(np.diff(times)) if len(times) > 1 else 1.
-    return int(np.clip(np.ceil(-np.log10(step) + 0.3), 0, 6))
+    return next((digits for digits in range(6) if abs(step * 10 ** digits - round(step * 10 ** digits)) < 1e-3 * step * 10 ** digits), 6)
