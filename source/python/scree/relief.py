@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws maps of a run over the shaded relief of its ground.
 
-scree-relief results/mountain_dry --maps thickness_0s,largest_thickness,largest_speed
+scree-relief results/mountain_dry --maps thickness_00s,largest_thickness,largest_speed
 
 Reads the run's `maps` and, for the relief, the raster of its bed. Writes relief.png into the run folder.
 """
@@ -15,7 +15,7 @@ import numpy as np
 
 from scree import variants
 from scree.command import Command
-from scree.results import Raster, read_raster
+from scree.results import Raster, map_file, read_raster
 
 UNITS = {"thickness": "m", "deposit": "m", "mass": "kg/m^2", "speed": "m/s", "time": "s"}  # by the end of a map's name
 
@@ -51,7 +51,7 @@ def draw(run, names, output):
     lower, upper = ([float(word) + start for word, start in zip(entries[f"Mesh/{side} corner"].split(","), origin)] for side in ("Lower", "Upper"))
     figure, all_axes = plt.subplots(1, len(names), squeeze=False, layout="constrained", figsize=(4.6 * len(names), 4.6))
     for axes, name in zip(all_axes[0], names):
-        values = read_raster(run / "maps" / f"{name}.asc")
+        values = read_raster(map_file(run, name))
         if raster:
             draw_relief(axes, cut(read_raster(raster), lower, upper))
         shown = np.ma.masked_where(~(values.values > 0.) | np.isnan(values.values), values.values)
@@ -68,6 +68,6 @@ def draw(run, names, output):
 def main():
     parser = Command("scree-relief", __doc__)
     parser.add_argument("run", type=pathlib.Path, help="run folder with a folder maps, for instance results/mountain_dry")
-    parser.add_argument("--maps", default="largest_thickness", help="names of maps without .asc, separated by commas; default: largest_thickness")
+    parser.add_argument("--maps", default="largest_thickness", help="names of maps without ending, separated by commas; default: largest_thickness")
     parser.add_argument("--output", type=pathlib.Path, help="picture; default: relief.png in the run folder")
     parser.run(lambda arguments: draw(arguments.run, arguments.maps.split(","), arguments.output or arguments.run / "relief.png"))
