@@ -42,6 +42,7 @@ namespace scree
     /// Entries without a rule must not change.
     const std::vector<Rule> rules{ { "", "End time", Change::free },
                                    { "", "Output directory", Change::free },
+                                   { "", "Coordinate system", Change::free },
                                    { "Output", "", Change::free },
                                    { "Time step", "", Change::noted },
                                    { "Transfer", "Method", Change::noted, methods_of_same_points },

@@ -153,13 +153,18 @@ namespace scree
                   "Local origin",
                   number_text(parameters.local_origin),
                   "a scene in the plane has no map. Remove it.");
+    require_entry(parameters.dimension == 3 || parameters.coordinate_system.empty(),
+                  "",
+                  "Coordinate system",
+                  parameters.coordinate_system,
+                  "a scene in the plane has no map. Remove it.");
     require_entry(
         !parameters.output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
     parameters.grid.check(parameters.dimension);
     parameters.time_step.check();
     parameters.transfer.check();
     parameters.output.check(parameters.end_time);
-    parameters.output.maps.check(!parameters.bodies.empty());
+    parameters.output.maps.check(!parameters.bodies.empty(), parameters.dimension);
     parameters.boundaries.check(parameters.dimension);
     parameters.bed.check(parameters.dimension);
     check_type_for_water(parameters, parameters.bed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/box_of_raster.h>
 #include <scree/case/case_checks.h>
+#include <scree/case/map_system.h>
 #include <scree/case/removed_entries.h>
 #include <scree/case/parameters.h>
 
@@ -66,6 +67,7 @@ namespace scree
           }
         take_box_from_raster();
         check_case(*this);
+        map_system = system_of_maps(*this);
         read_maps();
         time_step.choose_maximum(has_water, size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
@@ -186,6 +188,12 @@ namespace scree
                       "m; 3D. Map coordinates of the place x = 0, y = 0 of the case. Rasters, outlines and written "
                       "maps use map coordinates; everything else is relative to this place.",
                       Patterns::List(Patterns::Double(), 2, 2));
+    prm.add_parameter(
+        "Coordinate system",
+        coordinate_system,
+        "3D. Coordinate system of rasters and written maps, for instance EPSG:2056; needs a program built "
+        "with GDAL. Empty: that of the rasters, if one of them has a coordinate system or a .prj file.",
+        Patterns::Anything());
     body_forces.add_parameters(prm);
     grid.add_parameters(prm);
     time_step.add_parameters(prm);

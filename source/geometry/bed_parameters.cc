@@ -16,11 +16,11 @@ namespace scree
   {
     prm.enter_subsection(subsection);
     add_entries(prm);
-    add_file_entry(
-        prm,
-        "Friction angles",
-        friction_angles,
-        "degrees; 3D. ESRI ASCII grid of the angles, which covers the box; alternative to \"Friction angle\".");
+    add_file_entry(prm,
+                   "Friction angles",
+                   friction_angles,
+                   "degrees; 3D. Raster (ESRI ASCII grid or GeoTIFF) of the angles, which covers the box; alternative "
+                   "to \"Friction angle\".");
     prm.leave_subsection();
   }
 

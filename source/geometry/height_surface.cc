@@ -100,7 +100,7 @@ namespace scree
 
     const RegisterShape registered_height_surface(
         "Raster",
-        { "m; 3D. ESRI ASCII grid of the ground heights; alternative to \"Level set expression\".",
+        { "m; 3D. Raster (ESRI ASCII grid or GeoTIFF) of the ground heights; alternative to \"Level set expression\".",
           ShapeValue::file,
           "a raster is ground of scenes in space. Write a \"Profile\" or a \"Level set expression\".",
           nullptr,

@@ -16,17 +16,19 @@ namespace scree
     add_file_entry(prm,
                    "Thickness",
                    thickness,
-                   "m; 3D. ESRI ASCII grid of the vertical soil thickness above the bed or \"Lower surface\"; 0 where "
+                   "m; 3D. Raster (ESRI ASCII grid or GeoTIFF) of the vertical soil thickness above the bed or \"Lower "
+                   "surface\"; 0 where "
                    "values are missing. With several entries of this kind, the body occupies the intersection.");
-    add_file_entry(
-        prm,
-        "Upper surface",
-        upper_surface,
-        "m; 3D. ESRI ASCII grid of the heights of the upper surface of the body; no soil where values are missing.");
+    add_file_entry(prm,
+                   "Upper surface",
+                   upper_surface,
+                   "m; 3D. Raster (ESRI ASCII grid or GeoTIFF) of the heights of the upper surface of the body; no "
+                   "soil where values are missing.");
     add_file_entry(prm,
                    "Lower surface",
                    lower_surface,
-                   "m; 3D. ESRI ASCII grid of the heights of the lower surface of the body; alternative to the bed. No "
+                   "m; 3D. Raster (ESRI ASCII grid or GeoTIFF) of the heights of the lower surface of the body; "
+                   "alternative to the bed. No "
                    "soil where values are missing.");
     add_file_entry(prm,
                    "Outline",

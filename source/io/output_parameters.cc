@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/raster_formats/raster_writer.h>
 #include <scree/input/input_error.h>
 #include <scree/io/output_parameters.h>
 
@@ -14,17 +15,23 @@ namespace scree
     prm.add_parameter("Write",
                       write,
                       "true: maps of the soil on the columns of cells are written with each graphics output, for "
-                      "instance thickness, largest speed and arrival time. 3D: ESRI ASCII grids. 2D: tables along x.",
+                      "instance thickness, largest speed and arrival time. 3D: rasters. 2D: tables along x.",
                       Patterns::Bool());
     prm.add_parameter("Least thickness",
                       least_thickness,
                       "m; thickness from which the arrival time and the speed of the soil are recorded.",
                       Patterns::Double(0));
+    prm.add_parameter("Format",
+                      format,
+                      "3D. File format of the maps. ASCII grid: ESRI ASCII grids (.asc), each with a .prj file if the "
+                      "coordinate system is known. GeoTIFF: compressed, with coordinate system (.tif); needs a "
+                      "program built with GDAL. ASCII grid and GeoTIFF: both.",
+                      Patterns::Selection("ASCII grid|GeoTIFF|ASCII grid and GeoTIFF"));
     prm.leave_subsection();
   }
 
 
-  void MapParameters::check(const bool has_soil) const
+  void MapParameters::check(const bool has_soil, const unsigned int dim) const
   {
     const std::string subsection = "Output/Maps";
     require_entry(!write || has_soil,
@@ -37,6 +44,22 @@ namespace scree
                   "Least thickness",
                   least_thickness,
                   "this entry has no effect. Remove it, or write \"Write = true\".");
+    require_entry(write || format == MapParameters().format,
+                  subsection,
+                  "Format",
+                  format,
+                  "this entry has no effect. Remove it, or write \"Write = true\".");
+    require_entry(dim == 3 || format == MapParameters().format,
+                  subsection,
+                  "Format",
+                  format,
+                  "maps of a scene in the plane are tables (.csv). Remove it.");
+    require_entry(!writes_geo_tiff() || can_write_geo_tiff(),
+                  subsection,
+                  "Format",
+                  format,
+                  "this program was built without GDAL, which writes GeoTIFF. Write \"ASCII grid\", or install "
+                  "libgdal-dev and build anew.");
   }
 
 
@@ -46,7 +69,7 @@ namespace scree
     prm.add_parameter("Interval", interval, "s; simulated time between graphics outputs.", Patterns::Double(1e-12));
     prm.add_parameter("Statistics interval",
                       statistics_interval,
-                      "s; simulated time between rows of the file statistics; 0: as \"Interval\".",
+                      "s; simulated time between rows of statistics; 0: as \"Interval\".",
                       Patterns::Double(0));
     prm.add_parameter("Checkpoint interval",
                       checkpoint_interval,

@@ -3,31 +3,9 @@
 #include <scree/io/whole_file.h>
 
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 
 namespace scree
 {
-  std::string table_head(const std::vector<std::string> &columns)
-  {
-    std::string lines;
-    for (unsigned int i = 0; i < columns.size(); ++i)
-      lines += "# " + std::to_string(i + 1) + ": " + columns[i] + '\n';
-    return lines;
-  }
-
-
-  std::string table_row(const std::vector<double> &values)
-  {
-    std::ostringstream line;
-    line << std::scientific << std::setprecision(12);
-    for (const double value : values)
-      line << value << ' ';
-    line << '\n';
-    return line.str();
-  }
-
-
   RowFile::RowFile(const std::string &file)
       : file(file)
   {

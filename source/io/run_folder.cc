@@ -31,7 +31,8 @@ namespace scree
 
     bool is_map(const std::filesystem::path &file)
     {
-      return file.extension() == ".asc";
+      const auto kind = file.extension();
+      return kind == ".asc" || kind == ".prj" || kind == ".tif" || kind == ".csv";
     }
 
     bool is_probe(const std::filesystem::path &file)
@@ -74,7 +75,8 @@ namespace scree
         if (std::filesystem::is_directory(file("maps")))
           remove_files(file("maps"), is_map);
         std::filesystem::remove_all(file("checkpoint"));
-        std::filesystem::remove(file("statistics"));
+        for (const std::string name : { "statistics", "statistics.csv" })
+          std::filesystem::remove(file(name));
         remove_files(path, is_probe);
         log_file.close();
         log_file.open(file("log.txt"), std::ios::trunc);

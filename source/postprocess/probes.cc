@@ -93,8 +93,7 @@ namespace scree
   template <int dim>
   typename Probes<dim>::Table *Probes<dim>::new_table(const std::string &name, const std::vector<std::string> &columns)
   {
-    const std::string file = "probe_" + name;
-    tables.push_back({ file, RowFile(folder.file(file)), { "Time (s)" } });
+    tables.push_back({ TableFile(folder, "probe_" + name), { "Time (s)" } });
     auto &of_table = tables.back().columns;
     of_table.insert(of_table.end(), columns.begin(), columns.end());
     return &tables.back();
@@ -117,12 +116,7 @@ namespace scree
   template <int dim>
   void Probes<dim>::append(Table &table, const std::vector<std::vector<double>> &rows)
   {
-    folder.try_to_write(table.file, [&] {
-      std::string text = table.rows.is_empty() ? table_head(table.columns) : "";
-      for (const auto &row : rows)
-        text += table_row(row);
-      table.rows.append(text);
-    });
+    table.rows.append(table.columns, rows);
   }
 
 
@@ -232,27 +226,23 @@ namespace scree
   void Probes<dim>::sync()
   {
     for (Table &table : tables)
-      folder.try_to_write(table.file, [&] { table.rows.sync(); });
+      table.rows.sync();
   }
 
 
   template <int dim>
   void Probes<dim>::cut()
   {
-    if (folder.is_writer())
-      for (Table &table : tables)
-        if (const std::string missing = table.rows.cut(); !missing.empty())
-          folder.log(missing);
+    for (Table &table : tables)
+      table.rows.cut();
   }
 
 
   template <int dim>
   void Probes<dim>::complete()
   {
-    if (folder.is_writer())
-      for (Table &table : tables)
-        if (!table.rows.is_complete())
-          table.rows.append("");
+    for (Table &table : tables)
+      table.rows.complete();
   }
 
   template class Probes<2>;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
-#include <scree/io/row_file.h>
 #include <scree/postprocess/statistics.h>
 
 #include <cmath>
@@ -73,22 +72,22 @@ namespace scree
 
 
   template <int dim>
-  std::string Statistics<dim>::head() const
+  std::vector<std::string> Statistics<dim>::columns() const
   {
-    std::vector<std::string> columns;
+    std::vector<std::string> result;
     for (const auto &[column, value] : last_row)
-      columns.push_back(column);
-    return table_head(columns);
+      result.push_back(column);
+    return result;
   }
 
 
   template <int dim>
-  std::string Statistics<dim>::row() const
+  std::vector<double> Statistics<dim>::values() const
   {
-    std::vector<double> values;
+    std::vector<double> result;
     for (const auto &[column, value] : last_row)
-      values.push_back(value);
-    return table_row(values);
+      result.push_back(value);
+    return result;
   }
 
 

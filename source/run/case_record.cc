@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/run/case_record.h>
+#include <scree/geometry/raster_formats/coordinate_system.h>
 #include <scree/io/log_header.h>
 
 #include <deal.II/base/mpi.h>
@@ -53,6 +54,8 @@ namespace scree
       folder.log("Local origin: x = 0, y = 0 is " + number_text(origin) +
                  " m on the map. Rasters, outlines and maps are in the map's coordinates, all else, the pictures, too, "
                  "from this place.");
+    if (!parameters.map_system.empty())
+      folder.log("Coordinate system of the maps: " + name_of_system(parameters.map_system));
     if (!parameters.text_of_box.empty())
       folder.log(parameters.text_of_box);
     for (const BodyParameters &body : parameters.bodies)

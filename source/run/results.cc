@@ -23,10 +23,11 @@ namespace scree
                      parameters.contact_groups().n > 1,
                      scene.bed.get(),
                      &scene.obstacles })
-      , rows(folder.file("statistics"))
+      , rows(folder, "statistics")
       , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
       , maps(parameters.output.maps,
-             { parameters.bed.map_origin, scene.ground ? scene.ground->map_system() : "" },
+             { parameters.bed.map_origin, parameters.map_system },
+             { parameters.end_time, parameters.output.interval },
              scene.grid,
              folder)
       , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
@@ -60,8 +61,7 @@ namespace scree
   {
     statistics.collect(
         scene.bodies, scene.water, state.totals, state.time, state.step, state.time_step, state.last_update);
-    folder.try_to_write("statistics",
-                        [&] { rows.append((rows.is_empty() ? statistics.head() : "") + statistics.row()); });
+    rows.append(statistics.columns(), { statistics.values() });
     probes.write_rows(probed_state(state, scheme.water_view().get()));
     maps.sample(scene.bodies, state.time);
     statistics.require_numbers(state.time);
@@ -88,7 +88,7 @@ namespace scree
   template <int dim>
   void Results<dim>::sync()
   {
-    folder.try_to_write("statistics", [&] { rows.sync(); });
+    rows.sync();
     probes.sync();
   }
 
@@ -98,9 +98,7 @@ namespace scree
   {
     graphics.cut();
     probes.cut();
-    if (folder.is_writer())
-      if (const std::string missing = rows.cut(); !missing.empty())
-        folder.log(missing);
+    rows.cut();
   }
 
 
@@ -114,8 +112,7 @@ namespace scree
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
       statistics.print_last_row(std::cout);
     folder.require_presence();
-    if (folder.is_writer() && !rows.is_complete())
-      rows.append(""); // throws if the disk still refuses them
+    rows.complete();
     probes.complete();
   }
 

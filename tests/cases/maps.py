@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""maps.py SCREE LAUNCHER TEST: the maps of a run: values of a block in flight, on one rank and two, and after a resume.
+"""maps.py SCREE LAUNCHER TEST: the maps of a run: values of a block in flight, on one rank and two, and after a resume; GeoTIFF.
 
 Each test is a function below (case_tools.py).
 """
 
+import csv
 import pathlib
 import shutil
 import sys
 
 import numpy as np
 
-from scree.results import read_raster, read_table
+from scree.results import map_file, read_raster, read_table
 
 from case_tools import HERE, check, run
 
@@ -45,13 +46,21 @@ end
 
 def read_map(results, name):
     """Values of a map, rows from the south; nan where there is none."""
-    return read_raster(results / "maps" / f"{name}.asc").values[::-1]
+    return read_raster(map_file(results, name)).values[::-1]
+
+
+def close_map(results, name, wanted, soil, what):
+    """The map has the values where there is soil, and none elsewhere."""
+    values = read_map(results, name)
+    check(np.array_equal(np.isnan(values), soil <= 0), f"{what}: values elsewhere than the soil")
+    close(np.nan_to_num(values), np.where(soil > 0, wanted, 0), what)
 
 
 def read_profile(results):
     """Columns of the table of a plane run."""
-    lines = (results / "maps" / "profile.csv").read_text(encoding="utf-8").splitlines()
-    return dict(zip(lines[0].split(", "), np.array([[float(word) for word in line.split(",")] for line in lines[1:]]).T))
+    with open(results / "maps" / "profile.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
 def close(values, wanted, what):
@@ -71,19 +80,17 @@ def block():
     along_y[:4] = 0.125, 0.875, 0.875, 0.125
     at_end = 0.4 * np.outer(along_y, along_x)
     at_start = np.roll(at_end, -3, axis=1)
-    close(read_map(results, "thickness_0s"), at_start, "thickness at the start")
-    close(raster.values[::-1], at_end, "thickness")
-    close(read_map(results, "thickness_0.1s"), at_end, "thickness by its time")
-    close(read_map(results, "mass"), 2000 * at_end, "mass")
-    close(read_map(results, "deposit"), at_end - at_start, "deposit")
-    largest, speed = read_map(results, "largest_thickness"), read_map(results, "largest_speed")
+    either = np.maximum(at_start, at_end)
+    close_map(results, "thickness_0.0s", at_start, at_start, "thickness at the start")
+    close_map(results, "thickness", at_end, at_end, "thickness")
+    close_map(results, "thickness_0.1s", at_end, at_end, "thickness by its time")
+    close_map(results, "mass", 2000 * at_end, at_end, "mass")
+    close_map(results, "deposit", at_end - at_start, either, "deposit")
+    close_map(results, "largest_thickness", either, either, "largest thickness of two samples")
+    is_reached = either >= 0.02
+    close_map(results, "largest_speed", np.sqrt(10) * is_reached, either, "largest speed, 0 where the soil was too thin")
+    close_map(results, "largest_impact_pressure", 2e4 * is_reached, either, "largest impact pressure")
     arrival = read_map(results, "arrival_time")
-    close(largest, np.maximum(at_start, at_end), "largest thickness of two samples")
-    is_reached = largest >= 0.02
-    close(speed[is_reached], np.sqrt(10), "largest speed")
-    close(speed[~is_reached], 0, "largest speed where there was nothing")
-    pressure = read_map(results, "largest_impact_pressure")
-    close(pressure / 2e4, is_reached, "largest impact pressure over density times speed squared")
     close(arrival[at_start >= 0.02], 0, "arrival time at the source")
     close(arrival[is_reached & (at_start < 0.02)], 0.1, "arrival time")
     check(np.all(np.isnan(arrival[~is_reached])), "arrival where there was nothing")
@@ -98,8 +105,9 @@ def slide():
     first = {name: read_map(one, name) for name in NAMES}
     statistics = read_table(one / "statistics")
     mass = next(values for name, values in statistics.items() if name.startswith("Mass (kg)"))[-1]
-    check(abs(np.sum(first["mass"]) * 0.1**2 / mass - 1) <= 1e-7, "mass of the map and of the points")
-    check(np.all(first["largest_thickness"] >= first["thickness"]), "largest thickness below the last one")
+    check(abs(np.nansum(first["mass"]) * 0.1**2 / mass - 1) <= 1e-7, "mass of the map and of the points")
+    there = ~np.isnan(first["thickness"])
+    check(np.all(first["largest_thickness"][there] >= first["thickness"][there]), "largest thickness below the last one")
     check(np.nanmax(first["arrival_time"]) > 0.05, "nothing arrives after the checkpoint")
     check(np.nanmax(first["largest_speed"]) > 0.1, "nothing moves")
     check(np.nanmax(first["scour_depth"]) > 0.05, "nothing has left its place")
@@ -130,7 +138,8 @@ def scour():
     for ranks in (1, 2):
         results = run(f"scour_{ranks}", flying + MAPS + SCOUR, ranks=ranks)
         # All that has left is the flow's layer of one cell, from where it was at the start.
-        close(read_map(results, "scour_depth"), 0.1 * np.outer(along_y, along_x), "scour depth")
+        depth = 0.1 * np.outer(along_y, along_x)
+        close_map(results, "scour_depth", depth, depth, "scour depth")
 
 
 def profile():
@@ -141,28 +150,53 @@ def profile():
     for ranks in (1, 2):
         results = run(f"profile_{ranks}", plane + MAPS, ranks=ranks)
         table = read_profile(results)
-        close(table["x (m)"], 600000 + 0.1 * (np.arange(12) + 0.5), "x")
+        close(table["x_m"], 600000 + 0.1 * (np.arange(12) + 0.5), "x")
         at_end = np.zeros(12)
         at_end[4:9] = 0.05, 0.35, 0.4, 0.35, 0.05
         at_start = np.roll(at_end, -3)
-        close(table["thickness (m)"], at_end, "thickness")
-        close(table["mass (kg/m^2)"], 2000 * at_end, "mass")
-        close(table["deposit (m)"], at_end - at_start, "deposit")
+        close(table["thickness_m"], at_end, "thickness")
+        close(table["mass_kg_m2"], 2000 * at_end, "mass")
+        close(table["deposit_m"], at_end - at_start, "deposit")
         largest = np.maximum(at_start, at_end)
-        close(table["largest thickness (m)"], largest, "largest thickness")
-        close(table["largest speed (m/s)"], np.sqrt(10) * (largest > 0), "largest speed")
-        close(table["largest impact pressure (Pa)"] / 2e4, largest > 0, "largest impact pressure over density times speed squared")
+        close(table["largest_thickness_m"], largest, "largest thickness")
+        close(table["largest_speed_m_s"], np.sqrt(10) * (largest > 0), "largest speed")
+        close(table["largest_impact_pressure_Pa"] / 2e4, largest > 0, "largest impact pressure over density times speed squared")
         arrival = np.where(at_start > 0, 0, np.where(at_end > 0, 0.1, np.nan))
-        check(np.array_equal(np.isnan(table["arrival time (s)"]), np.isnan(arrival)), "arrival where there was nothing")
-        close(np.nan_to_num(table["arrival time (s)"]), np.nan_to_num(arrival), "arrival time")
-        check((results / "maps" / "profile_0s.csv").exists() and (results / "maps" / "profile_0.1s.csv").exists(), "profiles of their times")
+        check(np.array_equal(np.isnan(table["arrival_time_s"]), np.isnan(arrival)), "arrival where there was nothing")
+        close(np.nan_to_num(table["arrival_time_s"]), np.nan_to_num(arrival), "arrival time")
+        check((results / "maps" / "profile_0.0s.csv").exists() and (results / "maps" / "profile_0.1s.csv").exists(), "profiles of their times")
 
     # Slowed down from 3 to 2 m/s: where it is at the start, that is its largest speed, and its largest pressure.
     table = read_profile(run("slowed", "set Body force = -10; 0\n" + plane + MAPS))
-    speed = table["largest speed (m/s)"]
+    speed = table["largest_speed_m_s"]
     close(speed[at_start >= 0.02], np.sqrt(10), "largest speed of what slows down")
     check(0 < np.min(speed[speed > 0]) < 3, "nothing is reached late")
-    close(table["largest impact pressure (Pa)"] / 2000, speed**2, "largest impact pressure over density of what slows down")
+    close(table["largest_impact_pressure_Pa"] / 2000, speed**2, "largest impact pressure over density of what slows down")
 
 
-{"block": block, "slide": slide, "scour": scour, "profile": profile}[sys.argv[3]]()
+def geo_tiff():
+    """The block's maps as GeoTIFF have the values and places of the ASCII grids, and the coordinate system of the case; without GDAL this is
+    skipped. A run in one format removes the maps of another."""
+    formats = MAPS.replace("set Write ", "set Format          = ASCII grid and GeoTIFF\n    set Write ")
+    case = BLOCK + formats
+    results = run("geo_tiff", "set Coordinate system = EPSG:2056\n" + case)
+    log = (results / "log.txt").read_text(encoding="utf-8")
+    check("Coordinate system of the maps: EPSG:2056" in log, "log")
+    for name in ("thickness_0.0s", "thickness", "deposit", "arrival_time"):
+        grid, tiff = (read_raster(results / "maps" / (name + ending)) for ending in (".asc", ".tif"))
+        check(np.array_equal(np.isnan(grid.values), np.isnan(tiff.values)), f"{name}: nan elsewhere")
+        close(np.nan_to_num(tiff.values), np.nan_to_num(grid.values), f"{name}: GeoTIFF and ASCII grid")
+        close(np.array(tiff.extent), np.array(grid.extent), f"{name}: place")
+        check("CH1903+_LV95" in (results / "maps" / f"{name}.prj").read_text(encoding="utf-8"), f"{name}: .prj")
+    # The program reads its own map, with its system: a raster of another one does not go with it.
+    shutil.copy(results / "maps" / "thickness_0.0s.tif", "release.tif")
+    text = BLOCK.replace("set Region           = x > 600000.2 && x < 600000.5 && y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6",
+                         "set Thickness = ../release.tif") + "subsection Bed\n  set Type = fixed\n  set Level set expression = z - 1000.2\nend\n"
+    again = run("geo_tiff", text + MAPS.replace("set Write ", "set Format          = GeoTIFF\n    set Write "))
+    check("Coordinate system of the maps: EPSG:2056" in (again / "log.txt").read_text(encoding="utf-8"), "system of the raster")
+    check(not list((again / "maps").glob("*.asc")) and not list((again / "maps").glob("*.prj")), "maps of the run before are left")
+    first, second = (read_map(again, "thickness_0.0s"), read_raster("release.tif").values[::-1])
+    check(abs(np.nansum(first) / np.nansum(second) - 1) < 0.05, "thickness of the soil from its own map")
+
+
+{"block": block, "geo_tiff": geo_tiff, "slide": slide, "scour": scour, "profile": profile}[sys.argv[3]]()

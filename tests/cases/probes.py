@@ -4,10 +4,12 @@
 Each test is a function below (case_tools.py).
 """
 
+import csv
 import pathlib
 import sys
 
 import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 from scree.pictures.tables import render_probe
 from scree.results import read_points, read_statistics, read_table, read_times
@@ -25,6 +27,36 @@ subsection Water
 end
 """
 FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front", "walls")]
+
+
+def same_in_csv(results, name, columns):
+    """A table and its .csv have the same rows; some columns of the latter have these names."""
+    table = read_table(results / name)
+    with open(results / f"{name}.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    check(len(rows) == len(next(iter(table.values()))) and len(rows[0]) == len(table), f"{name}.csv: another size")
+    for column, (head, values) in zip(rows[0], table.items()):
+        others = [float(row[column]) for row in rows]
+        check(np.allclose(values, others, rtol=1e-11, atol=0, equal_nan=True), f"{name}.csv, {column}: {others}, not {head}: {values}")
+    check(set(columns) <= set(rows[0]), f"{name}.csv has the columns {list(rows[0])}")
+
+
+def fields_in_vtk(results):
+    """VTK reads the files for ParaView with units in the names of fields, and names of components; the package strips the units."""
+    wanted = {"velocity [m/s]": "X Y Z", "stress [Pa]": "XX XY XZ YX YY YZ ZX ZY ZZ", "displacement [m]": "X Y Z", "mass [kg]": "", "stress_ratio": "",
+              "plastic_shear_strain": "", "image_pressure [Pa]": ""}
+    reader = vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(results / "solution" / "points_00001.pvtu"))
+    reader.Update()
+    data = reader.GetOutput().GetPointData()
+    found = {data.GetArrayName(i): data.GetArray(i) for i in range(data.GetNumberOfArrays())}
+    check(set(wanted) <= set(found), f"fields {list(found)}")
+    for label, components in wanted.items():
+        n = found[label].GetNumberOfComponents()
+        names = " ".join(found[label].GetComponentName(i) or "" for i in range(n)) if n > 1 else ""
+        check(names == components, f"{label}: components {names}")
+    arrays = read_points(results).arrays
+    check(arrays.units["stress"] == "Pa" and np.array_equal(arrays["stress"], arrays["stress [Pa]"]), "names with and without unit")
 
 
 def compare(first, second, tolerance):
@@ -58,6 +90,11 @@ def dry():
     check(np.allclose(base["x (m)"], np.tile(np.linspace(0, 1.6, 17), 3), atol=1e-9), "places from end to end of the line")
     check(np.allclose(base["Distance (m)"], base["x (m)"], atol=1e-9) and np.all(base["y (m)"] == 0.02), "distances from the first end")
 
+    same_in_csv(one, "statistics", ["time_s", "step", "momentum_x_Ns", "kinetic_energy_J", "front_90_m", "front_99_5_m", "stress_oscillation"])
+    for name, columns in (("toe", ["time_s", "velocity_x_m_s", "effective_stress_xx_Pa", "porosity"]), ("far", []), ("base", ["distance_m", "x_m"]),
+                          ("front", ["rear_m"]), ("walls", ["bottom_soil_y_N"])):
+        same_in_csv(one, "probe_" + name, columns)
+    fields_in_vtk(one)
     for name in ("toe", "base", "walls"):
         render_probe(one, name, f"{name}.png")
         check(pathlib.Path(f"{name}.png").stat().st_size > 10000, f"a picture of {name}")
@@ -69,9 +106,10 @@ def dry():
     compare(one, two, 1e-6)
     for folder in (one, two):
         displacements(folder)
-    before = {name: (one / name).read_bytes() for name in FILES}
+    files = [name + ending for name in [*FILES, "statistics"] for ending in ("", ".csv")]
+    before = {name: (one / name).read_bytes() for name in files}
     run("one", DRY, "--resume")
-    check(all((one / name).read_bytes() == before[name] for name in FILES), "a resumed run ends with the same files")
+    check(all((one / name).read_bytes() == before[name] for name in files), "a resumed run ends with the same files")
     displacements(one)
 
 

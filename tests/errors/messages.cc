@@ -109,7 +109,8 @@ namespace
       fs::remove_all(folder);
       fs::create_directories(folder);
       for (const auto &entry : fs::directory_iterator(source))
-        if (const std::string type = entry.path().extension(); type == ".prm" || type == ".part" || type == ".tif")
+        if (const std::string type = entry.path().extension();
+            type == ".prm" || type == ".part" || type == ".tif" || type == ".prj")
           {
             originals[entry.path().filename()] = entry.path();
             copy(entry.path());

@@ -5,7 +5,7 @@ import pathlib
 
 import numpy as np
 
-from scree.results import column, read_raster, read_statistics, read_table, write_raster
+from scree.results import Fields, bare_name, column, map_file, read_raster, read_statistics, read_table, write_raster
 
 
 def raises(kind, text, function, *arguments):
@@ -39,5 +39,24 @@ def test_rasters():
     raises(ValueError, "short.asc is no ESRI ASCII grid", read_raster, "short.asc")
 
 
+def test_fields():
+    assert [bare_name(name) for name in ("velocity [m/s]", "velocity", "odd [name]")] == ["velocity", "velocity", "odd"]
+    fields = Fields({"pore_pressure [Pa]": 1, "porosity": 2})
+    assert list(fields) == ["pore_pressure", "porosity"] and fields.units == {"pore_pressure": "Pa", "porosity": ""}
+    assert fields["pore_pressure"] == fields["pore_pressure [Pa]"] == fields.get("pore_pressure [Pa]") == 1
+    assert "porosity" in fields and "pore_pressure [Pa]" in fields and "pressure" not in fields and fields.get("pressure") is None
+    raises(KeyError, "pressure", fields.__getitem__, "pressure [Pa]")
+    raises(KeyError, "pressure", fields.__getitem__, "pressure")
+
+
+def test_map_files():
+    pathlib.Path("run/maps").mkdir(parents=True, exist_ok=True)
+    pathlib.Path("run/maps/mass.tif").write_text("no raster", encoding="utf-8")
+    assert map_file("run", "mass").name == "mass.tif" and map_file("run", "deposit").name == "deposit.asc"
+    raises(ValueError, "mass.tif is no GeoTIFF", read_raster, "run/maps/mass.tif")
+
+
 test_tables()
+test_fields()
+test_map_files()
 test_rasters()

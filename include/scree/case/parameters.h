@@ -38,6 +38,7 @@ namespace scree
     std::string output_directory{ "results/scree" }; ///< the run folder
     std::vector<double> gravity{ 0., -9.81 };        ///< m/s^2, one number an axis
     std::vector<double> local_origin{ 0., 0. };      ///< on the map, m
+    std::string coordinate_system;                   ///< of the map, such as EPSG:2056; empty: that of its rasters
 
     GridParameters grid;                       ///< subsection Mesh
     TimeStepParameters time_step;              ///< subsection Time step
@@ -54,6 +55,8 @@ namespace scree
     SettlingParameters settling;               ///< subsection Settling
     OutputParameters output;                   ///< subsection Output
     ProbeParameters probes;                    ///< subsection Probes
+
+    std::string map_system; ///< of the map's coordinates, see system_of_maps(); set once the case is read
 
     std::string text_of_box; ///< for the log, of a box that follows from the raster; else empty
 

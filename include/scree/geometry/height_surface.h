@@ -22,11 +22,6 @@ namespace scree
     SurfaceView<3> view(const dealii::Point<3> &x, const double reach) const override;
     std::string remark() const override;
 
-    std::string map_system() const override
-    {
-      return raster.system;
-    }
-
   private:
     /// Height of the ground, m; NaN where it is missing.
     double height(const double x, const double y) const;

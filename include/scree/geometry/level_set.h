@@ -30,12 +30,6 @@ namespace scree
     /// normal is any unit vector.
     virtual SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const = 0;
 
-    /// The system of the coordinates of the map that it is from, as a .prj file tells it; empty: none is known.
-    virtual std::string map_system() const
-    {
-      return "";
-    }
-
     /// What the log should tell of the surface; empty: nothing.
     virtual std::string remark() const
     {

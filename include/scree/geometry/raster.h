@@ -19,7 +19,7 @@ namespace scree
         y                  = 0; ///< of the first row, m
     double spacing         = 0; ///< of the values along both axes, m
     std::vector<double> values; ///< n_columns x n_rows, row by row
-    std::string system;         ///< of the map's coordinates, as a .prj file tells it; empty if that is not known
+    std::string system;         ///< of the map's coordinates: a code such as EPSG:2056, or the text of a .prj file
 
     /// Value of a column and a row, counted from 0; NaN where it is missing.
     double operator()(const unsigned int column, const unsigned int row) const
@@ -67,6 +67,9 @@ namespace scree
   /// entry_name()), if it is none.
   /// @param origin where the map has the origin of the raster's x and y, m
   Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
+
+  /// The Raster::system of a raster alone; empty if it is not known. Throws EntryError if there is no such file.
+  std::string read_raster_system(const std::string &file, const std::string &where);
 } // namespace scree
 
 #endif

@@ -27,14 +27,27 @@ namespace scree
   /// Subsection Maps of subsection Output.
   struct MapParameters
   {
-    bool write             = false; ///< whether maps are written with each picture
-    double least_thickness = 0;     ///< m, of soil that counts as having arrived
+    bool write             = false;        ///< whether maps are written with each picture
+    double least_thickness = 0;            ///< m, of soil that counts as having arrived
+    std::string format     = "ASCII grid"; ///< ASCII grid | GeoTIFF | ASCII grid and GeoTIFF, in 3D
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError at maps of a scene that has none.
-    void check(const bool has_soil) const;
+    /// Throws EntryError at maps of a scene that has none, and at formats that it or the program does not have.
+    void check(const bool has_soil, const unsigned int dim) const;
+
+    /// Whether maps in space are ESRI ASCII grids.
+    bool writes_ascii_grid() const
+    {
+      return format != "GeoTIFF";
+    }
+
+    /// Whether maps in space are GeoTIFF.
+    bool writes_geo_tiff() const
+    {
+      return format != "ASCII grid";
+    }
   };
 
   /// Subsection Output.

@@ -4,16 +4,9 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace scree
 {
-  /// The lines that name the columns of a table.
-  std::string table_head(const std::vector<std::string> &columns);
-
-  /// A row of a table, with its end of line.
-  std::string table_row(const std::vector<double> &values);
-
   /// A text file that grows by rows: what stands there is not touched again, and a resumed run goes on from the row at
   /// which its checkpoint was written. One rank owns and writes it; on others it only travels through checkpoints.
   class RowFile

@@ -4,8 +4,7 @@
 
 #include <scree/postprocess/place_values.h>
 #include <scree/postprocess/probe_parameters.h>
-#include <scree/io/row_file.h>
-#include <scree/io/run_folder.h>
+#include <scree/io/table_file.h>
 #include <scree/postprocess/wall_forces.h>
 
 #include <list>
@@ -26,7 +25,8 @@ namespace scree
     const WaterView<dim> *view;              ///< null in a dry scene
   };
 
-  /// The files `probe_NAME`: tables like `statistics`, a row a time; those of lines have a row a place and time.
+  /// The files `probe_NAME` and `probe_NAME.csv`: tables like `statistics`, a row a time; those of lines have a row a
+  /// place and time.
   template <int dim>
   class Probes
   {
@@ -65,11 +65,10 @@ namespace scree
     }
 
   private:
-    /// A file, with the names of its columns.
+    /// A table, with the names of its columns.
     struct Table
     {
-      std::string file;
-      RowFile rows;
+      TableFile rows;
       std::vector<std::string> columns;
     };
 

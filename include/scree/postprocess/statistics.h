@@ -10,7 +10,7 @@
 
 namespace scree
 {
-  /// The rows of the file `statistics`: global numbers at each due time.
+  /// The rows of the files `statistics` and `statistics.csv`: global numbers at each due time.
   template <int dim>
   class Statistics
   {
@@ -34,11 +34,11 @@ namespace scree
     /// Throws if a number of the last row, of a `time` in s, is none.
     void require_numbers(const double time) const;
 
-    /// The lines above the first row, which name the columns.
-    std::string head() const;
+    /// The whole names of the columns of the last row.
+    std::vector<std::string> columns() const;
 
-    /// The last row, as a line of the file.
-    std::string row() const;
+    /// The numbers of the last row.
+    std::vector<double> values() const;
 
     /// Prints the last row, one quantity a line.
     void print_last_row(std::ostream &out) const;

@@ -6,7 +6,7 @@
 #include <scree/postprocess/visualization/maps.h>
 #include <scree/postprocess/output_times.h>
 #include <scree/postprocess/probes.h>
-#include <scree/io/row_file.h>
+#include <scree/io/table_file.h>
 #include <scree/postprocess/run_checks.h>
 #include <scree/postprocess/statistics.h>
 #include <scree/model/scene.h>
@@ -74,7 +74,7 @@ namespace scree
     RunFolder &folder;
     Graphics<dim> graphics;
     Statistics<dim> statistics;
-    RowFile rows; // of the statistics
+    TableFile rows; // of the statistics
     Probes<dim> probes;
     Maps<dim> maps;
     RunChecks<dim> checks;

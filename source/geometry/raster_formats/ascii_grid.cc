@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/raster_format.h>
+#include <scree/geometry/raster_formats/raster_writer.h>
 #include <scree/input/input_error.h>
 #include <scree/input/number_table.h>
 
@@ -8,9 +9,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <limits>
 #include <map>
+#include <sstream>
 
 namespace scree
 {
@@ -105,15 +108,7 @@ namespace scree
     }
 
 
-    /// The text of the .prj file that lies beside a grid; empty without one.
-    std::string system_beside(const std::string &file)
-    {
-      std::ifstream in(std::filesystem::path(file).replace_extension(".prj"));
-      return { std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
-    }
-
-
-    Raster read_ascii_raster(std::istream &in, const std::string &file, const std::string &name)
+    Raster read_ascii_raster(std::istream &in, const std::string &, const std::string &name)
     {
       const Header head(in, name);
       const double columns = head.number("ncols"), rows = head.number("nrows");
@@ -123,7 +118,6 @@ namespace scree
         throw EntryError(name + "ncols = " + number_text(columns) + " and nrows = " + number_text(rows) +
                          " must be whole numbers, 2 at least.");
       Raster raster;
-      raster.system    = system_beside(file);
       raster.n_columns = static_cast<unsigned int>(columns);
       raster.n_rows    = static_cast<unsigned int>(rows);
       raster.spacing   = head.cell_size();
@@ -132,7 +126,7 @@ namespace scree
       raster.x              = head.origin("x", raster.spacing);
       raster.y              = head.origin("y", raster.spacing);
       const bool may_be_nan = head.misses_nan();
-      const double missing  = head.has("nodata_value") && !may_be_nan ? head.number("nodata_value") : -9999.;
+      const double missing  = head.has("nodata_value") && !may_be_nan ? head.number("nodata_value") : missing_value;
 
       raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
       std::string word;
@@ -158,4 +152,30 @@ namespace scree
 
     const RegisterRasterFormat registered_ascii("ESRI ASCII grid", claim_ascii_raster, read_ascii_raster);
   } // namespace
+
+
+  std::string system_beside(const std::string &file, const std::string &)
+  {
+    std::ifstream in(std::filesystem::path(file).replace_extension(".prj"));
+    std::string text{ std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
+    text.erase(text.find_last_not_of(" \t\r\n") + 1);
+    return text;
+  }
+
+
+  std::string ascii_grid(const Raster &raster)
+  {
+    std::ostringstream text;
+    text << std::setprecision(15) << "ncols " << raster.n_columns << "\nnrows " << raster.n_rows << "\nxllcorner "
+         << raster.x - 0.5 * raster.spacing << "\nyllcorner " << raster.y - 0.5 * raster.spacing << "\ncellsize "
+         << raster.spacing << "\nNODATA_value " << missing_value << '\n'
+         << std::setprecision(9);
+    for (unsigned int row = raster.n_rows; row-- > 0;) // from the north
+      for (unsigned int column = 0; column < raster.n_columns; ++column)
+        {
+          const double value = raster(column, row);
+          text << (std::isnan(value) ? missing_value : value) << (column + 1 < raster.n_columns ? ' ' : '\n');
+        }
+    return text.str();
+  }
 } // namespace scree

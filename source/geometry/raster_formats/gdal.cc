@@ -47,16 +47,43 @@ namespace scree
     }
 
 
+    std::unique_ptr<GDALDataset> open(const std::string &file, const std::string &name)
+    {
+      GDALAllRegister();
+      std::unique_ptr<GDALDataset> data(
+          GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+      if (!data || data->GetRasterCount() < 1)
+        throw EntryError(name + "GDAL finds no raster in it: " + CPLGetLastErrorMsg());
+      return data;
+    }
+
+
+    /// The code of the EPSG if the file has it, else the text of a .prj file.
+    std::string system_of_gdal_raster(const std::string &file, const std::string &name)
+    {
+      const Quiet quiet;
+      const auto data                   = open(file, name);
+      const OGRSpatialReference *system = data->GetSpatialRef();
+      if (system == nullptr)
+        return "";
+      const char *authority = system->GetAuthorityName(nullptr), *code = system->GetAuthorityCode(nullptr);
+      if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
+        return std::string("EPSG:") + code;
+      char *text            = nullptr;
+      const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
+      const bool is_known   = system->exportToWkt(&text, options) == OGRERR_NONE;
+      const std::string wkt = is_known ? text : "";
+      CPLFree(text);
+      return wkt;
+    }
+
+
     /// Reads the first band of a raster in any format that GDAL knows, such as GeoTIFF. Throws EntryError if there is
     /// none, or if it is not in m along the axes of a projected system of coordinates.
     Raster read_gdal_raster(std::istream &, const std::string &file, const std::string &name)
     {
       const Quiet quiet;
-      GDALAllRegister();
-      const std::unique_ptr<GDALDataset> data(
-          GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
-      if (!data || data->GetRasterCount() < 1)
-        throw EntryError(name + "GDAL finds no raster in it: " + CPLGetLastErrorMsg());
+      const auto data = open(file, name);
       require_metres(*data, name);
       double map[6]; // x = map[0] + map[1] column + map[2] row, y = map[3] + map[4] column + map[5] row
       if (data->GetGeoTransform(map) != CE_None)
@@ -71,14 +98,6 @@ namespace scree
       raster.n_rows    = data->GetRasterYSize();
       if (raster.n_columns < 2 || raster.n_rows < 2)
         throw EntryError(name + "it must have 2 columns and 2 rows at least.");
-      if (const OGRSpatialReference *system = data->GetSpatialRef())
-        {
-          char *text            = nullptr;
-          const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
-          if (system->exportToWkt(&text, options) == OGRERR_NONE)
-            raster.system = text;
-          CPLFree(text);
-        }
       raster.spacing = map[1];
       raster.x       = map[0] + 0.5 * map[1];
       raster.y       = map[3] + (raster.n_rows - 0.5) * map[5];
@@ -103,6 +122,12 @@ namespace scree
     }
 
 #else
+    std::string system_of_gdal_raster(const std::string &, const std::string &)
+    {
+      return ""; // read_gdal_raster() tells why
+    }
+
+
     Raster read_gdal_raster(std::istream &, const std::string &, const std::string &name)
     {
       throw EntryError(name + "it is no ESRI ASCII grid, and this program was built without GDAL, which reads others. "
@@ -117,6 +142,6 @@ namespace scree
     }
 
 
-    const RegisterRasterFormat registered_gdal("GDAL", claim_by_gdal, read_gdal_raster);
+    const RegisterRasterFormat registered_gdal("GDAL", claim_by_gdal, read_gdal_raster, system_of_gdal_raster);
   } // namespace
 } // namespace scree

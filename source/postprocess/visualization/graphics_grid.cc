@@ -13,15 +13,12 @@ namespace scree
                                  const Cells &contents)
   {
     PatchOutput<dim, dim> output;
-    output.add_vector("velocity");
-    output.add_name("density");
-    output.add_name("mean_effective_stress");
+    for (const OutputField &field : { fields::velocity, fields::density, fields::mean_effective_stress })
+      output.add(field);
     if (view)
-      {
-        output.add_vector("water_velocity");
-        for (const std::string name : { "pressure", "porosity", "saturation" })
-          output.add_name(name);
-      }
+      for (const OutputField &field :
+           { fields::water_velocity, fields::pressure, fields::porosity, fields::saturation })
+        output.add(field);
 
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     for (const auto &cell : grid.triangulation().active_cell_iterators())

@@ -73,8 +73,8 @@ namespace scree
         for (const auto &body : bodies)
           for (const auto &fields : { body.material->internal_quantities(), body.material->output_quantities() })
             for (const Quantity &field : fields)
-              if (std::find(names.begin() + first_row, names.end(), field.name) == names.end())
-                output.add_name(field.name);
+              if (std::find(names.begin() + first_row, names.end(), label_of(field)) == names.end())
+                output.add({ field.name, field.unit });
       }
 
       /// Prepares put() for the points of a body.
@@ -100,11 +100,16 @@ namespace scree
       }
 
     private:
+      static std::string label_of(const Quantity &quantity)
+      {
+        return OutputField{ quantity.name, quantity.unit }.label();
+      }
+
       std::vector<unsigned int> rows_of(const std::vector<Quantity> &fields) const
       {
         std::vector<unsigned int> rows;
         for (const Quantity &field : fields)
-          rows.push_back(std::find(names.begin() + first_row, names.end(), field.name) - names.begin());
+          rows.push_back(std::find(names.begin() + first_row, names.end(), label_of(field)) - names.begin());
         return rows;
       }
 
@@ -123,21 +128,22 @@ namespace scree
                                    const WaterView<dim> *view)
   {
     PatchOutput<0, dim> output;
-    output.add_vector("velocity");
-    output.add_tensor("stress");
-    for (const std::string name :
-         { "mean_effective_stress", "deviatoric_stress", "stress_ratio", "mass", "volume", "body" })
-      output.add_name(name);
+    for (const OutputField &field : { fields::velocity,
+                                      fields::stress,
+                                      fields::mean_effective_stress,
+                                      fields::deviatoric_stress,
+                                      fields::stress_ratio,
+                                      fields::mass,
+                                      fields::volume,
+                                      fields::body })
+      output.add(field);
     if (view)
-      {
-        output.add_name("porosity");
-        output.add_name("pore_pressure");
-        output.add_vector("seepage_velocity");
-      }
-    output.add_name("id");
+      for (const OutputField &field : { fields::porosity, fields::pore_pressure, fields::seepage_velocity })
+        output.add(field);
+    output.add(fields::id);
     const bool with_displacement = bodies.front().layout.has_start; // all bodies have it, or none
     if (with_displacement)
-      output.add_vector("displacement");
+      output.add(fields::displacement);
     LawFields<dim> law_fields(bodies, output);
 
     unsigned int number = 0;
@@ -186,10 +192,14 @@ namespace scree
                                   const Cells &contents)
   {
     PatchOutput<0, dim> output;
-    output.add_vector("velocity");
-    for (const std::string name : { "pressure", "mass", "volume", "porosity", "inside_soil" })
-      output.add_name(name);
-    output.add_vector("seepage_velocity");
+    for (const OutputField &field : { fields::velocity,
+                                      fields::pressure,
+                                      fields::mass,
+                                      fields::volume,
+                                      fields::porosity,
+                                      fields::inside_soil,
+                                      fields::seepage_velocity })
+      output.add(field);
 
     for (const auto &water : view.water)
       for (const auto &cell : water.points().cells())

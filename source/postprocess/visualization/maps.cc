@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
+#include <scree/geometry/raster_formats/coordinate_system.h>
+#include <scree/geometry/raster_formats/raster_writer.h>
+#include <scree/io/table_file.h>
 #include <scree/postprocess/visualization/maps.h>
 #include <scree/tensor/vector.h>
 
@@ -8,27 +10,21 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr double no_data = -9999.; // as most programs of maps know it
-  }
-
-
   template <int dim>
   Maps<dim>::Maps(const MapParameters &parameters,
                   const MapFrame &frame,
+                  const TimeLabel &time_label,
                   const BackgroundGrid<dim> &grid,
                   const RunFolder &folder)
       : parameters(parameters)
       , frame(frame)
+      , time_label(time_label)
       , grid(grid)
       , folder(folder)
   {
@@ -125,81 +121,102 @@ namespace scree
 
 
   template <int dim>
+  std::vector<typename Maps<dim>::Sheet> Maps<dim>::sheets() const
+  {
+    const double area = Utilities::fixed_power<dim - 1>(grid.cell_size());
+    Map deposit(mass.size()), now_or_first(mass.size()), arrival(arrival_time), thickness_at_start(first_at_rest);
+    for (std::size_t c = 0; c < mass.size(); ++c)
+      {
+        deposit[c]      = thickness[c] - first_thickness[c];
+        now_or_first[c] = std::max(thickness[c], first_thickness[c]);
+      }
+    std::replace_if(
+        arrival.begin(),
+        arrival.end(),
+        [](const double t) { return t < 0.; },
+        std::numeric_limits<double>::quiet_NaN());
+    for (double &value : thickness_at_start)
+      value /= area;
+    std::vector<Sheet> result{ { "thickness", "m", thickness, thickness },
+                               { "mass", "kg/m^2", mass, thickness },
+                               { "deposit", "m", deposit, now_or_first },
+                               { "largest thickness", "m", largest_thickness, largest_thickness },
+                               { "largest speed", "m/s", largest_speed, largest_thickness },
+                               { "largest impact pressure", "Pa", largest_pressure, largest_thickness },
+                               { "arrival time", "s", arrival, largest_thickness } };
+    if (!scour_depth.empty())
+      result.push_back({ "scour depth", "m", scour_depth, thickness_at_start });
+    return result;
+  }
+
+
+  template <int dim>
   void Maps<dim>::write(const double time) const
   {
     if (!parameters.write || !folder.is_writer())
       return;
     std::filesystem::create_directories(folder.file("maps"));
-    Map deposit(mass.size()), arrival(arrival_time);
-    for (std::size_t c = 0; c < deposit.size(); ++c)
-      deposit[c] = thickness[c] - first_thickness[c];
-    std::replace_if(
-        arrival.begin(),
-        arrival.end(),
-        [](const double t) { return t < 0.; },
-        dim == 2 ? std::numeric_limits<double>::quiet_NaN() : no_data);
-    std::vector<std::pair<std::string, const Map *>> maps{ { "thickness (m)", &thickness },
-                                                           { "mass (kg/m^2)", &mass },
-                                                           { "deposit (m)", &deposit },
-                                                           { "largest thickness (m)", &largest_thickness },
-                                                           { "largest speed (m/s)", &largest_speed },
-                                                           { "largest impact pressure (Pa)", &largest_pressure },
-                                                           { "arrival time (s)", &arrival } };
-    if (!scour_depth.empty())
-      maps.emplace_back("scour depth (m)", &scour_depth);
-    const std::string of_time = '_' + number_text(time) + 's';
+    const std::vector<Sheet> all = sheets();
+    const std::string of_time    = '_' + time_label(time);
     if (dim == 2)
       {
-        write_table("profile" + of_time, maps);
-        write_table("profile", maps);
+        write_table("profile" + of_time, all);
+        write_table("profile", all);
         return;
       }
-    write_map("thickness" + of_time, thickness);
-    for (const auto &[name, map] : maps)
+    write_map("thickness" + of_time, all.front());
+    for (const Sheet &sheet : all)
       {
-        std::string file = name.substr(0, name.find(" ("));
+        std::string file = sheet.name;
         std::replace(file.begin(), file.end(), ' ', '_');
-        write_map(file, *map);
+        write_map(file, sheet);
       }
   }
 
 
   template <int dim>
-  void Maps<dim>::write_table(const std::string &name,
-                              const std::vector<std::pair<std::string, const Map *>> &maps) const
+  void Maps<dim>::write_table(const std::string &name, const std::vector<Sheet> &all) const
   {
-    std::ostringstream text;
-    text << "x (m)";
-    for (const auto &map : maps)
-      text << ", " << map.first;
-    text << '\n';
+    std::vector<std::string> columns{ "x (m)" };
+    for (const Sheet &sheet : all)
+      columns.push_back(sheet.name + " (" + sheet.unit + ')');
+    std::string text = csv_head(columns);
     for (std::size_t c = 0; c < mass.size(); ++c)
       {
-        text << std::setprecision(15) << grid.lower_corner()[0] + (c + 0.5) * grid.cell_size() << std::setprecision(9);
-        for (const auto &map : maps)
-          text << ", " << (*map.second)[c];
-        text << '\n';
+        std::vector<double> row{ grid.lower_corner()[0] + (c + 0.5) * grid.cell_size() };
+        for (const Sheet &sheet : all)
+          row.push_back(sheet.values[c]);
+        text += csv_row(row);
       }
-    folder.write("maps/" + name + ".csv", text.str());
+    folder.write("maps/" + name + ".csv", text);
   }
 
 
   template <int dim>
-  void Maps<dim>::write_map(const std::string &name, const Map &map) const
+  void Maps<dim>::write_map(const std::string &file, const Sheet &sheet) const
   {
-    std::ostringstream text;
-    text << std::setprecision(15) << "ncols " << n[0] << "\nnrows " << n[1] << "\nxllcorner "
-         << frame.origin[0] + grid.lower_corner()[0] << "\nyllcorner " << frame.origin[1] + grid.lower_corner()[1]
-         << "\ncellsize " << grid.cell_size() << "\nNODATA_value " << no_data << '\n'
-         << std::setprecision(9);
-    for (std::size_t row = map.size() / n[0]; row-- > 0;) // from the north
-      for (std::size_t c = 0; c < n[0]; ++c)
-        text << map[row * n[0] + c] << (c + 1 < n[0] ? ' ' : '\n');
-    folder.write("maps/" + name + ".asc", text.str());
+    const double least = 1e-6 * grid.cell_size(); // less soil comes from rounding
+    Raster raster;
+    raster.n_columns = n[0];
+    raster.n_rows    = sheet.values.size() / n[0];
+    raster.spacing   = grid.cell_size();
+    raster.x         = frame.origin[0] + grid.lower_corner()[0] + 0.5 * raster.spacing;
+    raster.y         = frame.origin[1] + grid.lower_corner()[1] + 0.5 * raster.spacing;
+    raster.system    = frame.system;
+    raster.values    = sheet.values;
+    for (std::size_t c = 0; c < raster.values.size(); ++c)
+      if (sheet.soil[c] <= least)
+        raster.values[c] = std::numeric_limits<double>::quiet_NaN();
+    const std::string path = "maps/" + file;
+    if (parameters.writes_geo_tiff())
+      folder.write(path + ".tif", geo_tiff(raster, sheet.name, sheet.unit));
+    if (!parameters.writes_ascii_grid())
+      return;
+    folder.write(path + ".asc", ascii_grid(raster));
     if (frame.system.empty()) // Nothing of an earlier run may tell another one.
-      std::filesystem::remove(folder.file("maps/" + name + ".prj"));
+      std::filesystem::remove(folder.file(path + ".prj"));
     else
-      folder.write("maps/" + name + ".prj", frame.system);
+      folder.write(path + ".prj", prj_text(frame.system));
   }
 
   template class Maps<2>;

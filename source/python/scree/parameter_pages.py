@@ -61,7 +61,7 @@ def kind_of_text(description, default):
     """What a text that the program reads itself stands for."""
     if default == "auto":
         return "number or `auto`"
-    for words, kind in (("expression", "expression"), ("coordinate", "number"), ("Names", "names"), ("name of", "name")):
+    for words, kind in (("expression", "expression"), ("coordinate system", "text"), ("coordinate", "number"), ("Names", "names"), ("name of", "name")):
         if words.lower() in description.lower():
             return kind
     return "text"

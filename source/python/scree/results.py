@@ -11,11 +11,41 @@ import numpy as np
 from scree import variants
 
 
+def bare_name(field):
+    """The name of a field without its unit: "pore_pressure" of "pore_pressure [Pa]"; a name without unit as it is."""
+    return re.sub(r" \[[^\]]*\]$", "", field)
+
+
+class Fields(dict):
+    """Arrays by the bare names of their fields, such as "pore_pressure"; "pore_pressure [Pa]", as in the file, finds the same array.
+
+    `units` has the units by bare names, "" where there is none.
+    """
+
+    def __init__(self, arrays=()):
+        """`arrays`: by names with or without units."""
+        by_label = dict(arrays)
+        super().__init__({bare_name(label): values for label, values in by_label.items()})
+        self.units = {bare_name(label): label[len(bare_name(label)) + 2:-1] for label in by_label}
+
+    def __missing__(self, name):
+        bare = bare_name(name)
+        if bare == name:
+            raise KeyError(name)
+        return self[bare]
+
+    def __contains__(self, name):
+        return super().__contains__(bare_name(name))
+
+    def get(self, name, default=None):
+        return super().get(bare_name(name), default)
+
+
 class Points(NamedTuple):
-    """The material points of one picture: time in s, positions (n, 3) in m, arrays by name in SI units."""
+    """The material points of one picture: time in s, positions (n, 3) in m, arrays by the names of fields in SI units."""
     time: float
     positions: np.ndarray
-    arrays: dict
+    arrays: Fields
 
 
 class Box(NamedTuple):
@@ -31,7 +61,7 @@ class Box(NamedTuple):
 
 
 class Raster(NamedTuple):
-    """An ESRI ASCII grid: values, the northern row first, nan where there are none; lower corner and width of a cell, m."""
+    """An ESRI ASCII grid or a GeoTIFF: values, the northern row first, nan where there are none; lower corner and width of a cell, m."""
     values: np.ndarray
     x: float
     y: float
@@ -71,9 +101,9 @@ def read_points(run, time=None, collection="points"):
     chosen = max(pictures) if time is None else min(pictures, key=lambda candidate: abs(candidate - time))
     pieces = [piece for piece in map(_read_piece, _pieces(pictures[chosen])) if piece]
     if not pieces:
-        return Points(chosen, np.zeros((0, 3)), {})
-    arrays = {name: np.concatenate([piece.arrays[name] for piece in pieces]) for name in pieces[0].arrays}
-    return Points(chosen, np.concatenate([piece.positions for piece in pieces]), arrays)
+        return Points(chosen, np.zeros((0, 3)), Fields())
+    arrays = {label: np.concatenate([piece.arrays[label] for piece in pieces]) for label in pieces[0].arrays}
+    return Points(chosen, np.concatenate([piece.positions for piece in pieces]), Fields(arrays))
 
 
 def read_statistics(run):
@@ -148,7 +178,7 @@ def _xml(path):
 
 
 def _read_piece(path):
-    """The points of one .vtu without their time; None if it has none."""
+    """The points of one .vtu without their time, arrays by the names in the file; None if it has none."""
     # Only pictures need VTK.
     from vtkmodules.util.numpy_support import vtk_to_numpy  # pylint: disable=import-outside-toplevel
     from vtkmodules.vtkCommonCore import vtkObject  # pylint: disable=import-outside-toplevel
@@ -181,7 +211,9 @@ def _number(word):
 
 
 def read_raster(path):
-    """Throws a ValueError at what is no ESRI ASCII grid."""
+    """An ESRI ASCII grid, or a GeoTIFF if the name ends in .tif. Throws a ValueError at what is neither."""
+    if pathlib.Path(path).suffix == ".tif":
+        return _read_geo_tiff(path)
     head, rows = {}, []
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -197,6 +229,29 @@ def read_raster(path):
     except (KeyError, ValueError) as error:
         raise ValueError(f"{path} is no ESRI ASCII grid ({error})") from error
     return Raster(np.where(values == head.get("nodata_value", -9999), np.nan, values), *corner, width)
+
+
+def _read_geo_tiff(path):
+    """The first band of a GeoTIFF with square cells along the axes."""
+    # Only maps need Pillow.
+    from PIL import Image, UnidentifiedImageError  # pylint: disable=import-outside-toplevel
+    pixel_scale, tie_point, no_data = 33550, 33922, 42113  # numbers of the tags
+    try:
+        with Image.open(path) as image:
+            tags = dict(image.tag_v2)
+            values = np.array(image, dtype=float)
+        width = tags[pixel_scale][0]
+        column, row, _, x, y, _ = tags[tie_point]
+    except (AttributeError, KeyError, UnidentifiedImageError) as error:
+        raise ValueError(f"{path} is no GeoTIFF ({error})") from error
+    missing = float(str(tags.get(no_data, "nan")).strip("\0 "))
+    return Raster(np.where(values == missing, np.nan, values), x - column * width, y + (row - values.shape[0]) * width, width)
+
+
+def map_file(run, name):
+    """The file of a map of a run, such as "largest_thickness": the ESRI ASCII grid, or the GeoTIFF if there is only that."""
+    files = [pathlib.Path(run) / "maps" / (name + ending) for ending in (".asc", ".tif")]
+    return next((file for file in files if file.exists()), files[0])
 
 
 def write_raster(path, values, spacing):

@@ -6,6 +6,7 @@
 #include "../expect.h"
 #include "soil_scene.h"
 
+#include <scree/io/table_file.h>
 #include <scree/postprocess/visualization/graphics.h>
 #include <scree/postprocess/statistics.h>
 
@@ -140,7 +141,7 @@ void test_statistics(std::ostream &out)
   RunTotals<dim> totals;
   const bool first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   statistics.collect(scene.bodies, scene.water, totals, 0., 0, 0., UpdateReport());
-  std::string file = statistics.head() + statistics.row();
+  std::string file = table_head(statistics.columns()) + table_row(statistics.values());
   if (first)
     {
       totals.balance.load_impulse[0]   = 5.;
@@ -151,10 +152,10 @@ void test_statistics(std::ostream &out)
       totals.lost_water_mass           = 11.;
     }
   statistics.collect(scene.bodies, scene.water, totals, 1., 8, 0.1, UpdateReport());
-  file += statistics.row();
+  file += table_row(statistics.values());
   totals.balance.n_iterations *= 2.5;
   statistics.collect(scene.bodies, scene.water, totals, 2., 16, 0.1, UpdateReport());
-  file += statistics.row();
+  file += table_row(statistics.values());
   out << dim << "D statistics:" << std::endl;
   statistics.print_last_row(out);
   std::ostringstream dry, empty;

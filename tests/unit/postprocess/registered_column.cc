@@ -2,6 +2,7 @@
 // Columns of one file: registered here, they are the last ones of each row of the statistics, in order of their names.
 #include "../unit_test.h"
 
+#include <scree/io/table_file.h>
 #include <scree/postprocess/statistics.h>
 
 #include <iostream>
@@ -35,7 +36,7 @@ void print_last_columns(std::ostream &out)
     {
       is_asked = asks;
       statistics.collect({}, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
-      std::istringstream head(statistics.head());
+      std::istringstream head(table_head(statistics.columns()));
       std::string line;
       while (std::getline(head, line))
         if (line.find("lost") != std::string::npos || line.find("Cells") != std::string::npos ||

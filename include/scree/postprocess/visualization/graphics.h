@@ -25,10 +25,11 @@ namespace scree
     Graphics(const BackgroundGrid<dim> &grid, const OutputParameters &parameters, const std::string &run_folder);
 
     /// Writes the state at `time` under the next number. Collective.
-    /// Points (if there is soil): velocity (m/s), stress (Pa, tension positive, 3 x 3), mean_effective_stress P,
-    /// deviatoric_stress q (Pa), stress_ratio q/P, mass (kg), volume (m^3), body (number), id (lasting, unique in its
-    /// body), displacement (m, if points keep their start), and the law's internal variables and derived fields. Grid:
-    /// velocity (m/s) at the cells' corners, mean density (kg/m^3) and P (Pa) of the cells.
+    /// Fields have the names and units of output_field.h. Points (if there is soil): velocity (m/s), stress (Pa,
+    /// tension positive, 3 x 3), mean_effective_stress P, deviatoric_stress q (Pa), stress_ratio q/P, mass (kg), volume
+    /// (m^3), body (number), id (lasting, unique in its body), displacement (m, if points keep their start), and the
+    /// law's internal variables and derived fields. Grid: velocity (m/s) at the cells' corners, mean density (kg/m^3)
+    /// and P (Pa) of the cells.
     ///
     /// @param field the soil's, solved: its mass and velocity are read
     /// @param view null in a dry run. Else points gain porosity n = 1 - m/(rho_s V), pore_pressure (Pa) and

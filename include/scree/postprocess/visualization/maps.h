@@ -5,6 +5,7 @@
 #include <scree/mesh/background_grid.h>
 #include <scree/io/output_parameters.h>
 #include <scree/io/run_folder.h>
+#include <scree/io/time_label.h>
 #include <scree/bodies/soil_body.h>
 
 #include <array>
@@ -19,12 +20,12 @@ namespace scree
   struct MapFrame
   {
     dealii::Point<2> origin; ///< m; in 2D nothing reads it
-    std::string system;      ///< of coordinates, as a .prj file tells it; empty: none is known
+    std::string system;      ///< of coordinates, see Raster::system; empty: none is known
   };
 
-  /// Maps of the soil that can move, on the columns of the mesh's fine cells along the last axis: ESRI ASCII grids in
-  /// the folder `maps` of a run, in 2D one table along x. All ranks hold all columns. Does nothing unless the case asks
-  /// for maps.
+  /// Maps of the soil that can move, on the columns of the mesh's fine cells along the last axis: ESRI ASCII grids or
+  /// GeoTIFF in the folder `maps` of a run, in 2D one table along x. All ranks hold all columns. Does nothing unless
+  /// the case asks for maps.
   template <int dim>
   class Maps
   {
@@ -32,6 +33,7 @@ namespace scree
     /// Keeps references to grid and folder; sample() comes next.
     Maps(const MapParameters &parameters,
          const MapFrame &frame,
+         const TimeLabel &time_label,
          const BackgroundGrid<dim> &grid,
          const RunFolder &folder);
 
@@ -52,11 +54,22 @@ namespace scree
   private:
     using Map = std::vector<double>; // by column, along x first
 
-    /// A map in space.
-    void write_map(const std::string &name, const Map &map) const;
+    /// A map as it is written.
+    struct Sheet
+    {
+      std::string name, unit;
+      Map values;
+      Map soil; ///< where this is 0, there is no soil and in space no value
+    };
+
+    /// All maps as of the last sample. Arrival times are nan where there is none.
+    std::vector<Sheet> sheets() const;
+
+    /// A map in space, in each format that the case asks for.
+    void write_map(const std::string &file, const Sheet &sheet) const;
 
     /// All maps in the plane: a row a column of cells, with the x of its middle.
-    void write_table(const std::string &name, const std::vector<std::pair<std::string, const Map *>> &maps) const;
+    void write_table(const std::string &name, const std::vector<Sheet> &all) const;
 
     /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
     /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
@@ -64,6 +77,7 @@ namespace scree
 
     const MapParameters parameters;
     const MapFrame frame;
+    const TimeLabel time_label;
     const BackgroundGrid<dim> &grid;
     const RunFolder &folder;
     std::array<std::size_t, dim> n; // cells along each axis

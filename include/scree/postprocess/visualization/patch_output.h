@@ -4,6 +4,7 @@
 
 #include <scree/input/input_error.h>
 #include <scree/io/whole_file.h>
+#include <scree/postprocess/visualization/output_field.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -26,24 +27,17 @@ namespace scree
     using Patch = dealii::DataOutBase::Patch<patch_dim, dim>; ///< geometry and data of a point or cell
 
     std::vector<Patch> patches;     ///< patches to be written
-    std::vector<std::string> names; ///< of the rows of a patch's data
+    std::vector<std::string> names; ///< labels of the rows of a patch's data
 
-    /// A scalar: one row of the patches' data.
-    void add_name(const std::string &name)
+    /// A field: of the rows of the patches' data one for a scalar, `dim` for a vector, nine for a tensor.
+    void add(const OutputField &field)
     {
-      names.push_back(name);
-    }
-
-    /// `dim` rows.
-    void add_vector(const std::string &name)
-    {
-      add_range(name, dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
-    }
-
-    /// Nine rows, a 3 x 3 matrix.
-    void add_tensor(const std::string &name)
-    {
-      add_range(name, 9, dealii::DataComponentInterpretation::component_is_part_of_tensor);
+      if (field.kind == FieldKind::vector)
+        add_range(field.label(), dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
+      else if (field.kind == FieldKind::tensor)
+        add_range(field.label(), 9, dealii::DataComponentInterpretation::component_is_part_of_tensor);
+      else
+        names.push_back(field.label());
     }
 
     /// Writes `<folder>/<name>_<number>.pvtu` and a `.vtu` a rank; returns the name of the former. Collective; throws
@@ -66,11 +60,11 @@ namespace scree
           const unsigned int rank = MPI::this_mpi_process(communicator);
           std::ostringstream piece, record;
           this->write_vtu(piece);
-          write_whole_file(folder + pieces[rank], piece.str());
+          write_whole_file(folder + pieces[rank], with_component_names(piece.str()));
           if (rank == 0)
             {
               this->write_pvtu_record(record, pieces);
-              write_whole_file(folder + picture + ".pvtu", record.str());
+              write_whole_file(folder + picture + ".pvtu", with_component_names(record.str()));
             }
         }
       catch (const FileError &error)
@@ -86,6 +80,23 @@ namespace scree
     {
       ranges.emplace_back(names.size(), names.size() + n_rows - 1, name, interpretation);
       names.insert(names.end(), n_rows, name);
+    }
+
+    /// VTK's text with names for the components of vectors and tensors, which deal.II does not write.
+    std::string with_component_names(std::string text) const
+    {
+      for (const auto &[first, last, label, interpretation] : ranges)
+        {
+          const bool is_vector    = interpretation == dealii::DataComponentInterpretation::component_is_part_of_vector;
+          const std::string array = "Name=\"" + label + "\" NumberOfComponents=\"" + (is_vector ? '3' : '9') + '"';
+          std::string attributes;
+          for (unsigned int i = 0; i < (is_vector ? 3 : 9); ++i)
+            attributes += " ComponentName" + std::to_string(i) + "=\"" +
+                          (is_vector ? std::string() : std::string(1, "XYZ"[i / 3])) + "XYZ"[i % 3] + '"';
+          if (const auto found = text.find(array); found != std::string::npos)
+            text.insert(found + array.size(), attributes);
+        }
+      return text;
     }
 
     const std::vector<Patch> &get_patches() const override

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Rasters that are written and read again, in each format: values, place, missing values and coordinate system. Names
+// of one system differ by program. Without GDAL, GeoTIFF is left out.
+#include "../unit_test.h"
+
+#include <scree/geometry/raster_formats/coordinate_system.h>
+#include <scree/geometry/raster.h>
+#include <scree/geometry/raster_formats/raster_writer.h>
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <limits>
+
+namespace test_raster_files
+{
+using namespace scree;
+
+Raster some_raster(const std::string &system)
+{
+  Raster raster;
+  raster.n_columns = 3;
+  raster.n_rows    = 2;
+  raster.spacing   = 2.5;
+  raster.x         = 2600001.25;
+  raster.y         = 1200001.25;
+  raster.system    = system;
+  raster.values    = { 0., 0.5, std::numeric_limits<double>::quiet_NaN(), 4., -1.25, 1024. };
+  return raster;
+}
+
+
+std::string difference(const Raster &one, const Raster &other)
+{
+  if (one.n_columns != other.n_columns || one.n_rows != other.n_rows)
+    return "another size";
+  if (std::abs(one.x - other.x) + std::abs(one.y - other.y) + std::abs(one.spacing - other.spacing) > 1e-8)
+    return "another place";
+  for (std::size_t i = 0; i < one.values.size(); ++i)
+    if (!(one.values[i] == other.values[i] || (std::isnan(one.values[i]) && std::isnan(other.values[i]))))
+      return "another value " + std::to_string(i);
+  return is_same_system(one.system, other.system, { one.x, one.y }) ? "none" : "another system";
+}
+
+
+void run()
+{
+  const std::string system = R"(PROJCS["CH1903+_LV95",GEOGCS["GCS_CH1903+",DATUM["D_CH1903+",)"
+                             R"(SPHEROID["Bessel_1841",6377397.155,299.1528128]],PRIMEM["Greenwich",0.0],)"
+                             R"(UNIT["Degree",0.0174532925199433]],)"
+                             R"(PROJECTION["Hotine_Oblique_Mercator_Azimuth_Center"],)"
+                             R"(PARAMETER["False_Easting",2600000.0],PARAMETER["False_Northing",1200000.0],)"
+                             R"(PARAMETER["Scale_Factor",1.0],PARAMETER["Azimuth",90.0],)"
+                             R"(PARAMETER["Longitude_Of_Center",7.43958333333333],)"
+                             R"(PARAMETER["Latitude_Of_Center",46.9524055555556],UNIT["Meter",1.0]])";
+  const Raster raster      = some_raster(system);
+  std::ofstream("map.asc") << ascii_grid(raster);
+  std::ofstream("map.prj") << prj_text(system) << '\n';
+  std::cout << ascii_grid(raster)
+            << "difference of the ASCII grid: " << difference(raster, read_raster("map.asc", "entry", { 0., 0. }))
+            << '\n';
+  if (can_write_geo_tiff())
+    {
+      std::ofstream("map.tif", std::ios::binary) << geo_tiff(raster, "thickness", "m");
+      const Raster read = read_raster("map.tif", "entry", { 0., 0. });
+      std::ofstream("code.tif", std::ios::binary) << geo_tiff(some_raster("EPSG:31254"), "thickness", "m");
+      if (difference(raster, read) != "none" || read.system != "EPSG:2056" ||
+          read_raster_system("code.tif", "entry") != "EPSG:31254" ||
+          !is_same_system(prj_text("EPSG:31254"), "EPSG:31254", { 0., 2e5 }) ||
+          is_same_system(system, "EPSG:31254", { 0., 2e5 }))
+        std::cout << "GeoTIFF: difference " << difference(raster, read) << ", system " << read.system << '\n';
+    }
+  std::cout << "other words: " << is_same_system(system, R"(PROJCS["CH1903+ / LV95"])", { 0., 0. })
+            << ", another system: " << is_same_system(system, R"(PROJCS["MGI_Austria_GK_West"])", { 0., 0. })
+            << ", name: " << name_of_system(system) << ", code: " << name_of_system("EPSG:2056") << '\n';
+}
+
+const UnitTest registered_test("raster_files", run);
+} // namespace test_raster_files

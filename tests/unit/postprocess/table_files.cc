@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The files that a table grows in: names of columns in a .csv, rows before and after a resume; times in names of files.
+#include "../unit_test.h"
+
+#include <scree/io/table_file.h>
+#include <scree/io/time_label.h>
+#include <scree/io/whole_file.h>
+
+#include <boost/archive/text_iarchive.hpp>
+#include <boost/archive/text_oarchive.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+namespace test_table_files
+{
+using namespace scree;
+
+void print_names()
+{
+  for (const std::string column : { "Time (s)",
+                                    "Step",
+                                    "Momentum x (N s)",
+                                    "Front 90 % (m)",
+                                    "Front 99.5 % (m)",
+                                    "Stress oscillation (-)",
+                                    "p oscillation (-)",
+                                    "Obstacle Pier-1 moment z (N m)",
+                                    "Velocity x (m/s)",
+                                    "mass (kg/m^2)",
+                                    "Density (kg/m^3)",
+                                    "Rate (1/s)",
+                                    "Fill (%)" })
+    std::cout << column << " -> " << csv_name(column) << '\n';
+  std::cout << csv_head({ "Time (s)", "Force A (N)", "Force a (N)" });
+}
+
+
+void print_file(const std::string &file)
+{
+  std::cout << file << ":\n" << read_whole_file(file);
+}
+
+
+/// A run that writes two rows behind its checkpoint, and is resumed.
+void grow()
+{
+  const std::vector<std::string> columns{ "Time (s)", "Front 90 % (m)", "Step" };
+  std::filesystem::remove_all("tables");
+  RunFolder folder("tables", false, MPI_COMM_WORLD);
+  TableFile before(folder, "table"), after(folder, "table");
+  before.append(columns, { { 0., 1. / 3., 0. } });
+  std::stringstream checkpoint;
+  boost::archive::text_oarchive(checkpoint) << before;
+  before.append(columns, { { 0.1, std::numeric_limits<double>::quiet_NaN(), 12. }, { 0.2, 1e-20, 24. } });
+  print_file("tables/table.csv");
+  boost::archive::text_iarchive(checkpoint) >> after;
+  after.cut();
+  after.append(columns, { { 0.1, 1e6, 12. } });
+  after.sync();
+  after.complete();
+  print_file("tables/table");
+  print_file("tables/table.csv");
+}
+
+
+void print_labels()
+{
+  for (const auto &[end, interval] :
+       std::vector<std::pair<double, double>>{ { 40., 5. }, { 2., 0.05 }, { 1., 1. / 3. } })
+    {
+      const TimeLabel label(end, interval);
+      std::cout << "end " << end << " s, every " << interval << " s: " << label(0.) << ' ' << label(interval) << ' '
+                << label(end) << '\n';
+    }
+}
+
+
+void run()
+{
+  print_names();
+  grow();
+  print_labels();
+}
+
+const UnitTest registered_test("table_files", run);
+} // namespace test_table_files
