@@ -29,7 +29,7 @@ import numpy as np
 
 from scree.studies.cases.granular_collapse import GRAVITY, law
 from scree.studies.cases.run_out import Limit
-from scree.studies.charts import Curves
+from scree.studies.charts import Curves, name_lines
 from scree.studies.study import Claim, Study, Variant
 
 SIZES, SHORT_SIZES = (12, 16, 24, 32, 48), (12, 16, 24, 32)
@@ -101,6 +101,25 @@ def number(limit):
     return f"{limit.value:.3f} +- {limit.uncertainty:.3f}"
 
 
+def compared_with_law(group, name):
+    """(limit, law, relative deviation) of the run-out or the height."""
+    limit, start, quantity = Limit(group, name), *((1., "run-out") if name == FRONT else (0., "height"))
+    exact = law("Lube", quantity, group[0]["a"])
+    limit.value -= start
+    return limit, exact, limit.value / exact - 1
+
+
+def table(rows):
+    groups, found = curves(rows), [["a", "cells", "run-out, h = 0", "Lube et al.", "deviation", "height, h = 0", "Lube et al.", "deviation"]]
+    for aspect in ASPECTS:
+        group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0.), [])
+        if len(group) > 2:
+            texts = [text for name in (FRONT, HEIGHT) for limit, exact, deviation in [compared_with_law(group, name)]
+                     for text in (number(limit), f"{exact:.3f}", f"{100 * deviation:+.1f} %")]
+            found.append([f"{aspect:g}", f"{group[0]['cells']} to {group[-1]['cells']}", *texts])
+    return found
+
+
 def verdict(rows):
     groups = curves(rows)
 
@@ -119,19 +138,10 @@ def verdict(rows):
         apart = (max(values) - min(values)) / np.mean(values)
         claims.append(Claim(f"Friction {friction}, a = 1: at h = 0 the front of 99 % is at {', '.join(f'{number(limit)} ({name})' for name, limit in limits.items())} L0. "
                             f"The transfers differ by {100 * apart:.1f} %. Bound: 3 %.", apart < 0.03, quick=False))
-    table = [["a", "cells", "run-out", "law", "deviation", "height", "law", "deviation"]]
-    worst = []
-    for aspect in ASPECTS:
-        group = of(a=aspect)
-        runs = {FRONT: (Limit(group, FRONT), 1., law("Lube", "run-out", aspect)), HEIGHT: (Limit(group, HEIGHT), 0., law("Lube", "height", aspect))}
-        texts = []
-        for limit, start, exact in runs.values():
-            worst.append((limit.value - start) / exact - 1)
-            texts += [f"{limit.value - start:.3f} +- {limit.uncertainty:.3f}", f"{exact:.3f}", f"{100 * worst[-1]:+.1f} %"]
-        table.append([f"{aspect:g}", f"{group[0]['cells']} to {group[-1]['cells']}", *texts])
+    worst = [deviation for aspect in ASPECTS for deviation in (compared_with_law(of(a=aspect), FRONT)[2], compared_with_law(of(a=aspect), HEIGHT)[2])]
     claims.insert(0, Claim(f"With mu(I) and the angle of repose, the run-out at h = 0 deviates from the law of Lube et al. by {100 * min(worst[::2]):+.0f} to {100 * max(worst[::2]):+.0f} % "
                            f"over a = {ASPECTS[0]} to {ASPECTS[-1]}, the height by {100 * min(worst[1::2]):+.0f} to {100 * max(worst[1::2]):+.0f} %. Bound: 10 %.",
-                           max(map(abs, worst)) < 0.1, quick=False, table=table, worst=True))
+                           max(map(abs, worst)) < 0.1, quick=False, worst=True))
     constant, triaxial = (Limit(of(friction=WITHOUT), FRONT).value - 1, Limit(of(angle=TRIAXIAL), FRONT).value - 1)
     claims.append(Claim(f"One cause at a time, a = 1: run-out at h = 0 {Limit(of(), FRONT).value - 1:.2f}; without mu(I) {constant:.2f}; with the angle read as a triaxial one "
                         f"{triaxial:.2f}; without both {Limit(of(friction=WITHOUT, angle=TRIAXIAL), FRONT).value - 1:.2f}. Law: {law('Lube', 'run-out', 1):.2f}.",
@@ -148,33 +158,30 @@ def verdict(rows):
 def draw(figure, rows):
     groups = curves(rows)
     left, right = figure.subplots(1, 2)
-    for friction, style in ((WITH, "-"), (WITHOUT, "--")):
-        for index, transfer in enumerate(TRANSFERS):
-            group = groups.get((1., transfer, friction, REPOSE, 3, 0.), [])
-            if not group:
-                continue
-            left.plot([row["h"] for row in group], [row[TIP] for row in group], style, color=f"C{index}", marker="o", markersize=4)
-            left.annotate(f"{transfer}, {friction}", (group[-1]["h"], group[-1][TIP]), textcoords="offset points", xytext=(-4, 0), fontsize=8,
-                          color=f"C{index}", ha="right", va="center")
-    left.set(xlabel="cell size h/L0", ylabel="front of 99 % of the mass, L0 (a = 1)", xlim=(-0.045, None))
+    shown = {"FLIP, mu(I)": ("FLIP", WITH, "C0-"), "TPIC, mu(I)": ("TPIC", WITH, "C1-"), "AFLIP, mu(I)": ("AFLIP", WITH, "C2-"),
+             "FLIP, constant": ("FLIP", WITHOUT, "C0--"), "TPIC, constant": ("TPIC", WITHOUT, "C1--")}
+    for label, (transfer, friction, style) in shown.items():
+        group = groups.get((1., transfer, friction, REPOSE, 3, 0.), [])
+        left.plot([row["cells"] for row in group], [row[TIP] for row in group], style, marker="o", markersize=4, label=label)
+    left.set(xlabel="cells per L0 (a = 1)", ylabel="front of 99 % of the mass over L0")
+    name_lines(left)
     aspects = np.geomspace(0.5, 4.5, 200)
-    for quantity, source, start, color in ((FRONT, "run-out", 1., "C0"), (HEIGHT, "height", 0., "C1")):
-        right.plot(aspects, [law("Lube", source, aspect) for aspect in aspects], color=color, linewidth=1)
+    for quantity, source, color, name in ((FRONT, "run-out", "C0", "run-out"), (HEIGHT, "height", "C1", "height")):
+        right.plot(aspects, [law("Lube", source, aspect) for aspect in aspects], color=color, label=f"{name},\nLube et al.")
         for aspect in ASPECTS:
             group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0.), [])
             if len(group) > 2:
-                limit = Limit(group, quantity)
-                right.errorbar(aspect, limit.value - start, limit.uncertainty, color=color, marker="o", markersize=4, capsize=3)
-    right.annotate("run-out (L - L0)/L0", (1.2, 1.9), color="C0", ha="right")
-    right.annotate("height H/L0", (2.0, 1.15), color="C1")
-    right.set(xscale="log", yscale="log", xlabel="aspect ratio a; lines: Lube et al. 2005, points: limits with mu(I)", ylabel="over L0")
+                limit = compared_with_law(group, quantity)[0]
+                right.errorbar(aspect, limit.value, limit.uncertainty, color=color, marker="o", markersize=4, capsize=3)
+    right.set(xscale="log", yscale="log", xlabel="aspect ratio a = H0/L0 (points: limits)", ylabel="over L0")
     right.set_xticks(ASPECTS, [f"{aspect:g}" for aspect in ASPECTS])
     right.set_yticks([0.5, 1, 2, 4], ["0.5", "1", "2", "4"])
     right.minorticks_off()
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
+    name_lines(right)
 
 
-STUDY = Study(title="Limits of the run-out", base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(),
+STUDY = Study(title="Limits of the run-out", question="Has the run-out a limit as the cells become smaller, and is it that of the experiment?",
+              advice="TO BE WRITTEN FROM THE RESULTS",
+              base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(), table=table,
               quick=lambda labels: labels["a"] == 1 and labels["cells"] == 12 and labels["points"] == 3, measure=measure, verdict=verdict,
-              chart=Curves(draw, size=(11, 4.5)))
+              chart=Curves(draw))
