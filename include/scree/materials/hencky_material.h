@@ -148,6 +148,7 @@ namespace scree
     double dissipation = 0;
     double internal_variables_before[Law::n_internal_variables + 1];
     std::copy_n(internal_variables, Law::n_internal_variables, internal_variables_before);
+    const double largest_modulus = report.largest_bulk_modulus;
     ++report.n_substeps;
     if (law.return_map(strain, internal_variables, volume_ratio, kirchhoff_stress, report) == Response::elastic)
       std::copy(trial, trial + n_components, left_cauchy_green);
@@ -155,13 +156,17 @@ namespace scree
       {
         if constexpr (HasInertialFriction<Law>())
           if (law.inertial_friction.is_active())
-            keep_part(trial_strain,
-                      internal_variables_before,
-                      time_step,
-                      grain_density,
-                      strain,
-                      internal_variables,
-                      kirchhoff_stress);
+            {
+              keep_part(trial_strain,
+                        internal_variables_before,
+                        time_step,
+                        grain_density,
+                        strain,
+                        internal_variables,
+                        kirchhoff_stress);
+              const double pressure       = -(kirchhoff_stress[0] + kirchhoff_stress[1] + kirchhoff_stress[2]) / 3;
+              report.largest_bulk_modulus = std::max(largest_modulus, law.bulk_modulus(pressure));
+            }
         left_cauchy_green_of(frame, strain, left_cauchy_green);
         for (unsigned int i = 0; i < 3; ++i)
           dissipation += kirchhoff_stress[i] * (trial_strain[i] - strain[i]);
