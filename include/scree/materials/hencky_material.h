@@ -35,6 +35,7 @@ namespace scree
     double initial_porosity() const override;
     bool is_elastic() const override;
     double plane_friction() const override;
+    double grain_diameter() const override;
     std::vector<Quantity> internal_quantities() const override;
     std::vector<Quantity> output_quantities() const override;
     void output(const double *left_cauchy_green,
@@ -341,6 +342,16 @@ namespace scree
       return law.plane_friction();
     else
       return Material<dim>::plane_friction();
+  }
+
+
+  template <int dim, typename Law>
+  double HenckyMaterial<dim, Law>::grain_diameter() const
+  {
+    if constexpr (HasInertialFriction<Law>())
+      return law.inertial_friction.is_active() ? law.inertial_friction.diameter() : 0;
+    else
+      return 0;
   }
 
 

@@ -50,6 +50,12 @@ namespace scree
       return grain_diameter > 0;
     }
 
+    /// Grain diameter d, m.
+    double diameter() const
+    {
+      return grain_diameter;
+    }
+
     /// The part x; 0 where there is no pressure.
     /// @param plastic_shear gamma = sqrt(2 e : e) of the change e of the elastic deviator
     /// @param shear_modulus G, Pa

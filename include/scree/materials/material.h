@@ -134,6 +134,12 @@ namespace scree
       return std::numeric_limits<double>::infinity();
     }
 
+    /// Grain diameter of a friction that grows with the rate of shear, m; 0: it does not.
+    virtual double grain_diameter() const
+    {
+      return 0;
+    }
+
     /// Whether the law has no plastic strain.
     virtual bool is_elastic() const = 0;
 

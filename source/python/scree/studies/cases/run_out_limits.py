@@ -11,7 +11,7 @@ Plan, fixed before the runs:
 - Transfers: FLIP with a PIC rate of 1/s, AFLIP, TPIC. 3 x 3 points per cell; 2 x 2 and 4 x 4 and three jitters of 0.2 cell for FLIP.
 - Cells per L0: 12, 16, 24, 32, 48 at a = 1; 12, 16, 24, 32 at a = 0.6, 1.7, 3, 4.
 - Quantities: front where the deposit is 0.02 L0 deep (over a width of 0.05 L0), as an experiment sees it; fronts of 90 and 99 % of the mass;
-  height at the axis (over the same width).
+  height at the axis (mean depth from 0 to 0.1 L0).
 
 Bounds:
 
@@ -64,21 +64,24 @@ def variants():
     return found + [variant(1, cells, jitter=jitter) for jitter in (0.1, 0.2, 0.3) for cells in (24, 32)]
 
 
-def depth(points, x):
-    """Of the deposit at some places, over a width, L0."""
-    order = np.argsort(points.positions[:, 0])
-    places, volume = points.positions[order, 0], np.cumsum(points.arrays["volume"].ravel()[order])
-    low, high = np.maximum(x - WIDTH / 2, 0.), x + WIDTH / 2
-    return (np.interp(high, places, volume) - np.interp(low, places, volume, left=0.)) / (high - low)
+def depth(points, low, high):
+    """Of the deposit between places, averaged, L0; each point is a square of its volume."""
+    x, volume = points.positions[:, 0], points.arrays["volume"].ravel()
+    sides = np.sqrt(volume)
+
+    def left_of(place):
+        return np.sum(volume * np.clip((place - x) / sides + 0.5, 0., 1.))
+    return np.array([(left_of(end) - left_of(start)) / (end - start) for start, end in zip(np.atleast_1d(low), np.atleast_1d(high))])
 
 
 def measure(run):
     points = run.points()
-    places = np.arange(0, points.positions[:, 0].max() + 1, 0.0025)
+    places = np.arange(1., points.positions[:, 0].max() + WIDTH, 0.0025)
     potential = run.statistics("Potential energy (J)")
     last = np.interp(5 / 6 * run.time[-1], run.time, run.statistics("Front 99 % (m)"))
-    return {FRONT: places[np.flatnonzero(depth(points, places) > 0.02)[-1]], MASS: run.statistics("Front 90 % (m)")[-1],
-            TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, np.array([0.]))[0],
+    depths = depth(points, places, places + WIDTH)
+    return {FRONT: places[np.flatnonzero(depths > 0.02)[-1]] + WIDTH / 2, MASS: run.statistics("Front 90 % (m)")[-1],
+            TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, 0., 2 * WIDTH)[0],
             "99 % in the last sixth": run.statistics("Front 99 % (m)")[-1] - last,
             "energy lost numerically": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}
 
@@ -116,7 +119,7 @@ def table(rows):
         if len(group) > 2:
             texts = [text for name in (FRONT, HEIGHT) for limit, exact, deviation in [compared_with_law(group, name)]
                      for text in (number(limit), f"{exact:.3f}", f"{100 * deviation:+.1f} %")]
-            found.append([f"{aspect:g}", f"{group[0]['cells']} to {group[-1]['cells']}", *texts])
+            found.append([f"{aspect:g}", f"{group[0]['cells']:g} to {group[-1]['cells']:g}", *texts])
     return found
 
 
