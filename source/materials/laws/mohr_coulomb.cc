@@ -39,8 +39,8 @@ namespace scree
     prm.add_parameter("Friction angle", friction_angle, "degrees; friction angle phi.", Patterns::Double(0, 89));
     prm.add_parameter("Friction angle kind",
                       angle_kind,
-                      "Test that \"Friction angle\" comes from. triaxial, plane strain: the law has this angle. direct "
-                      "shear or repose: tau/sigma on a plane of shear is its tangent, and the law has a larger angle.",
+                      "Test that \"Friction angle\" comes from. triaxial: phi is this angle. plane strain: the same. "
+                      "direct shear or repose: its tangent is tau/sigma on a plane of shear, and phi is larger.",
                       Patterns::Selection(friction_angle_kinds));
     prm.add_parameter("Dilation angle",
                       dilation_angle,

@@ -32,7 +32,7 @@ TOPICS = {
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
     "soil_models": Topic("Soil models and quality of the stress", ("contours", "triaxial", "nor_sand_density", "low_stress", "bulk_to_shear")),
-    "experiments": Topic("Experiments", ("aluminium_bars", "granular_collapse", "martin_moyce")),
+    "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
     "cost": Topic("Cost", ("advice", "scaling", "nothing_costs", "peers")),
 }
 

@@ -5,6 +5,7 @@ Plan, fixed before the runs:
 
 - Experiment: sand in a channel (Lube et al. 2005), angle of repose 31 degrees, d/L0 = 0.011.
   Run-out (L - L0)/L0 = 1.2 a up to a = 1.8, 1.9 a^(2/3) from 2.8; height H/L0 = a up to a = 1.15, then 1.1 a^(2/5).
+- Added after the runs with sand: glass beads (Lajeunesse et al. 2005), 22 degrees, run-out 1.8 a up to a = 3.
 - Angle: 31 degrees of kind "direct shear or repose", which is 36.9 degrees of Mohr-Coulomb; "triaxial" for comparison.
 - Friction: that of the law alone, and with mu(I) of textbook values: I_0 = 0.3, increase 0.26, d = 0.011 L0.
 - Base fixed, L0 = 1 m, Young's modulus 1e6 Pa per metre of height, time 8 sqrt(H0/g).
@@ -24,18 +25,21 @@ Its uncertainty is half their distance and the RMS deviation of the worse one.
 """
 
 import math
+import re
 
 import numpy as np
 
-from scree.studies.cases.granular_collapse import GRAVITY, law
 from scree.studies.cases.run_out import Limit
 from scree.studies.charts import Curves, name_lines
-from scree.studies.study import Claim, Study, Variant
+from scree.studies.study import Claim, Study, Variant, reference_rows
 
+GRAVITY = 9.81
 SIZES, SHORT_SIZES = (12, 16, 24, 32, 48), (12, 16, 24, 32)
 ASPECTS = (0.6, 1, 1.7, 3, 4)
 REPOSE, TRIAXIAL = "direct shear or repose", "triaxial"
 WITH, WITHOUT = "mu(I)", "constant"
+SAND, BEADS = "sand", "beads"
+GRAINS = {SAND: (31, "Lube"), BEADS: (22, "Lajeunesse")}  # angle of repose, source of the law
 TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": {"Transfer/Method": "AFLIP", "Transfer/PIC rate": "auto"},
              "TPIC": {"Transfer/Method": "TPIC", "Transfer/PIC rate": "auto"}}
 FRONT, TIP, MASS, HEIGHT = "front 0.02 L0", "front 99 %", "front 90 %", "height"
@@ -43,15 +47,26 @@ WIDTH = 0.05  # L0
 DIAMETER = 0.011  # L0
 
 
-def variant(aspect, cells, transfer="FLIP", friction=WITH, kind=REPOSE, points=3, jitter=0.):
-    labels = {"a": float(aspect), "cells": cells, "transfer": transfer, "friction": friction, "angle": kind, "points": points, "jitter": jitter}
+def law(source, quantity, aspect):
+    """The law's value, - ; nan where the source gives none. At the bound between two ranges it is the lower one's."""
+    for row in reference_rows("lube_lajeunesse_2005"):
+        sign, bound = row["range_of_a"].split()[1:]
+        inside = aspect <= float(bound) if sign == "<" else aspect > float(bound)
+        if row["source"].startswith(source) and row["quantity"] == quantity.replace("-", "") and inside:
+            factor, power, over = re.fullmatch(r"(?:([\d.]+)\*)?a(?:\^\((\d)/(\d)\))?", row["formula"]).groups()
+            return float(factor or 1) * aspect ** (float(power) / float(over) if power else 1)
+    return math.nan
+
+
+def variant(aspect, cells, transfer="FLIP", friction=WITH, kind=REPOSE, points=3, jitter=0., grains=SAND):
+    labels = {"grains": grains, "a": float(aspect), "cells": cells, "transfer": transfer, "friction": friction, "angle": kind, "points": points, "jitter": jitter}
     reach = 1 + 1.7 * law("Lajeunesse", "run-out", aspect)  # the far wall must not be touched
     time = 8 * math.sqrt(aspect / GRAVITY)
     return Variant(labels, {
         **TRANSFERS[transfer], "Mesh/Cell size": f"{1 / cells:.12g}", "Boundaries/Bottom": "fixed",
         "Mesh/Upper corner": ", ".join(f"{math.ceil(length * cells - 1e-9) / cells:.12g}" for length in (reach, aspect + 0.2)),
         "Soil/Region": f"x < 1 && y < {aspect:g}", "Soil/Points per cell": points, "Soil/Jitter": jitter,
-        "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * aspect:g}", "Soil/Mohr-Coulomb/Friction angle": 31, "Soil/Mohr-Coulomb/Friction angle kind": kind,
+        "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * aspect:g}", "Soil/Mohr-Coulomb/Friction angle": GRAINS[grains][0], "Soil/Mohr-Coulomb/Friction angle kind": kind,
         "Soil/Mohr-Coulomb/Grain diameter": DIAMETER if friction == WITH else 0, "End time": f"{time:.4f}", "Output/Interval": f"{time / 8:.4f}",
         "Output/Graphics": "points"})
 
@@ -61,6 +76,7 @@ def variants():
     found += [variant(aspect, cells, friction=friction) for aspect in ASPECTS if aspect != 1 for friction in (WITH, WITHOUT) for cells in SHORT_SIZES]
     found += [variant(1, cells, kind=TRIAXIAL, friction=friction) for friction in (WITH, WITHOUT) for cells in SHORT_SIZES]
     found += [variant(1, cells, points=points) for points in (2, 4) for cells in SHORT_SIZES]
+    found += [variant(aspect, cells, grains=BEADS) for aspect in (0.6, 1, 1.7, 3) for cells in SHORT_SIZES]
     return found + [variant(1, cells, jitter=jitter) for jitter in (0.1, 0.2, 0.3) for cells in (24, 32)]
 
 
@@ -87,10 +103,10 @@ def measure(run):
 
 
 def curves(rows):
-    """{(a, transfer, friction, angle, points, jitter): rows from the largest cells to the smallest}."""
+    """{(a, transfer, friction, angle, points, jitter, grains): rows from the largest cells to the smallest}."""
     found = {}
     for row in sorted(rows, key=lambda row: row["cells"]):
-        found.setdefault(tuple(row[name] for name in ("a", "transfer", "friction", "angle", "points", "jitter")), []).append({**row, "h": 1 / row["cells"]})
+        found.setdefault(tuple(row[name] for name in ("a", "transfer", "friction", "angle", "points", "jitter", "grains")), []).append({**row, "h": 1 / row["cells"]})
     return found
 
 
@@ -107,29 +123,31 @@ def number(limit):
 def compared_with_law(group, name):
     """(limit, law, relative deviation) of the run-out or the height."""
     limit, start, quantity = Limit(group, name), *((1., "run-out") if name == FRONT else (0., "height"))
-    exact = law("Lube", quantity, group[0]["a"])
+    exact = law(GRAINS[group[0]["grains"]][1] if name == FRONT else "Lube", quantity, group[0]["a"])
     limit.value -= start
     return limit, exact, limit.value / exact - 1
 
 
 def table(rows):
-    groups, found = curves(rows), [["a", "cells", "run-out, h = 0", "Lube et al.", "deviation", "height, h = 0", "Lube et al.", "deviation"]]
-    for aspect in ASPECTS:
-        group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0.), [])
+    groups, found = curves(rows), [["a", "grains", "run-out, h = 0", "law", "deviation", "height, h = 0", "law", "deviation"]]
+    for grains, aspect in ((grains, aspect) for grains in GRAINS for aspect in ASPECTS):
+        group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0., grains), [])
         if len(group) > 2:
             texts = [text for name in (FRONT, HEIGHT) for limit, exact, deviation in [compared_with_law(group, name)]
-                     for text in (number(limit), f"{exact:.3f}", f"{100 * deviation:+.1f} %")]
-            found.append([f"{aspect:g}", f"{group[0]['cells']:g} to {group[-1]['cells']:g}", *texts])
+                     for text in (number(limit), *((f"{exact:.3f}", f"{100 * deviation:+.1f} %") if (grains, name) != (BEADS, HEIGHT) else ("-", "-")))]
+            found.append([f"{aspect:g}", grains, *texts])
     return found
 
 
 def verdict(rows):
     groups = curves(rows)
 
-    def of(a=1., transfer="FLIP", friction=WITH, angle=REPOSE, points=3):
-        return groups[float(a), transfer, friction, angle, points, 0.]
+    def of(a=1., transfer="FLIP", friction=WITH, angle=REPOSE, points=3, grains=SAND):
+        return groups[float(a), transfer, friction, angle, points, 0., grains]
 
-    claims = []
+    beads = [compared_with_law(of(a=aspect, grains=BEADS), FRONT)[2] for aspect in (0.6, 1, 1.7, 3)]
+    claims = [Claim(f"Beads of 22 degrees: the run-out at h = 0 deviates from the law of Lajeunesse et al. by {100 * min(beads):+.0f} to {100 * max(beads):+.0f} %. Bound: 10 %.",
+                    max(map(abs, beads)) < 0.1, quick=False)]
     changes = {(transfer, friction): halving(of(transfer=transfer, friction=friction), TIP) for transfer in TRANSFERS for friction in (WITH, WITHOUT)}
     for friction in (WITH, WITHOUT):
         told = ", ".join(f"{transfer} {100 * changes[transfer, friction]:+.1f} %" for transfer in TRANSFERS)
@@ -142,7 +160,7 @@ def verdict(rows):
         claims.append(Claim(f"Friction {friction}, a = 1: at h = 0 the front of 99 % is at {', '.join(f'{number(limit)} ({name})' for name, limit in limits.items())} L0. "
                             f"The transfers differ by {100 * apart:.1f} %. Bound: 3 %.", apart < 0.03, quick=False))
     worst = [deviation for aspect in ASPECTS for deviation in (compared_with_law(of(a=aspect), FRONT)[2], compared_with_law(of(a=aspect), HEIGHT)[2])]
-    claims.insert(0, Claim(f"With mu(I) and the angle of repose, the run-out at h = 0 deviates from the law of Lube et al. by {100 * min(worst[::2]):+.0f} to {100 * max(worst[::2]):+.0f} % "
+    claims.insert(0, Claim(f"Sand, with mu(I) and the angle of repose: the run-out at h = 0 deviates from the law of Lube et al. by {100 * min(worst[::2]):+.0f} to {100 * max(worst[::2]):+.0f} % "
                            f"over a = {ASPECTS[0]} to {ASPECTS[-1]}, the height by {100 * min(worst[1::2]):+.0f} to {100 * max(worst[1::2]):+.0f} %. Bound: 10 %.",
                            max(map(abs, worst)) < 0.1, quick=False, worst=True))
     constant, triaxial = (Limit(of(friction=WITHOUT), FRONT).value - 1, Limit(of(angle=TRIAXIAL), FRONT).value - 1)
@@ -164,7 +182,7 @@ def draw(figure, rows):
     shown = {"FLIP, mu(I)": ("FLIP", WITH, "C0-"), "TPIC, mu(I)": ("TPIC", WITH, "C1-"), "AFLIP, mu(I)": ("AFLIP", WITH, "C2-"),
              "FLIP, constant": ("FLIP", WITHOUT, "C0--"), "TPIC, constant": ("TPIC", WITHOUT, "C1--")}
     for label, (transfer, friction, style) in shown.items():
-        group = groups.get((1., transfer, friction, REPOSE, 3, 0.), [])
+        group = groups.get((1., transfer, friction, REPOSE, 3, 0., SAND), [])
         left.plot([row["cells"] for row in group], [row[TIP] for row in group], style, marker="o", markersize=4, label=label)
     left.set(xlabel="cells per L0 (a = 1)", ylabel="front of 99 % of the mass over L0")
     name_lines(left)
@@ -172,7 +190,7 @@ def draw(figure, rows):
     for quantity, source, color, name in ((FRONT, "run-out", "C0", "run-out"), (HEIGHT, "height", "C1", "height")):
         right.plot(aspects, [law("Lube", source, aspect) for aspect in aspects], color=color, label=f"{name},\nLube et al.")
         for aspect in ASPECTS:
-            group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0.), [])
+            group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0., SAND), [])
             if len(group) > 2:
                 limit = compared_with_law(group, quantity)[0]
                 right.errorbar(aspect, limit.value, limit.uncertainty, color=color, marker="o", markersize=4, capsize=3)
@@ -184,7 +202,7 @@ def draw(figure, rows):
 
 
 STUDY = Study(title="Limits of the run-out", question="Has the run-out a limit as the cells become smaller, and is it that of the experiment?",
-              advice="TO BE WRITTEN FROM THE RESULTS",
+              advice="For grains of known diameter use inertial friction on a fixed base and give the angle its kind. 24 cells per width are within 2 % of the limit.",
               base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(), table=table,
               quick=lambda labels: labels["a"] == 1 and labels["cells"] == 12 and labels["points"] == 3, measure=measure, verdict=verdict,
               chart=Curves(draw))
