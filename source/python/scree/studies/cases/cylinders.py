@@ -3,7 +3,8 @@
 A quarter of the cylinder is computed, r0 = 1 m, with planes of symmetry at x = 0 and y = 0.
 The angle is read as one of repose (36.9 degrees of Mohr-Coulomb), as plane columns need it, and as a triaxial one.
 
-Plan, fixed before the runs: a = 1 with 8, 12 and 16 cells per radius, a = 2 with 8 and 12, FLIP with a PIC rate of 1/s, 3 x 3 x 3 points, d = 0.011 r0 with mu(I), fixed base.
+Plan, fixed before the runs: a = 1 with 8, 12 and 16 cells per radius, a = 2 with 8 and 12, 3 x 3 x 3 points, fixed base.
+FLIP with a PIC rate of 1/s; d = 0.011 r0 with mu(I).
 Front: where the deposit is 0.02 r0 deep, averaged over rings of 0.05 r0, as in plane columns. Bound: 10 % of the measured run-out.
 The plan had the radius of 99 % of the mass, which is 10 to 15 % shorter in plane columns; the table has it, too.
 """
@@ -93,6 +94,6 @@ def draw(figure, rows):
             name_lines(axes)
 
 
-STUDY = Study(title="Cylinders", question="Does a cylinder need another friction angle than a plane column?", advice="Read the angle as a triaxial one and leave out inertial friction. One set of entries for columns in a channel and for cylinders is not known.",
+STUDY = Study(title="Cylinders", question="Does a cylinder need another friction angle than a plane column?", advice="Read the angle as triaxial, without inertial friction. No set of entries serves channels and cylinders.",
               base="prm/benchmarks/mohr_coulomb_column_3d.prm", variants=[variant(aspect, cells, *treatment) for aspect in SIZES for treatment in TREATMENTS for cells in SIZES[aspect]],
               measure=measure, verdict=verdict, table=table, chart=Curves(draw), quick=lambda labels: labels["cells"] == 8 and labels["a"] == 1)

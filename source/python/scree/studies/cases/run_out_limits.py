@@ -202,7 +202,7 @@ def draw(figure, rows):
 
 
 STUDY = Study(title="Limits of the run-out", question="Has the run-out a limit as the cells become smaller, and is it that of the experiment?",
-              advice="For grains of known diameter use inertial friction on a fixed base and give the angle its kind. 24 cells per width are within 2 % of the limit.",
+              advice="Use inertial friction on a fixed base, and give the angle its kind. 24 cells are within 2 % of the limit.",
               base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(), table=table,
               quick=lambda labels: labels["a"] == 1 and labels["cells"] == 12 and labels["points"] == 3, measure=measure, verdict=verdict,
               chart=Curves(draw))
