@@ -93,6 +93,7 @@ namespace scree
         scene.has_soil  = std::any_of(
             parameters.bodies.begin(), parameters.bodies.end(), [](const auto &body) { return !body.is_rigid(); });
         scene.is_elastic          = scene.has_soil;
+        scene.grain_diameter      = scene.has_soil ? std::numeric_limits<double>::max() : 0;
         scene.has_water           = parameters.has_water;
         scene.has_changing_forces = parameters.surface_load.changes_with_time() || parameters.body_forces.is_set();
         if (!scene.has_water)
@@ -128,6 +129,7 @@ namespace scree
       {
         const Material<dim> &law = *body.material;
         scene.is_elastic         = scene.is_elastic && law.is_elastic();
+        scene.grain_diameter     = std::min(scene.grain_diameter, law.grain_diameter());
         // Soil without stress gets its first one from its weight.
         const double first_pressure = 2. / 3. * body.density * scene.gravity * scene.height;
         for_each_point(body.points, [&](const auto &point) {

@@ -30,6 +30,31 @@ namespace scree
     };
 
 
+    /// Bodies that shear within themselves before they slide on a base of this friction coefficient.
+    void ask_of_base(const Parameters &parameters,
+                     const std::string &subsection,
+                     const std::string &entry,
+                     const double friction,
+                     Questions &questions)
+    {
+      constexpr double rounding = 1.005; // an angle with three digits
+      for (const BodyParameters &body : parameters.bodies)
+        {
+          const double of_body = make_material<2>(body.material)->plane_friction();
+          if (friction > rounding * of_body)
+            questions.list.push_back(
+                "Base stronger than the soil: " +
+                entry_message(subsection,
+                              entry,
+                              number_text(std::atan(friction) * 180 / dealii::numbers::PI) + " degrees",
+                              body.name + " shears on a plane at " +
+                                  number_text(std::atan(of_body) * 180 / dealii::numbers::PI) +
+                                  " degrees. It does not slide on this base, and its lowest cells shear as on a fixed "
+                                  "one. An angle of repose is \"Friction angle kind = direct shear or repose\"."));
+        }
+    }
+
+
     constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
     constexpr char diameter_unit[]     = "m (1 mm = 1e-3 m)";
 
@@ -56,12 +81,17 @@ namespace scree
       }
     const auto walls = parameters.boundaries.walls(3);
     for (unsigned int face = 0; face < walls.size(); ++face)
-      questions.ask("Boundaries",
-                    FaceEntries::names(3)[face],
-                    std::atan(walls[face].friction_coefficient) * 180 / dealii::numbers::PI,
-                    2,
-                    60,
-                    unit_of_angle);
+      {
+        questions.ask("Boundaries",
+                      FaceEntries::names(3)[face],
+                      std::atan(walls[face].friction_coefficient) * 180 / dealii::numbers::PI,
+                      2,
+                      60,
+                      unit_of_angle);
+        ask_of_base(parameters, "Boundaries", FaceEntries::names(3)[face], walls[face].friction_coefficient, questions);
+      }
+    if (parameters.bed.type_kind() == BedType::friction && parameters.bed.friction_angles.empty())
+      ask_of_base(parameters, "Bed", "Friction angle", parameters.bed.friction_coefficient(), questions);
     if (parameters.has_water)
       {
         const WaterParameters &water = parameters.water;

@@ -175,7 +175,7 @@ namespace scree
     });
     try
       {
-        body.material->update(points, motion.material_motion(), report);
+        body.material->update(points, motion.material_motion(time_step, body.grain_density), report);
       }
     catch (const ExceptionBase &)
       {

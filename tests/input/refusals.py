@@ -48,6 +48,12 @@ QUESTIONED = {
     "an angle for M": (
         INSTANT + "subsection Soil\n  set Region = y < 0.5\n  subsection Nor-Sand\n    set Critical stress ratio M = 24\n  end\nend\n",
         ['entry "Critical stress ratio M" = 24: the unit is none']),
+    "a base with the angle of its soil": (
+        INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\nend\n",
+        ['Base stronger than the soil: subsection Boundaries, entry "Bottom" = 30 degrees: Soil shears on a plane at 26.565']),
+    "a base with the angle of repose of its soil": (
+        INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n"
+        "  subsection Mohr-Coulomb\n    set Friction angle kind = direct shear or repose\n  end\nend\n", []),
     "a conductivity in m/d, and mPa s": (
         INSTANT + SOIL + "subsection Transfer\n  set Method = TPIC\nend\n"
         "subsection Water\n  set Hydraulic conductivity = 86\n  set Density = 1\nend\n",
@@ -136,7 +142,7 @@ def main():
     for name, (case, wanted) in QUESTIONED.items():
         code, error = run(scree, case)
         require(name, "", code, error)
-        questions = [line for line in pathlib.Path("run/log.txt").read_text(encoding="utf-8").split("\n") if "Unusual value:" in line]
+        questions = [line for line in pathlib.Path("run/log.txt").read_text(encoding="utf-8").split("\n") if re.search("Unusual value:|Base stronger", line)]
         if len(questions) != len(wanted) or not all(any(text in question for question in questions) for text in wanted):
             faults.append(f"{name}: the log asks {questions}")
     for name, (case, raster, wanted, n_questions) in LOGGED.items():

@@ -19,8 +19,8 @@ namespace scree
     coupled    ///< neither
   };
 
-  /// Where the simpler models are within 5 % of soil and water, measured: doc/studies/pages/drained_or_coupled.md (columns that
-  /// collapse in air and under water and that are loaded, until 4 sqrt(H/g)).
+  /// Where the simpler models are within 5 % of soil and water, measured: doc/studies/pages/drained_or_coupled.md
+  /// (columns that collapse in air and under water and that are loaded, until 4 sqrt(H/g)).
   namespace thresholds
   {
     /// Drainage time over motion time, of loads (0.54 to 0.7). In a collapse the drained model differs by 20 to 34 % in

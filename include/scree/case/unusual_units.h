@@ -9,7 +9,8 @@
 
 namespace scree
 {
-  /// A question about each value that is possible, but usual in another unit only: angles in radians, moduli in MPa.
+  /// A question about each value that is possible, but usual in another unit only (angles in radians, moduli in MPa),
+  /// and about each base that is stronger than the soil on it.
   std::vector<std::string> unusual_units(const Parameters &parameters);
 } // namespace scree
 

@@ -30,7 +30,10 @@ namespace scree
     BatchSubsteps(const Law &law, const Return &answers, const Input &input, const double largest_change);
 
     /// The parts of two batches.
-    static void advance(BatchSubsteps (&halves)[2], UpdateReport &report);
+    /// @param time_step of the whole, s
+    /// @param grain_density kg/m^3
+    static void
+        advance(BatchSubsteps (&halves)[2], const double time_step, const double grain_density, UpdateReport &report);
 
     // The state in the end.
     Batch left_cauchy_green[n_components],  ///< elastic b_e
@@ -85,9 +88,13 @@ namespace scree
 
 
   template <int dim, typename Law>
-  void BatchSubsteps<dim, Law>::advance(BatchSubsteps (&halves)[2], UpdateReport &report)
+  void BatchSubsteps<dim, Law>::advance(BatchSubsteps (&halves)[2],
+                                        const double time_step,
+                                        const double grain_density,
+                                        UpdateReport &report)
   {
-    const auto goes_on = [](const BatchSubsteps &half, const unsigned int k) {
+    const Batch time_steps[2] = { time_step * halves[0].part, time_step * halves[1].part };
+    const auto goes_on        = [](const BatchSubsteps &half, const unsigned int k) {
       return simd::any(half.is_served & (k < half.n_substeps));
     };
     for (unsigned int k = 0; goes_on(halves[0], k) || goes_on(halves[1], k); ++k)
@@ -95,7 +102,7 @@ namespace scree
         TrialState trials[2];
         Answer answers[2];
         const Mask todo[2] = { halves[0].prepare(k, trials[0]), halves[1].prepare(k, trials[1]) };
-        halves[0].returns.respond(trials, todo, answers);
+        halves[0].returns.respond(trials, todo, time_steps, grain_density, answers);
         for (unsigned int h = 0; h < 2; ++h)
           halves[h].finish(trials[h], answers[h], report);
       }

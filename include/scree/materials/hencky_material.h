@@ -34,6 +34,8 @@ namespace scree
                     double *internal_variables) const override;
     double initial_porosity() const override;
     bool is_elastic() const override;
+    double plane_friction() const override;
+    double grain_diameter() const override;
     std::vector<Quantity> internal_quantities() const override;
     std::vector<Quantity> output_quantities() const override;
     void output(const double *left_cauchy_green,
@@ -52,10 +54,21 @@ namespace scree
   private:
     static constexpr unsigned int n_components = n_symmetric_components<dim>;
 
+    /// What friction that depends on the rate keeps of a return from `trial`; `internal_variables` are those after it.
+    void keep_part(const PrincipalValues &trial,
+                   const double *internal_variables_before,
+                   const double time_step,
+                   const double grain_density,
+                   PrincipalValues &strain,
+                   double *internal_variables,
+                   PrincipalValues &stress) const;
+
     /// One increment f of a point; returns the dissipation per reference volume, J/m^3. Writes the stress if `stress`.
     double advance(const dealii::Tensor<2, dim> &f,
                    const double out_of_plane_stretch,
                    const double volume_ratio,
+                   const double time_step,
+                   const double grain_density,
                    double *left_cauchy_green,
                    double *internal_variables,
                    double *stress,
@@ -65,6 +78,8 @@ namespace scree
     double advance_in_substeps(const dealii::Tensor<2, dim> &deformation_increment,
                                const double out_of_plane_stretch,
                                const double volume_ratio,
+                               const double time_step,
+                               const double grain_density,
                                double *left_cauchy_green,
                                double *internal_variables,
                                double *stress,
@@ -82,9 +97,41 @@ namespace scree
 
 
   template <int dim, typename Law>
+  void HenckyMaterial<dim, Law>::keep_part(const PrincipalValues &trial,
+                                           const double *internal_variables_before,
+                                           const double time_step,
+                                           const double grain_density,
+                                           PrincipalValues &strain,
+                                           double *internal_variables,
+                                           PrincipalValues &stress) const
+  {
+    PrincipalValues change;
+    double volume = 0, square = 0;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        change[i] = trial[i] - strain[i];
+        volume += change[i];
+      }
+    for (const double value : change)
+      square += (value - volume / 3) * (value - volume / 3);
+    const double part = law.inertial_friction.template kept_part<double>(
+        std::sqrt(2 * square), law.shear_modulus(), law.friction_pressure(stress), grain_density, time_step);
+    if (part == 0)
+      return;
+    for (unsigned int i = 0; i < 3; ++i)
+      strain[i] += part * change[i];
+    for (unsigned int i = 0; i < Law::n_internal_variables; ++i)
+      internal_variables[i] += part * (internal_variables_before[i] - internal_variables[i]);
+    stress = law.stress_of(strain);
+  }
+
+
+  template <int dim, typename Law>
   inline double HenckyMaterial<dim, Law>::advance(const dealii::Tensor<2, dim> &f,
                                                   const double out_of_plane_stretch,
                                                   const double volume_ratio,
+                                                  const double time_step,
+                                                  const double grain_density,
                                                   double *left_cauchy_green,
                                                   double *internal_variables,
                                                   double *stress,
@@ -100,11 +147,27 @@ namespace scree
     PrincipalValues strain = trial_strain;
     PrincipalValues kirchhoff_stress;
     double dissipation = 0;
+    double internal_variables_before[Law::n_internal_variables + 1];
+    std::copy_n(internal_variables, Law::n_internal_variables, internal_variables_before);
+    const double largest_modulus = report.largest_bulk_modulus;
     ++report.n_substeps;
     if (law.return_map(strain, internal_variables, volume_ratio, kirchhoff_stress, report) == Response::elastic)
       std::copy(trial, trial + n_components, left_cauchy_green);
     else
       {
+        if constexpr (HasInertialFriction<Law>())
+          if (law.inertial_friction.is_active())
+            {
+              keep_part(trial_strain,
+                        internal_variables_before,
+                        time_step,
+                        grain_density,
+                        strain,
+                        internal_variables,
+                        kirchhoff_stress);
+              const double pressure       = -(kirchhoff_stress[0] + kirchhoff_stress[1] + kirchhoff_stress[2]) / 3;
+              report.largest_bulk_modulus = std::max(largest_modulus, law.bulk_modulus(pressure));
+            }
         left_cauchy_green_of(frame, strain, left_cauchy_green);
         for (unsigned int i = 0; i < 3; ++i)
           dissipation += kirchhoff_stress[i] * (trial_strain[i] - strain[i]);
@@ -126,6 +189,8 @@ namespace scree
   inline double HenckyMaterial<dim, Law>::advance_in_substeps(const dealii::Tensor<2, dim> &deformation_increment,
                                                               const double out_of_plane_stretch,
                                                               const double volume_ratio,
+                                                              const double time_step,
+                                                              const double grain_density,
                                                               double *left_cauchy_green,
                                                               double *internal_variables,
                                                               double *stress,
@@ -154,6 +219,8 @@ namespace scree
       return advance(deformation_increment,
                      out_of_plane_stretch,
                      volume_ratio,
+                     time_step,
+                     grain_density,
                      left_cauchy_green,
                      internal_variables,
                      stress,
@@ -176,6 +243,8 @@ namespace scree
         dissipation += advance(f,
                                1 + stretch_change / (1 + k * stretch_change),
                                volume_ratio,
+                               part * time_step,
+                               grain_density,
                                left_cauchy_green,
                                internal_variables,
                                k + 1 == n_substeps ? stress : nullptr,
@@ -208,6 +277,8 @@ namespace scree
         motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment_of(p),
                                                          dim == 2 ? motion.out_of_plane_stretch[p] : 1,
                                                          motion.volume_ratio[p],
+                                                         motion.time_step,
+                                                         motion.grain_density,
                                                          points.left_cauchy_green + points.offset(p),
                                                          points.internal_variables + points.offset(p),
                                                          points.stress + points.offset(p),
@@ -261,6 +332,26 @@ namespace scree
   bool HenckyMaterial<dim, Law>::is_elastic() const
   {
     return Law::is_elastic;
+  }
+
+
+  template <int dim, typename Law>
+  double HenckyMaterial<dim, Law>::plane_friction() const
+  {
+    if constexpr (HasInertialFriction<Law>())
+      return law.plane_friction();
+    else
+      return Material<dim>::plane_friction();
+  }
+
+
+  template <int dim, typename Law>
+  double HenckyMaterial<dim, Law>::grain_diameter() const
+  {
+    if constexpr (HasInertialFriction<Law>())
+      return law.inertial_friction.is_active() ? law.inertial_friction.diameter() : 0;
+    else
+      return 0;
   }
 
 

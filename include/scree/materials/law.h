@@ -7,6 +7,8 @@
 #include <scree/simd/batch.h>
 #include <scree/tensor/principal.h>
 
+#include <type_traits>
+
 namespace scree
 {
   /// What a return map did to the trial strain.
@@ -25,10 +27,28 @@ namespace scree
   ///   bulk_modulus_at(mean stress)                                  tangent, Pa
   ///   return_to_surface(trial, todo, internal variables, result)    of the points `todo`; says which it could return,
   ///                                                                 others are left to return_map()
+  ///
+  /// A law with a member `inertial_friction` has friction that grows with the rate of shear, see InertialFriction. It
+  /// also has
+  ///   friction_pressure(stress)                                     p of that friction, Pa, of a principal stress
+  ///   stress_of(strain)                                             elastic principal stress, Pa
+  ///   mean_stress_of(volume strain)                                 of laws in invariants
   enum class Response
   {
     elastic, ///< The trial strain stands
     plastic  ///< The strain was changed
+  };
+
+  /// Whether the friction of a law can grow with the rate of shear.
+  template <typename Law, typename = void>
+  struct HasInertialFriction : std::false_type
+  {
+  };
+
+  /// It has the member.
+  template <typename Law>
+  struct HasInertialFriction<Law, std::void_t<decltype(std::declval<const Law &>().inertial_friction)>> : std::true_type
+  {
   };
 
   /// What became of points in a return in principal values.

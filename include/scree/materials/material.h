@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,8 @@ namespace scree
     const double *volume_ratio          = nullptr; ///< J = V/V_0 at the end of the step
     const double *reference_volume      = nullptr; ///< V_0, m^3 (dim = 2: per metre of depth)
     std::size_t pitch                   = 1;       ///< doubles from one component of dF to the next
+    double time_step                    = std::numeric_limits<double>::infinity(); ///< s; infinite: slow
+    double grain_density                = 0; ///< kg/m^3; read if friction depends on the rate
 
     /// dF of a point.
     dealii::Tensor<2, dim> deformation_increment_of(const unsigned int p) const
@@ -124,6 +127,18 @@ namespace scree
 
     /// Porosity at the start if the law fixes it (Nor-Sand: 1 - 1/v_0), else 0.
     virtual double initial_porosity() const = 0;
+
+    /// tau/sigma on a plane that shears steadily; infinite if the law does not yield.
+    virtual double plane_friction() const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
+    /// Grain diameter of a friction that grows with the rate of shear, m; 0: it does not.
+    virtual double grain_diameter() const
+    {
+      return 0;
+    }
 
     /// Whether the law has no plastic strain.
     virtual bool is_elastic() const = 0;

@@ -59,11 +59,16 @@ namespace scree
           Records::is_possible(input) & is_finite & (Records::largest_change_of(input) <= largest_change);
       const unsigned int used = (1u << n) - 1, served = simd::bits_of(is_served) & used;
 
-      PrincipalNumbers<Batch> strain          = trial_strain, kirchhoff_stress;
+      PrincipalNumbers<Batch> strain = trial_strain, kirchhoff_stress;
+      Batch before[Law::n_internal_variables + 1];
+      std::copy_n(input.internal_variables, Law::n_internal_variables, before);
       const PrincipalResponse<Batch> response = law.respond(strain, input.internal_variables, kirchhoff_stress);
       const unsigned int plastic              = simd::bits_of(response.is_plastic) & served;
       if (plastic != 0)
         {
+          if constexpr (HasInertialFriction<Law>())
+            if (law.inertial_friction.is_active())
+              keep_part(trial_strain, before, response, motion, strain, input.internal_variables, kirchhoff_stress);
           Batch returned[n_components], dissipation = simd::broadcast<Batch>(0.);
           left_cauchy_green_of(frame, strain, returned);
           for (unsigned int c = 0; c < n_components; ++c)
@@ -93,6 +98,39 @@ namespace scree
 
       for (unsigned int others = used & ~served; others != 0; others &= others - 1)
         this->update_point(indices[__builtin_ctz(others)], points, motion, report);
+    }
+
+    /// As HenckyMaterial::keep_part(), of the points that yield.
+    void keep_part(const PrincipalNumbers<Batch> &trial,
+                   const Batch *internal_variables_before,
+                   const PrincipalResponse<Batch> &response,
+                   const MaterialMotion<dim> &motion,
+                   PrincipalNumbers<Batch> &strain,
+                   Batch *internal_variables,
+                   PrincipalNumbers<Batch> &stress) const
+    {
+      PrincipalNumbers<Batch> change;
+      Batch volume = simd::broadcast<Batch>(0.), square = simd::broadcast<Batch>(0.);
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          change[i] = trial[i] - strain[i];
+          volume += change[i];
+        }
+      for (const Batch &value : change)
+        square += (value - volume * (1. / 3.)) * (value - volume * (1. / 3.));
+      Batch part = law.inertial_friction.template kept_part<Batch>(simd::sqrt<Batch>(2. * square),
+                                                                   law.shear_modulus(),
+                                                                   law.template friction_pressure<Batch>(stress),
+                                                                   motion.grain_density,
+                                                                   simd::broadcast<Batch>(motion.time_step));
+      part       = simd::select<Batch>(response.is_plastic, part, simd::broadcast<Batch>(0.));
+      for (unsigned int i = 0; i < 3; ++i)
+        strain[i] += part * change[i];
+      for (unsigned int i = 0; i < Law::n_internal_variables; ++i)
+        internal_variables[i] += part * (internal_variables_before[i] - internal_variables[i]);
+      const PrincipalNumbers<Batch> kept = law.template stress_of<Batch>(strain);
+      for (unsigned int i = 0; i < 3; ++i)
+        stress[i] = simd::select<Batch>(part > 0., kept[i], stress[i]);
     }
 
     static void

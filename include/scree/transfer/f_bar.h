@@ -35,11 +35,17 @@ namespace scree
     }
 
     /// The motion as the laws read it; valid until resize().
-    MaterialMotion<dim> material_motion() const
+    /// @param time_step s
+    /// @param grain_density kg/m^3
+    MaterialMotion<dim> material_motion(const double time_step, const double grain_density) const
     {
-      return {
-        deformation_increment.data(), out_of_plane_stretch.data(), volume_ratio.data(), reference_volume.data(), pitch
-      };
+      return { deformation_increment.data(),
+               out_of_plane_stretch.data(),
+               volume_ratio.data(),
+               reference_volume.data(),
+               pitch,
+               time_step,
+               grain_density };
     }
   };
 

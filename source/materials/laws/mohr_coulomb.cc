@@ -14,19 +14,14 @@ namespace scree
 {
   namespace
   {
-    double radians(const double degrees)
-    {
-      return degrees * numbers::PI / 180;
-    }
-
-
     /// Isotropic tension that friction and cohesion allow, c cot(phi), Pa.
     double apex(const MohrCoulombParameters &parameters)
     {
       if (parameters.cohesion == 0)
         return 0;
-      return parameters.friction_angle > 0 ? parameters.cohesion / std::tan(radians(parameters.friction_angle))
-                                           : std::numeric_limits<double>::infinity();
+      const double sine = parameters.sine();
+      return sine > 0 ? parameters.cohesion * std::sqrt(1 - sine * sine) / sine
+                      : std::numeric_limits<double>::infinity();
     }
 
 
@@ -42,6 +37,11 @@ namespace scree
     prm.add_parameter("Young's modulus", young_modulus, "Pa; Young's modulus.", Patterns::Double(0));
     prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
     prm.add_parameter("Friction angle", friction_angle, "degrees; friction angle phi.", Patterns::Double(0, 89));
+    prm.add_parameter("Friction angle kind",
+                      angle_kind,
+                      "Test that \"Friction angle\" comes from. triaxial: phi is this angle. plane strain: the same. "
+                      "direct shear or repose: its tangent is tau/sigma on a plane of shear, and phi is larger.",
+                      Patterns::Selection(friction_angle_kinds));
     prm.add_parameter("Dilation angle",
                       dilation_angle,
                       "degrees; dilation angle psi, at most the friction angle.",
@@ -49,6 +49,13 @@ namespace scree
     prm.add_parameter("Cohesion", cohesion, "Pa; cohesion c.", Patterns::Double(0));
     prm.add_parameter(
         "Tension cut-off", tension_cut_off, "Pa; largest principal stress, at most c cot(phi).", Patterns::Double(0));
+    inertial_friction.add_parameters(prm);
+  }
+
+
+  double MohrCoulombParameters::sine() const
+  {
+    return sine_of_mohr_coulomb(friction_angle, dilation_angle, friction_angle_kind(angle_kind));
   }
 
 
@@ -61,6 +68,12 @@ namespace scree
                   dilation_angle,
                   "beyond the friction angle, here " + number_text(friction_angle) +
                       ", plastic flow would create energy; lower it.");
+    require_entry(sine() < std::sin(radians(89.)),
+                  subsection,
+                  "Friction angle",
+                  friction_angle,
+                  "as an angle of direct shear it has no friction angle phi below 89 degrees; lower it, or change "
+                  "\"Friction angle kind\".");
     require_entry(friction_angle > 0 || cohesion > 0,
                   subsection,
                   "Cohesion",
@@ -82,10 +95,12 @@ namespace scree
 
   std::vector<UsualRange> MohrCoulombParameters::usual_ranges() const
   {
-    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
-             { "Friction angle", friction_angle, 5, 60, unit_of_angle },
-             { "Dilation angle", dilation_angle, 0.8, 40, unit_of_angle },
-             { "Cohesion", cohesion, 50, 1e8, unit_of_pressure } };
+    std::vector<UsualRange> ranges{ { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
+                                    { "Friction angle", friction_angle, 5, 60, unit_of_angle },
+                                    { "Dilation angle", dilation_angle, 0.8, 40, unit_of_angle },
+                                    { "Cohesion", cohesion, 50, 1e8, unit_of_pressure } };
+    inertial_friction.append_usual_ranges(ranges);
+    return ranges;
   }
 
 
@@ -99,16 +114,19 @@ namespace scree
 
 
   MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters)
-      : elastic(LinearElasticParameters{ parameters.young_modulus, parameters.poisson_ratio })
+      : inertial_friction(parameters.inertial_friction)
+      , elastic(LinearElasticParameters{ parameters.young_modulus, parameters.poisson_ratio })
       , shear(elastic.shear_modulus())
       , bulk(elastic.bulk_modulus(0))
       , vertex(std::min(parameters.tension_cut_off, apex(parameters)))
+      , on_plane(parameters.sine() * std::cos(radians(parameters.dilation_angle)) /
+                 (1 - parameters.sine() * std::sin(radians(parameters.dilation_angle))))
       , cohesionless(apex(parameters) == 0)
       , largest_principal_stress(parameters.tension_cut_off)
   {
-    const double sine     = std::sin(radians(parameters.friction_angle));
+    const double sine     = parameters.sine();
     const double dilation = std::sin(radians(parameters.dilation_angle));
-    const double limit    = 2 * parameters.cohesion * std::cos(radians(parameters.friction_angle));
+    const double limit    = 2 * parameters.cohesion * std::sqrt(1 - sine * sine);
 
     constexpr unsigned int largest[3]  = { 0, 0, 1 };
     constexpr unsigned int smallest[3] = { 2, 1, 2 };
@@ -192,6 +210,12 @@ namespace scree
   double MohrCoulomb::initial_porosity() const
   {
     return 0;
+  }
+
+
+  double MohrCoulomb::plane_friction() const
+  {
+    return on_plane;
   }
 
 

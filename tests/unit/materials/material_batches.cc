@@ -61,10 +61,12 @@ struct States
       }
     UpdateReport report;
     material.update({ n, stride, record(0), record(0) + n_components, record(0) + 2 * n_components, &slots[first] },
-                    { F.data(), zz.data(), J.data(), V0.data(), n },
+                    { F.data(), zz.data(), J.data(), V0.data(), n, time_step, grain_density },
                     report);
     return report;
   }
+
+  static constexpr double time_step = 1e-3, grain_density = 2650; // s, kg/m^3; of laws that know a rate
 
   std::vector<double> records;
   std::vector<Tensor<2, dim>> increment;
@@ -221,6 +223,9 @@ void test_laws(const unsigned int n, RandomNumbers &random)
   test<dim>(sand, { "sand, yielding", 1e-6, 9e-4, 1e3, 1e5, 1, 1, 0 }, n, 1e-8, random);
   test<dim>(sand, { "sand, mixed with sub-steps", 1e-7, 9e-4, 1e3, 1e5, 1, 1.5, 0.2 }, n, 1e-7, random);
   test<dim>(sand, { "sand, pulled apart and to the vertex", 1e-5, 9e-4, 1., 1e3, 0.5, 1, 0.05 }, n, 1e-7, random);
+  parameters.inertial_friction.grain_diameter = 1e-3;
+  test<dim>(NorSand(parameters), { "sand, inertial friction", 1e-6, 9e-4, 1e2, 1e5, 1, 1, 0.2 }, n, 1e-7, random);
+  parameters.inertial_friction.grain_diameter = 0;
   parameters.potential_constant = parameters.yield_constant = 0;
   test<dim>(NorSand(parameters), { "N = 0", 1e-6, 9e-4, 1e3, 1e5, 0.5, 1, 0.05 }, n, 1e-7, random);
 }
@@ -236,8 +241,11 @@ void test_mohr_coulomb(const unsigned int n, RandomNumbers &random)
   test_law(parameters, { "Mohr-Coulomb, inside the yield surface", 1e-9, 1e-6, 1e4, 1e6, 0.3, 1, 0 });
   test_law(parameters, { "Mohr-Coulomb, faces, edges, pulled apart", 1e-5, 0.01, 1e2, 1e5, 0.8, 1, 0.1 });
   test_law(parameters, { "Mohr-Coulomb, nearly isotropic", 1e-12, 1e-3, 1e3, 1e5, 1e-9, 1, 0 });
-  parameters.dilation_angle = 15;
-  parameters.cohesion       = 1e3;
+  parameters.inertial_friction.grain_diameter = 1e-3;
+  test_law(parameters, { "Mohr-Coulomb, inertial friction", 1e-5, 0.01, 1e2, 1e5, 0.8, 1, 0.1 });
+  parameters.inertial_friction.grain_diameter = 0;
+  parameters.dilation_angle                   = 15;
+  parameters.cohesion                         = 1e3;
   test_law(parameters, { "Mohr-Coulomb, psi, c, no tension", 1e-5, 0.01, 1e2, 1e5, 0.8, 1, 0.1 });
   parameters.tension_cut_off = 500;
   test_law(parameters, { "Mohr-Coulomb, cut-off", 1e-6, 0.01, 1e2, 1e4, 0.8, 1, 0.1 });

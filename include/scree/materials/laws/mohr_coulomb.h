@@ -3,6 +3,8 @@
 #ifndef scree_materials_laws_mohr_coulomb_h
 #define scree_materials_laws_mohr_coulomb_h
 
+#include <scree/materials/friction_angle.h>
+#include <scree/materials/inertial_friction.h>
 #include <scree/materials/laws/linear_elastic.h>
 
 namespace scree
@@ -10,12 +12,17 @@ namespace scree
   /// Entries of subsection "Mohr-Coulomb"; angles in degrees.
   struct MohrCoulombParameters
   {
-    double young_modulus   = 1e6; ///< E, Pa
-    double poisson_ratio   = 0.3; ///< nu, -
-    double friction_angle  = 30;  ///< phi, degrees
-    double dilation_angle  = 0;   ///< psi, degrees
-    double cohesion        = 0;   ///< c, Pa
-    double tension_cut_off = 0;   ///< largest principal stress, Pa; at most c cot(phi)
+    double young_modulus   = 1e6;                 ///< E, Pa
+    double poisson_ratio   = 0.3;                 ///< nu, -
+    double friction_angle  = 30;                  ///< phi, degrees
+    double dilation_angle  = 0;                   ///< psi, degrees
+    double cohesion        = 0;                   ///< c, Pa
+    double tension_cut_off = 0;                   ///< largest principal stress, Pa; at most c cot(phi)
+    std::string angle_kind = "triaxial";          ///< what phi was measured in
+    InertialFrictionParameters inertial_friction; ///< of grains that flow
+
+    /// sin(phi) of the law.
+    double sine() const;
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -64,6 +71,17 @@ namespace scree
     /// Zero: the law knows no pores.
     double initial_porosity() const;
 
+    /// tau/sigma on a plane of shear without cohesion, sin(phi) cos(psi)/(1 - sin(phi) sin(psi)).
+    double plane_friction() const;
+
+    /// Half the sum of the largest and the smallest compression, Pa.
+    template <typename Number>
+    Number friction_pressure(const PrincipalNumbers<Number> &stress) const;
+
+    /// Elastic principal stress, Pa.
+    template <typename Number>
+    PrincipalNumbers<Number> stress_of(const PrincipalNumbers<Number> &strain) const;
+
     /// From trial to returned `strain` and internal variables; sets `stress`, counts in `report`.
     Response return_map(PrincipalValues &strain,
                         double *internal_variables,
@@ -97,6 +115,8 @@ namespace scree
     /// Largest of all yield functions, Pa; negative inside.
     template <typename Number>
     Number yield(const PrincipalNumbers<Number> &stress) const;
+
+    const InertialFriction inertial_friction; ///< friction that grows with the rate of shear
 
   private:
     /// A plane of the yield surface, normal . tau <= limit, and its flow direction.
@@ -139,9 +159,10 @@ namespace scree
                         PrincipalResponse<Number> &response) const;
 
     const LinearElastic elastic;
-    const double shear;  // Pa
-    const double bulk;   // Pa
-    const double vertex; // tau of the vertex, Pa
+    const double shear;    // Pa
+    const double bulk;     // Pa
+    const double vertex;   // tau of the vertex, Pa
+    const double on_plane; // tau/sigma
     const bool cohesionless;
     double largest_principal_stress; // of the cut-off, Pa
     std::vector<Surface> surfaces;   // of sorted stresses: 13, 12, 23, then cut-off 1, 2, 3
@@ -167,13 +188,31 @@ namespace scree
 
 
   template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::friction_pressure(const PrincipalNumbers<Number> &stress) const
+  {
+    const Number largest  = simd::max<Number>(stress[0], simd::max<Number>(stress[1], stress[2]));
+    const Number smallest = simd::min<Number>(stress[0], simd::min<Number>(stress[1], stress[2]));
+    return -0.5 * (largest + smallest);
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number>
+  MohrCoulomb::stress_of(const PrincipalNumbers<Number> &strain) const
+  {
+    const Number volume_part = (bulk - 2. / 3. * shear) * (strain[0] + strain[1] + strain[2]);
+    return {
+      { volume_part + 2 * shear * strain[0], volume_part + 2 * shear * strain[1], volume_part + 2 * shear * strain[2] }
+    };
+  }
+
+
+  template <typename Number>
   DEAL_II_ALWAYS_INLINE inline PrincipalResponse<Number> MohrCoulomb::respond(PrincipalNumbers<Number> &strain,
                                                                               Number *internal_variables,
                                                                               PrincipalNumbers<Number> &stress) const
   {
-    const Number volume_part = (bulk - 2. / 3. * shear) * (strain[0] + strain[1] + strain[2]);
-    for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = volume_part + 2 * shear * strain[i];
+    stress = stress_of<Number>(strain);
 
     PrincipalResponse<Number> response{};
     response.is_plastic = yield<Number>(stress) > 0.;

@@ -3,6 +3,8 @@
 #ifndef scree_materials_laws_nor_sand_h
 #define scree_materials_laws_nor_sand_h
 
+#include <scree/materials/friction_angle.h>
+#include <scree/materials/inertial_friction.h>
 #include <scree/materials/law.h>
 #include <scree/materials/law_entries.h>
 
@@ -29,6 +31,12 @@ namespace scree
     double initial_overconsolidation      = 1;      ///< the yield surface passes through the initial stress times this
     double minimum_pressure               = 1;      ///< Pa; no stress below it
     double substep_strain                 = 1e-3;   ///< largest component of dF - I in one return map
+    double critical_friction_angle        = 0;      ///< degrees; gives M unless it is 0
+    std::string angle_kind                = "triaxial"; ///< what that angle was measured in
+    InertialFrictionParameters inertial_friction;       ///< of grains that flow
+
+    /// M, from the critical friction angle if there is one.
+    double critical_ratio() const;
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -126,6 +134,19 @@ namespace scree
     /// 1 - 1/v_0.
     double initial_porosity() const;
 
+    /// tau/sigma on a plane of shear at critical state, M/sqrt(3).
+    double plane_friction() const;
+
+    /// Mean compression, Pa.
+    double friction_pressure(const PrincipalValues &stress) const;
+
+    /// Elastic principal stress, Pa.
+    PrincipalValues stress_of(const PrincipalValues &strain) const;
+
+    /// Mean Kirchhoff stress of an elastic volume strain, Pa, tension positive.
+    template <typename Number>
+    Number mean_stress_of(const Number &volume_strain) const;
+
     /// From trial to returned `strain` and internal variables, at J = `volume_ratio`; sets `stress`, counts in
     /// `report`.
     Response return_map(PrincipalValues &strain,
@@ -155,6 +176,8 @@ namespace scree
 
     /// (zeta q - P eta)/P of a state, for tests; negative inside.
     double yield(const PrincipalValues &strain, const double image_pressure) const;
+
+    const InertialFriction inertial_friction; ///< friction that grows with the rate of shear
 
   private:
     /// zeta. The data know no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
@@ -315,6 +338,13 @@ namespace scree
   DEAL_II_ALWAYS_INLINE inline Number NorSand::mean_stress(const Trial<Number> &trial) const
   {
     return -trial.pressure;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number NorSand::mean_stress_of(const Number &volume_strain) const
+  {
+    return -1. * simd::exp<Number>(log_pressure_of(volume_strain));
   }
 
 

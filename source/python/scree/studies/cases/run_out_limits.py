@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Plane columns of dry grains on a rough base: is there a limit of the run-out as the cells become smaller, and is it that of the experiment?
+
+Plan, fixed before the runs:
+
+- Experiment: sand in a channel (Lube et al. 2005), angle of repose 31 degrees, d/L0 = 0.011.
+  Run-out (L - L0)/L0 = 1.2 a up to a = 1.8, 1.9 a^(2/3) from 2.8; height H/L0 = a up to a = 1.15, then 1.1 a^(2/5).
+- Added after the runs with sand: glass beads (Lajeunesse et al. 2005), 22 degrees, run-out 1.8 a up to a = 3.
+- Angle: 31 degrees of kind "direct shear or repose", which is 36.9 degrees of Mohr-Coulomb; "triaxial" for comparison.
+- Friction: that of the law alone, and with mu(I) of textbook values: I_0 = 0.3, increase 0.26, d = 0.011 L0.
+- Base fixed, L0 = 1 m, Young's modulus 1e6 Pa per metre of height, time 8 sqrt(H0/g).
+- Transfers: FLIP with a PIC rate of 1/s, AFLIP, TPIC. 3 x 3 points per cell; 2 x 2 and 4 x 4 and three jitters of 0.2 cell for FLIP.
+- Cells per L0: 12, 16, 24, 32, 48 at a = 1; 12, 16, 24, 32 at a = 0.6, 1.7, 3, 4.
+- Quantities: front where the deposit is 0.02 L0 deep (over a width of 0.05 L0), as an experiment sees it; fronts of 90 and 99 % of the mass;
+  height at the axis (mean depth from 0 to 0.1 L0).
+
+Bounds:
+
+- From 24 to 48 cells the front of 99 % changes by less than 3 %.
+- The limits of the three transfers (front of 99 %) are within 3 % of each other.
+- Run-out and height of the limit are within 10 % of the experiment's laws.
+
+Value at h = 0: the mean of the least-squares fits with errors in proportion to h and to h^2.
+Its uncertainty is half their distance and the RMS deviation of the worse one.
+"""
+
+import math
+import re
+
+import numpy as np
+
+from scree.studies.cases.run_out import Limit
+from scree.studies.charts import Curves, name_lines
+from scree.studies.study import Claim, Study, Variant, reference_rows
+
+GRAVITY = 9.81
+SIZES, SHORT_SIZES = (12, 16, 24, 32, 48), (12, 16, 24, 32)
+ASPECTS = (0.6, 1, 1.7, 3, 4)
+REPOSE, TRIAXIAL = "direct shear or repose", "triaxial"
+WITH, WITHOUT = "mu(I)", "constant"
+SAND, BEADS = "sand", "beads"
+GRAINS = {SAND: (31, "Lube"), BEADS: (22, "Lajeunesse")}  # angle of repose, source of the law
+TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": {"Transfer/Method": "AFLIP", "Transfer/PIC rate": "auto"},
+             "TPIC": {"Transfer/Method": "TPIC", "Transfer/PIC rate": "auto"}}
+FRONT, TIP, MASS, HEIGHT = "front 0.02 L0", "front 99 %", "front 90 %", "height"
+WIDTH = 0.05  # L0
+DIAMETER = 0.011  # L0
+
+
+def law(source, quantity, aspect):
+    """The law's value, - ; nan where the source gives none. At the bound between two ranges it is the lower one's."""
+    for row in reference_rows("lube_lajeunesse_2005"):
+        sign, bound = row["range_of_a"].split()[1:]
+        inside = aspect <= float(bound) if sign == "<" else aspect > float(bound)
+        if row["source"].startswith(source) and row["quantity"] == quantity.replace("-", "") and inside:
+            factor, power, over = re.fullmatch(r"(?:([\d.]+)\*)?a(?:\^\((\d)/(\d)\))?", row["formula"]).groups()
+            return float(factor or 1) * aspect ** (float(power) / float(over) if power else 1)
+    return math.nan
+
+
+def variant(aspect, cells, transfer="FLIP", friction=WITH, kind=REPOSE, points=3, jitter=0., grains=SAND):
+    labels = {"grains": grains, "a": float(aspect), "cells": cells, "transfer": transfer, "friction": friction, "angle": kind, "points": points, "jitter": jitter}
+    reach = 1 + 1.7 * law("Lajeunesse", "run-out", aspect)  # the far wall must not be touched
+    time = 8 * math.sqrt(aspect / GRAVITY)
+    return Variant(labels, {
+        **TRANSFERS[transfer], "Mesh/Cell size": f"{1 / cells:.12g}", "Boundaries/Bottom": "fixed",
+        "Mesh/Upper corner": ", ".join(f"{math.ceil(length * cells - 1e-9) / cells:.12g}" for length in (reach, aspect + 0.2)),
+        "Soil/Region": f"x < 1 && y < {aspect:g}", "Soil/Points per cell": points, "Soil/Jitter": jitter,
+        "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * aspect:g}", "Soil/Mohr-Coulomb/Friction angle": GRAINS[grains][0], "Soil/Mohr-Coulomb/Friction angle kind": kind,
+        "Soil/Mohr-Coulomb/Grain diameter": DIAMETER if friction == WITH else 0, "End time": f"{time:.4f}", "Output/Interval": f"{time / 8:.4f}",
+        "Output/Graphics": "points"})
+
+
+def variants():
+    found = [variant(1, cells, transfer, friction) for transfer in TRANSFERS for friction in (WITH, WITHOUT) for cells in SIZES]
+    found += [variant(aspect, cells, friction=friction) for aspect in ASPECTS if aspect != 1 for friction in (WITH, WITHOUT) for cells in SHORT_SIZES]
+    found += [variant(1, cells, kind=TRIAXIAL, friction=friction) for friction in (WITH, WITHOUT) for cells in SHORT_SIZES]
+    found += [variant(1, cells, points=points) for points in (2, 4) for cells in SHORT_SIZES]
+    found += [variant(aspect, cells, grains=BEADS) for aspect in (0.6, 1, 1.7, 3) for cells in SHORT_SIZES]
+    return found + [variant(1, cells, jitter=jitter) for jitter in (0.1, 0.2, 0.3) for cells in (24, 32)]
+
+
+def depth(points, low, high):
+    """Of the deposit between places, averaged, L0; each point is a square of its volume."""
+    x, volume = points.positions[:, 0], points.arrays["volume"].ravel()
+    sides = np.sqrt(volume)
+
+    def left_of(place):
+        return np.sum(volume * np.clip((place - x) / sides + 0.5, 0., 1.))
+    return np.array([(left_of(end) - left_of(start)) / (end - start) for start, end in zip(np.atleast_1d(low), np.atleast_1d(high))])
+
+
+def measure(run):
+    points = run.points()
+    places = np.arange(1., points.positions[:, 0].max() + WIDTH, 0.0025)
+    potential = run.statistics("Potential energy (J)")
+    last = np.interp(5 / 6 * run.time[-1], run.time, run.statistics("Front 99 % (m)"))
+    depths = depth(points, places, places + WIDTH)
+    return {FRONT: places[np.flatnonzero(depths > 0.02)[-1]] + WIDTH / 2, MASS: run.statistics("Front 90 % (m)")[-1],
+            TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, 0., 2 * WIDTH)[0],
+            "99 % in the last sixth": run.statistics("Front 99 % (m)")[-1] - last,
+            "energy lost numerically": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}
+
+
+def curves(rows):
+    """{(a, transfer, friction, angle, points, jitter, grains): rows from the largest cells to the smallest}."""
+    found = {}
+    for row in sorted(rows, key=lambda row: row["cells"]):
+        found.setdefault(tuple(row[name] for name in ("a", "transfer", "friction", "angle", "points", "jitter", "grains")), []).append({**row, "h": 1 / row["cells"]})
+    return found
+
+
+def halving(group, name):
+    """Relative change from 24 to 48 cells."""
+    at = {row["cells"]: row[name] for row in group}
+    return at[48] / at[24] - 1
+
+
+def number(limit):
+    return f"{limit.value:.3f} +- {limit.uncertainty:.3f}"
+
+
+def compared_with_law(group, name):
+    """(limit, law, relative deviation) of the run-out or the height."""
+    limit, start, quantity = Limit(group, name), *((1., "run-out") if name == FRONT else (0., "height"))
+    exact = law(GRAINS[group[0]["grains"]][1] if name == FRONT else "Lube", quantity, group[0]["a"])
+    limit.value -= start
+    return limit, exact, limit.value / exact - 1
+
+
+def table(rows):
+    groups, found = curves(rows), [["a", "grains", "run-out, h = 0", "law", "deviation", "height, h = 0", "law", "deviation"]]
+    for grains, aspect in ((grains, aspect) for grains in GRAINS for aspect in ASPECTS):
+        group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0., grains), [])
+        if len(group) > 2:
+            texts = [text for name in (FRONT, HEIGHT) for limit, exact, deviation in [compared_with_law(group, name)]
+                     for text in (number(limit), *((f"{exact:.3f}", f"{100 * deviation:+.1f} %") if (grains, name) != (BEADS, HEIGHT) else ("-", "-")))]
+            found.append([f"{aspect:g}", grains, *texts])
+    return found
+
+
+def verdict(rows):
+    groups = curves(rows)
+
+    def of(a=1., transfer="FLIP", friction=WITH, angle=REPOSE, points=3, grains=SAND):
+        return groups[float(a), transfer, friction, angle, points, 0., grains]
+
+    beads = [compared_with_law(of(a=aspect, grains=BEADS), FRONT)[2] for aspect in (0.6, 1, 1.7, 3)]
+    claims = [Claim(f"Beads of 22 degrees: the run-out at h = 0 deviates from the law of Lajeunesse et al. by {100 * min(beads):+.0f} to {100 * max(beads):+.0f} %. Bound: 10 %.",
+                    max(map(abs, beads)) < 0.1, quick=False)]
+    changes = {(transfer, friction): halving(of(transfer=transfer, friction=friction), TIP) for transfer in TRANSFERS for friction in (WITH, WITHOUT)}
+    for friction in (WITH, WITHOUT):
+        told = ", ".join(f"{transfer} {100 * changes[transfer, friction]:+.1f} %" for transfer in TRANSFERS)
+        worst = max(abs(changes[transfer, friction]) for transfer in TRANSFERS)
+        claims.append(Claim(f"Friction {friction}, a = 1: from 24 to 48 cells the front of 99 % changes by {told}. Bound: 3 %.", worst < 0.03, quick=False))
+    for friction in (WITH, WITHOUT):
+        limits = {transfer: Limit(of(transfer=transfer, friction=friction), TIP) for transfer in TRANSFERS}
+        values = [limit.value for limit in limits.values()]
+        apart = (max(values) - min(values)) / np.mean(values)
+        claims.append(Claim(f"Friction {friction}, a = 1: at h = 0 the front of 99 % is at {', '.join(f'{number(limit)} ({name})' for name, limit in limits.items())} L0. "
+                            f"The transfers differ by {100 * apart:.1f} %. Bound: 3 %.", apart < 0.03, quick=False))
+    worst = [deviation for aspect in ASPECTS for deviation in (compared_with_law(of(a=aspect), FRONT)[2], compared_with_law(of(a=aspect), HEIGHT)[2])]
+    claims.insert(0, Claim(f"Sand, with mu(I) and the angle of repose: the run-out at h = 0 deviates from the law of Lube et al. by {100 * min(worst[::2]):+.0f} to {100 * max(worst[::2]):+.0f} % "
+                           f"over a = {ASPECTS[0]} to {ASPECTS[-1]}, the height by {100 * min(worst[1::2]):+.0f} to {100 * max(worst[1::2]):+.0f} %. Bound: 10 %.",
+                           max(map(abs, worst)) < 0.1, quick=False, worst=True))
+    constant, triaxial = (Limit(of(friction=WITHOUT), FRONT).value - 1, Limit(of(angle=TRIAXIAL), FRONT).value - 1)
+    claims.append(Claim(f"One cause at a time, a = 1: run-out at h = 0 {Limit(of(), FRONT).value - 1:.2f}; without mu(I) {constant:.2f}; with the angle read as a triaxial one "
+                        f"{triaxial:.2f}; without both {Limit(of(friction=WITHOUT, angle=TRIAXIAL), FRONT).value - 1:.2f}. Law: {law('Lube', 'run-out', 1):.2f}.",
+                        constant > 1.05 * law("Lube", "run-out", 1) and triaxial > 1.05 * law("Lube", "run-out", 1), quick=False))
+    at_32 = {points: next(row for row in of(points=points) if row["cells"] == 32) for points in (2, 3, 4)}
+    jitter = [row[TIP] for row in rows if row["jitter"] > 0 and row["cells"] == 32]
+    claims.append(Claim("Points, 32 cells: the front of 99 % is at " + ", ".join(f"{row[TIP]:.3f} ({points} x {points})" for points, row in at_32.items()) +
+                        f" L0; with jitter {min(jitter):.3f} to {max(jitter):.3f}.", abs(at_32[3][TIP] / at_32[4][TIP] - 1) < 0.02, quick=False))
+    rest = max(row["99 % in the last sixth"] for row in rows)
+    claims.append(Claim(f"All columns are at rest at the end: in the last sixth of the time the front of 99 % advances by {rest:.4f} L0 at most.", rest < 0.01))
+    return claims
+
+
+def draw(figure, rows):
+    groups = curves(rows)
+    left, right = figure.subplots(1, 2)
+    shown = {"FLIP, mu(I)": ("FLIP", WITH, "C0-"), "TPIC, mu(I)": ("TPIC", WITH, "C1-"), "AFLIP, mu(I)": ("AFLIP", WITH, "C2-"),
+             "FLIP, constant": ("FLIP", WITHOUT, "C0--"), "TPIC, constant": ("TPIC", WITHOUT, "C1--")}
+    for label, (transfer, friction, style) in shown.items():
+        group = groups.get((1., transfer, friction, REPOSE, 3, 0., SAND), [])
+        left.plot([row["cells"] for row in group], [row[TIP] for row in group], style, marker="o", markersize=4, label=label)
+    left.set(xlabel="cells per L0 (a = 1)", ylabel="front of 99 % of the mass over L0")
+    name_lines(left)
+    aspects = np.geomspace(0.5, 4.5, 200)
+    for quantity, source, color, name in ((FRONT, "run-out", "C0", "run-out"), (HEIGHT, "height", "C1", "height")):
+        right.plot(aspects, [law("Lube", source, aspect) for aspect in aspects], color=color, label=f"{name},\nLube et al.")
+        for aspect in ASPECTS:
+            group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0., SAND), [])
+            if len(group) > 2:
+                limit = compared_with_law(group, quantity)[0]
+                right.errorbar(aspect, limit.value, limit.uncertainty, color=color, marker="o", markersize=4, capsize=3)
+    right.set(xscale="log", yscale="log", xlabel="aspect ratio a = H0/L0 (points: limits)", ylabel="over L0")
+    right.set_xticks(ASPECTS, [f"{aspect:g}" for aspect in ASPECTS])
+    right.set_yticks([0.5, 1, 2, 4], ["0.5", "1", "2", "4"])
+    right.minorticks_off()
+    name_lines(right)
+
+
+STUDY = Study(title="Limits of the run-out", question="Has the run-out a limit as the cells become smaller, and is it that of the experiment?",
+              advice="Use inertial friction on a fixed base, and give the angle its kind. 24 cells are within 2 % of the limit.",
+              base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(), table=table,
+              quick=lambda labels: labels["a"] == 1 and labels["cells"] == 12 and labels["points"] == 3, measure=measure, verdict=verdict,
+              chart=Curves(draw))
