@@ -11,7 +11,8 @@ import sys
 
 import numpy as np
 
-from scree.results import map_file, read_raster, read_table
+from scree.maps import find_map
+from scree.results import read_raster, read_table
 
 from case_tools import HERE, check, run
 
@@ -46,7 +47,7 @@ end
 
 def read_map(results, name):
     """Values of a map, rows from the south; nan where there is none."""
-    return read_raster(map_file(results, name)).values[::-1]
+    return read_raster(find_map(results, name)).values[::-1]
 
 
 def close_map(results, name, wanted, soil, what):

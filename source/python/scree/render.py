@@ -55,6 +55,7 @@ def _numbers(option, text, count=None):
 def _collections(arguments):
     """What is to be drawn: {collection: field}."""
     wanted = [arguments.collection] if arguments.collection else [name for name in DEFAULT_FIELDS if has_collection(arguments.run, name)]
+    arguments.field = results.bare_name(arguments.field) if arguments.field else arguments.field
     if not arguments.field:
         return {name: DEFAULT_FIELDS[name] for name in wanted or ["points"]}
     available = {name: fields_of(arguments.run, name) for name in wanted or ["points"]}

@@ -248,12 +248,6 @@ def _read_geo_tiff(path):
     return Raster(np.where(values == missing, np.nan, values), x - column * width, y + (row - values.shape[0]) * width, width)
 
 
-def map_file(run, name):
-    """The file of a map of a run, such as "largest_thickness": the ESRI ASCII grid, or the GeoTIFF if there is only that."""
-    files = [pathlib.Path(run) / "maps" / (name + ending) for ending in (".asc", ".tif")]
-    return next((file for file in files if file.exists()), files[0])
-
-
 def write_raster(path, values, spacing):
     """Writes an ESRI ASCII grid; the first row of `values` is the southern one, the middle of its first cell is at 0, 0."""
     rows, columns = values.shape
