@@ -38,7 +38,9 @@ LONG = re.compile(r"cmake (-S|--install)|build/scree-study|gdal")
 # What a reader replaces by something of his own.
 PLACES = {"FOLDER": "installed", "XMIN YMIN XMAX YMAX": "100 100 500 800"}
 # What a page takes for granted: files and runs of the reader.
-PREPARED = {"doc/tutorials/own_terrain.md": ["gdal_translate -q -a_srs EPSG:31254 prm/terrain/mountain.asc dtm.tif"]}
+POLYGON = '{"type": "Polygon", "coordinates": [[[200, 600], [300, 600], [300, 700], [200, 700], [200, 600]]]}'
+PREPARED = {"doc/tutorials/own_terrain.md": ["gdal_translate -q -a_srs EPSG:31254 prm/terrain/mountain.asc dtm.tif",
+                                             f"echo '{POLYGON}' > release.geojson"]}
 TIMES = ("End time", "Output/Interval", "Output/Statistics interval", "Output/Checkpoint interval", "Settling/Maximum time")
 BLOCK = re.compile(r"^ *```(\S*)\n(.*?)^ *```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"(sudo |sh |mpirun |build/|cmake |apt-get |gdal)")

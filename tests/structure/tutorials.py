@@ -13,7 +13,7 @@ import re
 import shlex
 import sys
 
-OTHERS = {"mpirun", "cmake", "sh", "gdalwarp", "gdal_translate"}
+OTHERS = {"mpirun", "cmake", "sh", "gdalinfo", "gdalwarp", "gdal_translate", "gdal_rasterize"}
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

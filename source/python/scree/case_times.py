@@ -22,7 +22,7 @@ def rounded(seconds):
     """Two digits above 10 s, whole seconds below, at least 1 s."""
     if seconds < 10:
         return f"{max(1, round(seconds))}"
-    return f"{float(f'{seconds:.2g}'):.0f}"
+    return f"{float(f'{seconds:.2g}'):,.0f}".replace(",", " ") if seconds >= 1e4 else f"{float(f'{seconds:.2g}'):.0f}"
 
 
 def time_of(name, rows):
