@@ -35,7 +35,8 @@ html_show_sphinx = False
 def add_list_of_studies(_, name, source):
     """scree-study writes studies/pages/README.md, for readers of the repository; here its pages get their place in the contents."""
     if name == "studies/pages/README":
-        source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\n*\n```\n"
+        pages = re.findall(r"^\| \[[^\]]*\]\((\w+)\.md\)", source[0], re.MULTILINE)
+        source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
 
 
 def hand_out_files(app, tree):

@@ -29,8 +29,8 @@ namespace scree
 
   ErrorLaw error_law_of(const SceneNumbers &scene)
   {
-    // Measured: doc/studies/pages/dry_slope.md and run_out.md (dry, against the extrapolated front),
-    // saturated_slope.md (against the run with H/h = 40); doc/verification/saturated_slopes.md: undrained heap in total
+    // Measured: doc/studies/pages/run_out.md (dry, against the extrapolated front),
+    // saturated_slopes.md (against the run with H/h = 40); doc/verification/saturated_slopes.md: undrained heap in total
     // stress, Terzaghi's column at T_v = .1 with 20 cells, order 1.9 to 2.25, the dam break's tip at h = .1 and .05 m.
     const bool falls = scene.falls();
     if (!scene.has_soil)

@@ -119,15 +119,48 @@ def check_render(commands):
     commands.refuses("^scree-render: .*water.*vtu is not there", "scree-render", "run", "--collection", "water", "--field", "mass")
 
 
-def check_relief(commands):
-    commands.refuses("^scree-relief: .*nowhere", "scree-relief", "nowhere")
-    commands.refuses("^scree-relief: .*run/maps/deposit.asc", "scree-relief", "run", "--maps", "deposit")
-    pathlib.Path("run/maps").mkdir()
-    grid = pathlib.Path("run/maps/deposit.asc")
-    grid.write_text("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\n0 1\n2\n", encoding="utf-8")
-    commands.refuses("^scree-relief: run/maps/deposit.asc is no ESRI ASCII grid", "scree-relief", "run", "--maps", "deposit")
-    grid.write_text(grid.read_text(encoding="utf-8") + "3\n", encoding="utf-8")
-    commands.writes(["run/relief.png"], "scree-relief", "run", "--maps", "deposit")
+FLUME = """set Dimension = 3
+set Gravity = 0, 0, -9.81
+subsection Mesh
+  set Lower corner = 0, 0, 0
+  set Upper corner = 2, 1, 1
+  set Cell size = 0.5
+end
+subsection Bed
+  set Type = friction
+  set Level set expression = z - 0.3*(2 - x)
+end
+"""
+GRID = "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n"
+
+
+def check_maps(commands):
+    commands.refuses("^scree-maps: .*nowhere", "scree-maps", "nowhere")
+    commands.refuses("^scree-maps: run has no maps. Set \"Write = true\" in subsection Maps", "scree-maps", "run")
+    folder = pathlib.Path("flume/maps")
+    folder.mkdir(parents=True)
+    pathlib.Path("flume/parameters.prm").write_text(FLUME, encoding="utf-8")
+    (folder / "deposit.asc").write_text(GRID + "0 -1 0 0\n0 1 2\n", encoding="utf-8")
+    for name in ("thickness_0s", "thickness_10.50s"):
+        (folder / f"{name}.asc").write_text(GRID + "0 1 0 0\n0 1 2 0\n", encoding="utf-8")
+    commands.refuses("^scree-maps: flume/maps/deposit.asc is no ESRI ASCII grid", "scree-maps", "flume")
+    (folder / "deposit.asc").write_text(GRID + "0 -1 0 0\n0 1 2 0\n", encoding="utf-8")
+    commands.writes(["flume/maps.png"], "scree-maps", "flume")
+    commands.writes(["flume/maps_deposit_thickness_10.5s.png"], "scree-maps", "flume", "--maps", "deposit", "--times", "10.5")
+    commands.refuses("^scree-maps: flume has no map at t = 10 s; there are 2, at 0, 10.5 s", "scree-maps", "flume", "--times", "10")
+    commands.refuses("^scree-maps: flume has no map speed; there are: deposit, thickness_TIMEs", "scree-maps", "flume", "--maps", "speed")
+    commands.refuses("^scree-maps: --times one: write numbers", "scree-maps", "flume", "--times", "one")
+
+
+def check_report(commands):
+    """The pages of a run in 2D with pictures, and of one with maps: each picture is in the file."""
+    commands.refuses("^scree-report: nowhere/parameters.prm: No such file", "scree-report", "nowhere")
+    commands.writes(["run/report.html"], "scree-report", "run")
+    commands.writes(["flume.html"], "scree-report", "flume", "--output", "flume.html")
+    for page, pictures in (("run/report.html", 3), ("flume.html", 1)):
+        text = pathlib.Path(page).read_text(encoding="utf-8")
+        if text.count('src="data:image/png;base64,') != pictures or len(text) > 2e6 or "not drawn" in text:
+            commands.faults.append(f"{page}: {text.count('src=')} pictures, {len(text)} bytes, {re.findall('.*not drawn.*', text)}")
 
 
 def check_mountain(commands):
@@ -176,8 +209,9 @@ def main():
     commands = Commands(build, os.path.dirname(scree))
     check_variants(commands)
     check_plot_element(commands)
+    check_maps(commands)
+    check_report(commands)
     check_render(commands)
-    check_relief(commands)
     check_mountain(commands)
     check_others(commands)
     check_help(commands)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""study_pages.py: the pages of the studies and their lists are what the committed tables say, begin with their worst result, and have no long lines."""
+"""study_pages.py: the pages of the studies and their list are what the committed tables say, pages and sections begin with their worst result, and have no long lines."""
 
 import re
 import sys
@@ -19,27 +19,35 @@ def check(what, holds):
 
 def check_lines(file, text):
     for number, line in enumerate(text.splitlines(), 1):
-        check(f"{file}, line {number}: {len(line)} characters", len(line) <= pages.LINE)
+        check(f"{file}, line {number}: {len(line)} characters", len(line) <= pages.LINE or line.startswith("|"))
 
 
 for name in run.names_of_studies():
-    module = run.module_of(name)
-    check(f"{name}.md is not what its table says: scree-study {name} --page", run.page_is_current(name, module))
-    text = (run.PAGES / f"{name}.md").read_text(encoding="utf-8")
-    head, _, verdict = text.partition("## Verdict")
-    check(f"{name}: claims that do not hold in head and verdict", head.count("**Does not hold.**") == verdict.count("**(Does not hold.)**"))
-    check(f"{name}: no result in the third line", text.splitlines()[2].startswith(("- **Does not hold.**", "- **Not stable.**", "- **Worst result.**")))
-    check_lines(f"{name}.md", text)
+    module, topic = run.module_of(name), pages.topic_of(name)
+    rows = run.read_table(run.PAGES / f"{name}.csv")
+    failed = [claim for claim in module.STUDY.verdict(rows) if not claim.holds]
+    page = (run.PAGES / f"{topic}.md").read_text(encoding="utf-8")
+    section = page.partition(f"\n## {module.STUDY.title}\n\n")[2].partition("\n## ")[0]
+    check(f"{name}: claims that do not hold at the head of its section", section.partition("\n![")[0].count("**Does not hold.**") == len(failed))
+    check(f"{name}: no result in the first line of its section", section.startswith(("- **Does not hold.**", "- **Not stable.**", "- **Worst result.**")))
+    check(f"{name}: no result in the first line of {topic}.md", page.splitlines()[2].startswith(("**Does not hold.**", "**Not stable.**", "**Worst result.**")))
+    check(f"{topic}.md begins with a claim that does not hold", not failed or page.splitlines()[2].startswith("**Does not hold.**"))
     parts = re.split(r"\n\s*\n|\n(?=- |\d+\. )", module.__doc__)
     for sentence in (sentence for part in parts for sentence in pages.SENTENCES.split(" ".join(part.split()))):
         words = len([word for word in sentence.split() if word[0].isalnum() or len(word) > 1])
         check(f"{name}: a sentence of {words} words: {sentence[:60]}...", words <= LONGEST_SENTENCE)
 
-for file, text in run.lists().items():
-    check(f"{file.name} is not what the tables say", file.read_text(encoding="utf-8") == text)
+texts = run.page_texts()
+for file, text in texts.items():
+    check(f"{file.name} is not what the tables say: scree-study all --page", file.read_text(encoding="utf-8") == text)
     check_lines(file.name, text)
 for file in (run.PAGES.parent / "defaults.md", run.PAGES.parent.parent / "choosing.md"):
     check_lines(file.name, file.read_text(encoding="utf-8"))
+
+# No file that no page uses.
+used = {path.name for path in texts} | {name for text in texts.values() for name in re.findall(r"\]\(([\w.]+)\)", text)}
+for path in run.PAGES.iterdir():
+    check(f"no page uses {path.name}", path.name.replace("_curves.csv", ".csv") in used)
 
 
 class Chart:

@@ -19,7 +19,7 @@ namespace scree
     coupled    ///< neither
   };
 
-  /// Where the simpler models are within 5 % of soil and water, measured: doc/studies/pages/regimes.md (columns that
+  /// Where the simpler models are within 5 % of soil and water, measured: doc/studies/pages/drained_or_coupled.md (columns that
   /// collapse in air and under water and that are loaded, until 4 sqrt(H/g)).
   namespace thresholds
   {

@@ -1,15 +1,27 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The kinds of charts of a study. Each has `timed` (its runs are made one at a time), `complete` (adds columns) and `write`."""
+"""The kinds of charts of a study.
 
+Each has `timed` (its runs are made one at a time), `keep(run)` (called for each new run), `complete` (adds columns) and `write`.
+A chart is as wide as a page and shows at most five curves an axes, with their names beside them.
+"""
+
+import csv
 import math
 
 import matplotlib.colors
 import matplotlib.patches
 import matplotlib.pyplot as plt
+import matplotlib.ticker
+import numpy as np
 
-plt.rcParams.update({"svg.hashsalt": "scree", "svg.fonttype": "none", "font.size": 9})
+from scree.studies.measures import BOUNDS, DECIDING
 
-STATES = {"stable": "#7fbf7f", "wrong": "#9ecae1", "oscillating": "#ffd966", "energy gain": "#f4a460",
+plt.rcParams.update({"svg.hashsalt": "scree", "svg.fonttype": "none", "font.size": 10, "axes.titlesize": 10, "axes.grid": True, "grid.alpha": 0.3,
+                     "axes.axisbelow": True, "figure.constrained_layout.use": True, "figure.constrained_layout.w_pad": 0.1})
+
+WIDTH = 8.  # inches: of a page, at a font of 10 points
+NEAR = "stable, near a bound"
+STATES = {"stable": "#5aa55a", NEAR: "#b5dbb0", "wrong": "#9ecae1", "oscillating": "#ffd966", "energy gain": "#f4a460",
           "J out of bounds": "#b08fc7", "blow-up": "#d9534f"}
 
 
@@ -31,126 +43,201 @@ def mark_pareto(rows, error, cost="core-seconds"):
             for other in rows if _finite(other, error, cost))
 
 
-def excess_cost(rows, row, error, cost="core-seconds"):
-    """How many times as long `row` takes as the fastest run that is at least as accurate; 1 on the front."""
-    return row[cost] / min(other[cost] for other in rows if _finite(other, error, cost) and other[error] <= row[error])
+def tick_axis(axis):
+    """Several ticks with plain numbers on a logarithmic axis, however few decades it spans."""
+    low, high = axis.get_view_interval()
+    decades = math.log10(high / low)
+    subs = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8) if decades < 0.7 else (1, 1.5, 2, 3, 5, 7) if decades < 1.3 else (1, 2, 5) if decades < 2.2 else (1, 3) if decades < 3 else (1,)
+    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=subs, numticks=20))
+    axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:.6f}".rstrip("0").rstrip(".") if 0.9e-4 < value < 1e5 else f"{value:.0e}"))
+    axis.set_minor_locator(matplotlib.ticker.NullLocator())
 
 
-class WorkPrecision:
-    """Error over core-seconds, both logarithmic; a curve for each combination of the columns `curves`, runs `annotate`d by a column."""
-    timed = True
-
-    def __init__(self, error, curves, annotate, ylabel):
-        self.error, self.curves, self.annotate, self.ylabel = error, curves, annotate, ylabel
-
-    def complete(self, rows):
-        mark_pareto(rows, self.error)
-
-    def write(self, rows, title, target):
-        figure, axes = plt.subplots(figsize=(11, 6), layout="constrained")
-        shown = [row for row in rows if _finite(row, self.error, "core-seconds")]
-        groups = {}
-        for row in shown:
-            groups.setdefault(tuple(row[name] for name in self.curves), []).append(row)
-        for index, (key, group) in enumerate(groups.items()):
-            label = ", ".join(f"{name} {value:g}" if isinstance(value, float) else str(value) for name, value in zip(self.curves, key))
-            axes.plot([row["core-seconds"] for row in group], [row[self.error] for row in group], color=f"C{index % 10}",
-                      marker="os^Dv<>"[index // 10 % 7], linestyle=["-", "--", ":"][index // 10 % 3], markersize=4, linewidth=1, label=label)
-            for row in group:
-                text = row[self.annotate]
-                axes.annotate(f"{text:.3g}" if isinstance(text, float) else text, (row["core-seconds"], row[self.error]),
-                              textcoords="offset points", xytext=(4, 3), fontsize="x-small", color="0.4")
-        for column, style in (("Pareto", {"marker": "o", "markersize": 11, "markeredgecolor": "k", "label": "Pareto-optimal"}),
-                              ("default", {"marker": "*", "markersize": 15, "markeredgecolor": "r", "label": "defaults"})):
-            marked = [row for row in shown if row.get(column) is True]
-            if marked:
-                axes.plot([row["core-seconds"] for row in marked], [row[self.error] for row in marked], linestyle="none",
-                          markerfacecolor="none", **style)
-        axes.set(xscale="log", yscale="log", xlabel="core-seconds of the steps", ylabel=self.ylabel)
-        axes.set_title(f"{title}; numbers: {self.annotate}", fontsize="medium")
-        axes.grid(alpha=0.3, which="both")
-        axes.legend(fontsize="x-small", loc="upper left", bbox_to_anchor=(1.01, 1.))
-        save(figure, target)
+def name_lines(axes, size=9):
+    """The names of the lines of `axes` in its right margin, each at the height of its line's last point, in its colour."""
+    lines = [line for line in axes.get_lines() if not line.get_label().startswith("_")]
+    axes.figure.canvas.draw()
+    inverse, ends = axes.transAxes.inverted(), []
+    for line in lines:
+        shown = np.isfinite(line.get_xdata().astype(float)) & np.isfinite(line.get_ydata().astype(float))
+        places = inverse.transform(axes.transData.transform(np.column_stack([line.get_xdata(), line.get_ydata()])[shown].astype(float)))
+        inside = places[(places[:, 0] <= 1.001) & (places[:, 1] <= 1.001) & (places[:, 1] >= -0.001)]
+        ends.append(inside[np.argmax(inside[:, 0])] if len(inside) else np.array([1., 1.]))
+    names = [line.get_label() for line in lines]
+    line_height = 1.25 * size / 72 * axes.figure.dpi / axes.get_window_extent().height
+    heights = _spread([end[1] for end in ends], [line_height * (1 + name.count("\n")) for name in names])
+    for line, end, name, height in zip(lines, ends, names, heights):
+        axes.annotate(name, end, (1.04, height), "axes fraction", "axes fraction", fontsize=size, color=line.get_color(), va="center",
+                      arrowprops={"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.5, "alpha": 0.6, "shrinkA": 1, "shrinkB": 3})
 
 
-class StabilityMap:
-    """A heat map of the column `value` (a state of STATES) over `x` and `y`, one panel for each combination of the columns `panels`.
+def _spread(places, sizes):
+    """Places moved apart as little as needed, so that intervals of these sizes about them do not overlap."""
+    order = np.argsort(places)
+    groups = []  # [sum of the wanted bottoms, total size, members]
+    for index in order:
+        groups.append([places[index] - sizes[index] / 2, sizes[index], [index]])
+        while len(groups) > 1 and groups[-2][0] / len(groups[-2][2]) + groups[-2][1] > groups[-1][0] / len(groups[-1][2]):
+            bottom, size, members = groups.pop()
+            groups[-1] = [groups[-1][0] + bottom - len(members) * groups[-1][1], groups[-1][1] + size, groups[-1][2] + members]
+    result = np.zeros(len(places))
+    for bottom, _, members in groups:
+        y = bottom / len(members)
+        for index in members:
+            result[index] = y + sizes[index] / 2
+            y += sizes[index]
+    return result
 
-    Of two columns `panels` the first goes down, the second across. `number`: a column whose value is written into the cells.
-    """
-    timed = False
 
-    def __init__(self, x, y, value="state", panels=(), number=None, xlabel=None, ylabel=None):
-        self.x, self.y, self.value, self.panels, self.number = x, y, value, panels, number
-        self.xlabel, self.ylabel = xlabel or x, ylabel or y
+def legend_above(figure, axes, columns):
+    """One line of names above all axes of a figure."""
+    height = 0.32 / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - height))
+    figure.legend(*axes.get_legend_handles_labels(), loc="upper center", ncols=columns, frameon=False, fontsize=9)
+
+
+class Curves:
+    """draw(figure, rows) on an empty figure as wide as a page and `height` inches high; `timed` if times are compared."""
+
+    def __init__(self, draw, height=4., timed=False):
+        self.draw, self.height, self.timed = draw, height, timed
+
+    def keep(self, run):
+        pass
 
     def complete(self, rows):
         pass
 
-    def write(self, rows, title, target):
-        groups = {}
-        for row in rows:
-            groups.setdefault(tuple(row[name] for name in self.panels), []).append(row)
-        xs, ys = (list(dict.fromkeys(row[name] for row in rows)) for name in (self.x, self.y))
-        if len(self.panels) == 2:  # a line for each value of the first, a column for each of the second
-            lines, columns = (len({key[index] for key in groups}) for index in (0, 1))
-        else:
-            columns = min(len(groups), 3 if len(xs) <= 8 else 2)
-            lines = math.ceil(len(groups) / columns)
-        figure, axes = plt.subplots(lines, columns, squeeze=False, layout="constrained",
-                                    figsize=(max(5., columns * (0.8 + 0.62 * len(xs))), 1.1 + lines * (0.9 + 0.34 * len(ys))))
-        for plot in axes.flat[len(groups):]:
-            plot.axis("off")
-        for plot, (key, group) in zip(axes.flat, groups.items()):
-            for row in group:
-                column, line = xs.index(row[self.x]), ys.index(row[self.y])
-                plot.add_patch(matplotlib.patches.Rectangle((column, line), 1, 1, facecolor=STATES.get(row[self.value], "0.8"), edgecolor="w"))
-                if self.number and _finite(row, self.number):
-                    plot.text(column + 0.5, line + 0.5, f"{row[self.number]:.2g}", ha="center", va="center", fontsize=6)
-            plot.set(xlim=(0, len(xs)), ylim=(0, len(ys)), xlabel=self.xlabel, ylabel=self.ylabel)
-            plot.set_xticks([index + 0.5 for index in range(len(xs))], [_tick(value) for value in xs])
-            plot.set_yticks([index + 0.5 for index in range(len(ys))], [_tick(value) for value in ys])
-            plot.tick_params(length=0, labelsize=7)
-            plot.set_title(", ".join(map(_tick, key)), fontsize="small")
-        present = [state for state in STATES if any(row[self.value] == state for row in rows)]
-        legend_height = 0.3 / figure.get_figheight()
-        figure.get_layout_engine().set(rect=(0, legend_height, 1, 1 - legend_height))
-        figure.legend([matplotlib.patches.Patch(color=STATES[state]) for state in present], present, loc="lower center",
-                      ncol=max(1, len(present)), fontsize="small", frameon=False)
-        figure.suptitle(title + (f"; numbers: {self.number}" if self.number else ""), fontsize="medium")
+    def write(self, rows, target):
+        figure = plt.figure(figsize=(WIDTH, self.height))
+        self.draw(figure, rows)
         save(figure, target)
+
+
+class WorkPrecision(Curves):
+    """Error over core-seconds, both logarithmic: the `methods` of the column "method", {method: what it is called in the chart}, best with the
+    defaults, the recommended one, the best and the worst. The meshes stand beside the first."""
+
+    def __init__(self, methods, ylabel, annotate="h", unit=" m"):
+        super().__init__(self._draw, 4.2, timed=True)
+        self.methods, self.ylabel, self.annotate, self.unit = methods, ylabel, annotate, unit
+
+    def complete(self, rows):
+        mark_pareto(rows, "error")
+
+    def _draw(self, figure, rows):
+        axes = figure.subplots()
+        for index, (method, name) in enumerate(self.methods.items()):
+            group = [row for row in rows if row["method"] == method and _finite(row, "error", "core-seconds")]
+            style = {"color": "k", "linewidth": 2, "zorder": 3} if index == 0 else {"color": f"C{index - 1}", "linewidth": 1.2}
+            axes.plot([row["core-seconds"] for row in group], [row["error"] for row in group], marker="o", markersize=5, label=name, **style)
+            for row in group if index == 0 else []:
+                last = row is group[-1]
+                axes.annotate(f"{self.annotate} = {row[self.annotate]:.3g}{self.unit}", (row["core-seconds"], row["error"]), textcoords="offset points",
+                              xytext=(-5, -12) if last else (6, 5), ha="right" if last else "left", fontsize=8, color="0.2", zorder=4,
+                              bbox={"facecolor": "w", "edgecolor": "none", "alpha": 0.75, "pad": 0.5})
+        axes.set(xscale="log", yscale="log", xlabel="core-seconds of the time steps", ylabel=self.ylabel)
+        axes.margins(0.05, 0.1)
+        tick_axis(axes.xaxis)
+        tick_axis(axes.yaxis)
+        name_lines(axes)
+
+
+class StabilityMap(Curves):
+    """The state of each run, as colours (STATES) over `x` and `y`, one panel for each combination of the columns `panels`.
+
+    Of two columns `panels` the first goes down, the second across.
+    """
+
+    def __init__(self, x, y, panels=(), xlabel=None, ylabel=None):
+        super().__init__(self._draw)
+        self.x, self.y, self.panels = x, y, panels
+        self.xlabel, self.ylabel = xlabel or x, ylabel or y
+
+    def write(self, rows, target):
+        xs, ys = (list(dict.fromkeys(row[name] for row in rows)) for name in (self.x, self.y))
+        keys = list(dict.fromkeys(tuple(row[name] for name in self.panels) for row in rows))
+        # A line for each value of the first of two columns, a column for each of the second.
+        lines, columns = (len({key[index] for key in keys}) for index in (0, 1)) if len(self.panels) == 2 else (1, len(keys))
+        self.height = 1. + lines * (0.55 + 0.27 * max(len(ys), 3))
+        self.grid = xs, ys, keys, lines, columns
+        super().write(rows, target)
+
+    def _draw(self, figure, rows):
+        xs, ys, keys, lines, columns = self.grid
+        figure.get_layout_engine().set(rect=(0, 0, 1, 1 - 0.32 / self.height))
+        states = {id(row): _state(row) for row in rows}
+        plots = figure.subplots(lines, columns, squeeze=False, sharex=True, sharey=True)
+        for plot, key in zip(plots.flat, keys):
+            for row in rows:
+                if tuple(row[name] for name in self.panels) == key:
+                    plot.add_patch(matplotlib.patches.Rectangle((xs.index(row[self.x]), ys.index(row[self.y])), 1, 1,
+                                                                facecolor=STATES.get(states[id(row)], "0.8"), edgecolor="w"))
+            plot.set(xlim=(0, len(xs)), ylim=(0, len(ys)))
+            plot.set_xticks([index + 0.5 for index in range(len(xs))], list(map(_tick, xs)))
+            plot.set_yticks([index + 0.5 for index in range(len(ys))], list(map(_tick, ys)))
+            plot.tick_params(length=0, labelsize=9)
+            plot.tick_params(axis="x", rotation=90 if columns * sum(0.085 * len(_tick(x)) + 0.1 for x in xs) > 6.4 else 0)
+            plot.grid(False)
+            plot.set_title(", ".join(f"{name} {_tick(value)}" if isinstance(value, float) else value for name, value in zip(self.panels, key)), fontsize=9)
+        figure.supxlabel(self.xlabel, fontsize=10)
+        figure.supylabel(self.ylabel, fontsize=10)
+        present = [state for state in STATES if state in states.values()]
+        figure.legend([matplotlib.patches.Patch(color=STATES[state]) for state in present], present, loc="upper center",
+                      ncol=max(1, len(present)), fontsize=9, frameon=False, columnspacing=1., handlelength=1.2)
+
+
+def _state(row):
+    """The state of a cell; of a stable one also whether a number is above half of its bound."""
+    near = row["state"] == "stable" and any(row.get(name, 0.) > 0.5 * BOUNDS[name] for names in DECIDING.values() for name in names)
+    return NEAR if near else row["state"]
 
 
 def _tick(value):
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-class Curves:
-    """Anything else: draw(figure, rows) on an empty figure of `size` inches; `timed` if times are compared."""
+class RunCurves(Curves):
+    """Curves that the table of the runs does not have: curves(run) returns {name: (x, y)}.
 
-    def __init__(self, draw, size=(9, 6), timed=False):
-        self.draw, self.size, self.timed = draw, size, timed
+    They are kept in NAME_curves.csv, beside the table, and drawn by draw(figure, curves, rows).
+    """
 
-    def complete(self, rows):
-        pass
+    def __init__(self, curves, draw, height=4.):
+        super().__init__(draw, height)
+        self.curves, self.found = curves, {}
 
-    def write(self, rows, title, target):
-        figure = plt.figure(figsize=self.size, layout="constrained")
-        figure.suptitle(title, fontsize="medium")
-        self.draw(figure, rows)
+    def keep(self, run):
+        self.found.update(self.curves(run))
+
+    def write(self, rows, target):
+        table = target.with_name(f"{target.name}_curves.csv")
+        if self.found:
+            with open(table, "w", newline="", encoding="utf-8") as file:
+                writer = csv.writer(file, lineterminator="\n")
+                writer.writerow(["curve", "x", "y"])
+                writer.writerows([name, f"{x:.4g}", f"{y:.4g}"] for name, points in self.found.items() for x, y in zip(*points))
+        if not table.exists():  # none of the runs of a short version has a curve
+            return
+        curves = {}
+        with open(table, newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                curves.setdefault(row["curve"], []).append((float(row["x"]), float(row["y"])))
+        figure = plt.figure(figsize=(WIDTH, self.height))
+        self.draw(figure, {name: np.array(points).T for name, points in curves.items()}, rows)
         save(figure, target)
 
 
-class RunCurves(Curves):
-    """Curves of the runs themselves, which `measure` hands over with `keep(run)`: draw(figure, runs). Without them (--page) the chart stays as it is."""
+class Pictures(Curves):
+    """Pictures of the runs themselves: draw(figure, runs). Without new runs (--page) the file stays as it is."""
 
-    def __init__(self, draw, size=(9, 6), timed=False):
-        super().__init__(draw, size, timed)
+    def __init__(self, draw, height, timed=False):
+        super().__init__(draw, height, timed)
         self.runs = []
 
     def keep(self, run):
         self.runs.append(run)
 
-    def write(self, rows, title, target):
+    def write(self, rows, target):
         if self.runs:
-            super().write(self.runs, title, target)
+            super().write(self.runs, target)

@@ -96,6 +96,20 @@ def share_of_defaults(rows):
             + (f" Up to the limit time step, {count('stable', within)} of {len(within)} are." if len(within) < len(defaults) else ""))
 
 
+def map_table(rows):
+    """How many cells are in each state and the worst number of each bound, for the cells with the defaults and for the others."""
+    groups = {"defaults": [row for row in rows if row["default"]], "other options": [row for row in rows if not row["default"]]}
+    groups = {name: chosen for name, chosen in groups.items() if chosen}
+
+    def worst(chosen, name):
+        values = [row[name] for row in chosen if math.isfinite(row.get(name, math.nan))]
+        return f"{(min if name == 'smallest J' else max)(values, default=math.nan):.2g}" if values else "-"
+    measured = [name for name in BOUNDS if name in rows[0]]
+    return [("quantity, worst of all cells", *groups, "bound"),
+            ("stable cells", *(f"{sum(row['state'] == 'stable' for row in chosen)} of {len(chosen)}" for chosen in groups.values()), "all"),
+            *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}") for name in measured)]
+
+
 # The bounds of the maps and what a default cell is, for the list of the studies.
 BOUNDS_IN_WORDS = f"""Stability maps share their bounds (`BOUNDS` in `source/python/scree/studies/measures.py`).
 A run is stable if it meets all of these:
@@ -106,10 +120,10 @@ A run is stable if it meets all of these:
 - the oscillation of p is at most {BOUNDS["oscillation of p"]:g}, that of p' at most {BOUNDS["oscillation of p'"]:g};
 - the error is at most {BOUNDS["error"]:g}.
 
-Each is in the unit that the page names; what a map does not measure is not judged.
+"Near a bound" are stable runs with a number above half of its bound.
+Each is in the unit that the section names; what a map does not measure is not judged.
 Each map had bounds of its own when it was run.
-The shared ones are those that most of them had for energy, volumes and p, and the strictest that any had for p' and the error.
-No cell that was not stable has become so.
+The shared ones are those that most maps had for energy, volumes and p, and the strictest of all maps for p' and the error.
 A default cell has the program's defaults for the options that its map compares.
 What describes the scene (conductivity, step, speed, size) is no option."""
 

@@ -1,30 +1,39 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pages of the studies as text: a sentence a line, lines of at most 120 characters, the worst result first."""
+"""The pages of the studies as text: a page a topic, a section a study, the worst result first; lines of at most 120 characters, a sentence a line."""
 
 import math
 import re
+from typing import NamedTuple
 
 from scree.studies.charts import StabilityMap
-from scree.studies.measures import BOUNDS_IN_WORDS, share_of_defaults
+from scree.studies.measures import BOUNDS_IN_WORDS, map_table, share_of_defaults
 
 LINE = 120
 ITEM = re.compile(r"(- |\d+\. )")
 SENTENCES = re.compile(r"(?<=[.!?])(?<!al\.)\s+(?=[A-Z0-9`*(\[\"]|p )")
 MARKUP = re.compile(r"([-+*>#|]|#+|\d+[.)])$")  # a word that would begin a list, a heading or a table at the start of a line
 
-# Headings of the list of studies; a study that is missing here stands under the last one.
+
+
+class Topic(NamedTuple):
+    """A page: its heading and its studies."""
+    title: str
+    studies: tuple
+
+
+# Pages in the order of the list.
 TOPICS = {
-    "Run-out of dry soil": ("dry_slope", "run_out", "run_out_causes", "granular_collapse", "granular_dam_break", "transfer_rate"),
-    "Saturated slopes": ("saturated_slope", "submerged_slope", "pressure_options_slope"),
-    "Drained, coupled or undrained": ("regimes", "point_sets", "single_point"),
-    "Consolidation": ("terzaghi", "large_strain", "pressure_options"),
-    "Free water": ("dam_break", "surface_position", "points_jitter"),
-    "Impact and gaps": ("impact", "air_gap"),
-    "Infiltration": ("wetting_front",),
-    "Waves and convergence": ("bar", "manufactured", "pic_courant"),
-    "Soil models and quality of the stress": ("contours", "triaxial", "nor_sand_density", "low_stress", "bulk_to_shear"),
-    "Experiments": ("aluminium_bars", "martin_moyce"),
-    "Cost": ("advice", "scaling", "nothing_costs", "peers"),
+    "run_out": Topic("Run-out of dry soil", ("run_out", "run_out_causes", "dry_slope", "transfer_rate", "granular_dam_break")),
+    "saturated_slopes": Topic("Saturated slopes", ("saturated_slope", "submerged_slope", "pressure_options_slope")),
+    "drained_or_coupled": Topic("Drained, coupled or undrained", ("regimes", "point_sets", "single_point")),
+    "consolidation": Topic("Consolidation", ("terzaghi", "large_strain", "pressure_options")),
+    "free_water": Topic("Free water", ("dam_break", "surface_position", "points_jitter")),
+    "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
+    "infiltration": Topic("Infiltration", ("wetting_front",)),
+    "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
+    "soil_models": Topic("Soil models and quality of the stress", ("contours", "triaxial", "nor_sand_density", "low_stress", "bulk_to_shear")),
+    "experiments": Topic("Experiments", ("aluminium_bars", "granular_collapse", "martin_moyce")),
+    "cost": Topic("Cost", ("advice", "scaling", "nothing_costs", "peers")),
 }
 
 
@@ -69,12 +78,6 @@ def table(rows, indent=""):
     return [indent + "| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *others)]
 
 
-def claim_lines(claim):
-    """A claim of the verdict, with its table."""
-    lines = sentences(claim.text + ("" if claim.holds else " **(Does not hold.)**"), "- ", "  ")
-    return [*lines, "", *table(claim.table, "  "), ""] if claim.table else lines
-
-
 def headline(study, rows):
     """What a stability map says in the first place; none for other charts."""
     return share_of_defaults(rows) if isinstance(study.chart, StabilityMap) else None
@@ -95,63 +98,86 @@ def _cost(core_seconds):
     return f"{core_seconds:.0f} core-seconds" if core_seconds < 90 else f"{core_seconds / 60:.0f} core-minutes"
 
 
-def page_text(name, study, introduction, rows, claims):
+def slug(title):
+    """The anchor of a heading, as GitHub and MyST name it."""
+    return re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", title.lower()))
+
+
+def topic_of(name):
+    """The page of a study; a ValueError if TOPICS lacks it."""
+    for topic, (_, names) in TOPICS.items():
+        if name in names:
+            return topic
+    raise ValueError(f"pages.TOPICS has no page for the study {name}")
+
+
+def section_text(name, study, introduction, rows, claims):
+    """Worst results, chart, text, other claims and one table of a study."""
     seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
-    share = headline(study, rows)
-    lines = [f"# {study.title}", ""]
-    for label, text in worst_results(study, rows, claims):
+    worst = worst_results(study, rows, claims)
+    shown, share = [text for _, text in worst], headline(study, rows)
+    lines = [f"## {study.title}", ""]
+    for label, text in worst:
         lines += sentences(f"**{label}** {text}", "- ", "  ")
-    lines += ["", *paragraphs(introduction), "", f"![{study.title}]({name}.svg)", "", "## Verdict", ""]
-    lines += sentences(share, "- ", "  ") if share else []
-    for claim in claims:
-        lines += claim_lines(claim)
-    lines += [""] if lines[-1] else []
-    lines += [f"`build/scree-study {name}` repeats it: {len(rows)} runs, {_cost(seconds)}.", f"Numbers: [{name}.csv]({name}.csv); case: `{study.base}`."]
+    lines += ["", f"![{study.title}]({name}.svg)", "", *paragraphs(introduction)]
+    others = [text for text in [share, *(claim.text for claim in claims if not claim.tabled)] if text and text not in shown]
+    if others:
+        lines += ["", "Further results:", ""]
+    for text in others:
+        lines += sentences(text, "- ", "  ")
+    found = study.table(rows) if study.table else map_table(rows) if isinstance(study.chart, StabilityMap) else None
+    lines += ["", *table(found)] if found else []
+    lines += ["", *filled(f"Repeat: `build/scree-study {name}` ({len(rows)} runs, {_cost(seconds)}, `{study.base}`); numbers: [{name}.csv]({name}.csv).")]
     return "\n".join(lines) + "\n"
+
+
+RANKS = ("Does not hold.", "Not stable.", "Worst result.")
+
+
+def page_text(topic, studies, introductions):
+    """A page; studies: {name: (study, rows, claims)} of all studies, introductions: {name: text}."""
+    title, names = TOPICS[topic]
+    names = [name for name in names if name in studies]
+    results = [(RANKS.index(label), name, text) for name in names for label, text in worst_results(*studies[name])[:1]]
+    rank, name, text = min(results, key=lambda result: result[0])
+    n_failed, n_claims = (sum(count(claim) for name in names for claim in studies[name][2]) for count in (lambda claim: not claim.holds, lambda claim: 1))
+    lines = [f"# {title}", "", *sentences(f"**{RANKS[rank]}** [{studies[name][0].title}](#{slug(studies[name][0].title)}): {text}"), "",
+             f"{n_failed} of the {n_claims} claims on this page do not hold.", "",
+             *table([("study", "question", "what to do"), *((f"[{studies[name][0].title}](#{slug(studies[name][0].title)})", studies[name][0].question,
+                                                            studies[name][0].advice) for name in names)])]
+    compared = [line for name in names for line in (studies[name][0].compared(studies[name][1]) if studies[name][0].compared else ())]
+    if compared:
+        lines += ["", *table([("quantity", "unit", "measured", "computed", "deviation"),
+                              *((quantity, unit, f"{measured:.3g}", f"{computed:.3g}", f"{100 * (computed / measured - 1):+.0f} %")
+                                for quantity, unit, measured, computed in compared)])]
+    return "\n".join([*lines, "", *("\n".join(section_text(name, studies[name][0], introductions[name], *studies[name][1:]) for name in names).splitlines())]) + "\n"
 
 
 def index_text(studies):
-    """The list of all studies, {name: (study, rows, claims)}: first all claims that do not hold and the maps that are not stable, then a heading a topic."""
+    """The list of all pages, {name: (study, rows, claims)}: first all claims that do not hold and the maps that are not stable, then the studies."""
     n_claims = sum(len(claims) for _, _, claims in studies.values())
     found = {name: worst_results(*of) for name, of in studies.items()}
-    failed = {label: [(name, text) for name, results in found.items() for kind, text in results if kind == label]
-              for label in ("Does not hold.", "Not stable.")}
+    names = [name for topic in TOPICS.values() for name in topic.studies if name in studies]
+    failed = {label: [(name, text) for name in names for kind, text in found[name] if kind == label] for label in RANKS}
 
     def link(name):
-        return f"[{studies[name][0].title}]({name}.md)"
+        title = studies[name][0].title
+        return f"[{title}]({topic_of(name)}.md#{slug(title)})"
 
-    lines = ["# Studies", "", "Each page is written by `build/scree-study NAME` from the runs of one study, and its first line is its worst result.",
-             "`build/scree-study all --page` writes all pages again from their tables, without a run.",
-             "What follows for the choice of cells, points and transfer: [choosing.md](../../choosing.md).", "",
-             "## Claims that do not hold", "", f"{len(failed['Does not hold.'])} of {n_claims} claims do not hold.", ""]
-    for name, text in failed["Does not hold."]:
+    lines = ["# Studies", "", "Each page answers the questions of a topic from its studies, and its first line is the worst result.",
+             "`build/scree-study NAME` repeats a study.", "`build/scree-study all --page` writes all pages again from their tables, without a run.",
+             "What follows for the choice of cells, points and transfer: [choosing.md](../../choosing.md), [defaults](../defaults.md).", "",
+             *table([("page", "studies", "claims that do not hold"),
+                     *((f"[{title}]({topic}.md)", ", ".join(f"`{name}`" for name in of),
+                        f"{sum(not claim.holds for name in of for claim in studies[name][2])} of {sum(len(studies[name][2]) for name in of)}")
+                       for topic, (title, of) in TOPICS.items())]), "",
+             "## Claims that do not hold", "", f"{len(failed[RANKS[0]])} of {n_claims} claims do not hold.", ""]
+    for name, text in failed[RANKS[0]]:
         lines += sentences(f"{link(name)}: {text}", "- ", "  ")
     lines += ["", "## Maps with default cells that are not stable", ""]
-    for name, text in failed["Not stable."]:
+    for name, text in failed[RANKS[1]]:
         lines += sentences(f"{link(name)}: {text}", "- ", "  ")
-    listed = [name for names in TOPICS.values() for name in names]
-    for topic, names in TOPICS.items():
-        names = [name for name in names if name in studies] + ([name for name in studies if name not in listed] if topic == list(TOPICS)[-1] else [])
-        lines += ["", f"## {topic}", ""]
-        for name in names:
-            n_failed = sum(not claim.holds for claim in studies[name][2])
-            texts = [f"{n_failed} of {len(studies[name][2])} claims do not hold, see above."] if n_failed else []
-            texts += ["not stable in all default cells, see above."] if not n_failed and found[name][0][0] == "Not stable." else []
-            texts += [text for label, text in found[name] if label == "Worst result."]
-            lines += sentences(f"{link(name)}: " + " ".join(texts), "- ", "  ")
+    lines += ["", "## Limits of the claims that hold", ""]
+    for name, text in failed[RANKS[2]]:
+        lines += sentences(f"{link(name)}: {text}", "- ", "  ")
     return "\n".join([*lines, "", "## Bounds of the stability maps", "", *paragraphs(BOUNDS_IN_WORDS)]) + "\n"
-
-
-def defaults_text(charts):
-    """Where the defaults lie on the work-precision charts, {name: (study, meshes, {method: (error, time, fails)})}."""
-    lines = ["# Position of the defaults on the work-precision charts", "",
-             "One table per chart: error and core-seconds of each other method over those of the case.",
-             "They are geometric means over the same meshes.",
-             "Errors of the slopes and the dam break are distances to a finer run of one of the methods.",
-             "Their ratios are farther from 1 than against the limit.", "Times have a noise of 10 to 20 %.",
-             "What follows for the defaults: [defaults.md](../defaults.md)."]
-    for name, (study, meshes, others) in charts.items():
-        lines += ["", f"## {study.title}", "", f"The defaults are Pareto-optimal on {meshes} meshes ([chart]({name}.md)).", "",
-                  *table([("method", "error (-)", "time (-)", "fails on a mesh"),
-                          *((method, f"{error:.2g}", f"{time:.2g}", "yes" if fails else "no") for method, (error, time, fails) in others.items())])]
-    return "\n".join(lines) + "\n"

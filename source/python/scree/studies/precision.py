@@ -101,13 +101,14 @@ def costs(rows):
     return dict(sorted(found.items(), key=lambda item: item[1]))
 
 
-def listed(found):
-    """The costs of methods as the table of a claim."""
-    return [("method", "core-seconds over those of the defaults"), *((method, f"{cost:.2g}") for method, cost in found.items())]
+def table(rows, no_cost=()):
+    """Error and time of each method over those of the defaults on the same meshes, and the cost at equal error; of the methods `no_cost`, which tend to
+    another limit, and of those that fail, no cost."""
+    found = costs(rows)
+    order_of = [*found, *(method for method in other_methods(rows) if method not in found)]
 
-
-def position_of_defaults(rows):
-    """On how many meshes the defaults are Pareto-optimal, and {method: (error, time, fails on a mesh)} of the others over theirs on the same meshes."""
-    own = curve(rows).values()
-    others = {method: (ratio(rows, method), ratio(rows, method, "core-seconds"), bool(failed(rows, method))) for method in other_methods(rows)}
-    return f"{sum(row['Pareto'] for row in own)} of {len(own)}", others
+    def cost(method):
+        meshes = failed(rows, method)
+        return "fails at h = " + ", ".join(f"{h:.2g}" for h in meshes) + " m" if meshes else "-" if method in no_cost or method not in found else f"{found[method]:.2g}"
+    return [("method, each value over that of the defaults", "error", "time", "time at equal error"),
+            *((method, f"{ratio(rows, method):.2g}", f"{ratio(rows, method, 'core-seconds'):.2g}", cost(method)) for method in order_of)]

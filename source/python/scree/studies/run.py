@@ -5,7 +5,7 @@ scree-study NAME... | all [--quick] [--list] [--again]
 
 A study is a module of scree.studies.cases. Its runs are kept in folders of results/studies named by the content of their parameter
 files: a second call makes what is missing or has changed, so that an interrupted study goes on where it was. The table, the
-chart and the page go to doc/studies/pages; with --quick, a short version is run and checked, and nothing under doc/ is written.
+chart and the page of its topic go to doc/studies/pages; with --quick, a short version is run and checked, and nothing under doc/ is written.
 """
 
 import concurrent.futures
@@ -21,9 +21,8 @@ import subprocess
 import tempfile
 
 from scree.command import ROOT, Command, program
-from scree.studies.charts import StabilityMap, WorkPrecision
-from scree.studies.pages import defaults_text, index_text, page_text
-from scree.studies.precision import position_of_defaults
+from scree.studies.charts import StabilityMap
+from scree.studies.pages import TOPICS, index_text, page_text, topic_of
 from scree.studies.study import Run, Variant, prm_files
 
 INTERRUPTED = {-2, -9, -15, 130, 137, 143}  # by SIGINT, SIGKILL, SIGTERM, itself or below `timeout`: such a run is not kept
@@ -199,27 +198,28 @@ def row_of(study, run):
         row["default"] = all(run.labels.get(name, value) == value for name, value in study.default.items())
     if run.ended or not study.needs_end:
         row.update(study.measure(run))
+        study.chart.keep(run)
     return row
 
 
 # Pages ----------------------------------------------------------------------------------------------------------------
 
 
-def lists():
-    """{file: text}: the list of all studies with a table and what they say, and where the defaults lie on the work-precision charts."""
-    studies = {}
+def page_texts():
+    """{file: text} of the list of the studies and of all pages, from the committed tables."""
+    studies, introductions = {}, {}
     for name in names_of_studies():
-        table = PAGES / f"{name}.csv"
+        table, module = PAGES / f"{name}.csv", module_of(name)
         if table.exists():
-            study, rows = module_of(name).STUDY, read_table(table)
-            studies[name] = study, rows, study.verdict(rows)
-    charts = {name: (study, *position_of_defaults(rows)) for name, (study, rows, _) in studies.items() if isinstance(study.chart, WorkPrecision)}
-    return {PAGES / "README.md": index_text(studies), PAGES / "defaults.md": defaults_text(charts)}
+            rows = read_table(table)
+            studies[name] = module.STUDY, rows, module.STUDY.verdict(rows)
+            introductions[name] = module.__doc__.strip()
+    return {PAGES / "README.md": index_text(studies),
+            **{PAGES / f"{topic}.md": page_text(topic, studies, introductions) for topic, (_, names) in TOPICS.items() if set(names) & studies.keys()}}
 
 
-def finish(name, module, folder, rows=None):
-    """Writes table, chart and page of a study into `folder` (from the table in it without `rows`); returns the claims."""
-    study = module.STUDY
+def finish(name, study, folder, rows=None):
+    """Writes table and chart of a study into `folder` (the chart from the table in it without `rows`); returns the claims."""
     folder.mkdir(parents=True, exist_ok=True)
     table = folder / f"{name}.csv"
     if rows is not None:
@@ -227,18 +227,8 @@ def finish(name, module, folder, rows=None):
         write_table(rows, table)
     rows = read_table(table)
     claims = study.verdict(rows)
-    study.chart.write(rows, study.title, folder / name)
-    (folder / f"{name}.md").write_text(page_text(name, study, module.__doc__.strip(), rows, claims), encoding="utf-8")
+    study.chart.write(rows, folder / name)
     return claims
-
-
-def page_is_current(name, module):
-    """Whether the committed page is what its committed table says."""
-    page, table = PAGES / f"{name}.md", PAGES / f"{name}.csv"
-    if not page.exists() or not table.exists():
-        return False
-    rows = read_table(table)
-    return page.read_text(encoding="utf-8") == page_text(name, module.STUDY, module.__doc__.strip(), rows, module.STUDY.verdict(rows))
 
 
 def cells_lost(name, study, folder):
@@ -254,20 +244,17 @@ def cells_lost(name, study, folder):
 
 
 def run_study(name, arguments):
-    """True if all claims hold, and in the short version also if page and map are what the committed table says."""
-    module = module_of(name)
+    """True if all claims hold, and in the short version also if the map is what the committed table says."""
+    study = module_of(name).STUDY
     folder = arguments.results / "quick" if arguments.quick else PAGES
-    rows = None if arguments.page else [row_of(module.STUDY, run) for run in make_runs(name, module.STUDY, arguments)]
-    claims = [claim for claim in finish(name, module, folder, rows) if claim.quick or not arguments.quick]
+    rows = None if arguments.page else [row_of(study, run) for run in make_runs(name, study, arguments)]
+    claims = [claim for claim in finish(name, study, folder, rows) if claim.quick or not arguments.quick]
     for claim in claims:
         print(f"  {'holds' if claim.holds else 'DOES NOT HOLD'}: {claim.text}")
-    current = not arguments.quick or page_is_current(name, module)
-    if not current:
-        print(f"  {PAGES / name}.md does not say what its table says: scree-study {name} --page")
-    lost = cells_lost(name, module.STUDY, folder) if arguments.quick else []
+    lost = cells_lost(name, study, folder) if arguments.quick else []
     if lost:
-        print(f"  no longer stable, as {PAGES / name}.csv says: {'; '.join(', '.join(map(_text, cell)) for cell in lost)}")
-    return current and not lost and all(claim.holds for claim in claims)
+        print(f"  no longer stable, as {PAGES / topic_of(name)}.md says: {'; '.join(', '.join(map(_text, cell)) for cell in lost)}")
+    return not lost and all(claim.holds for claim in claims)
 
 
 def run_studies(arguments):
@@ -288,7 +275,7 @@ def run_studies(arguments):
         print(f"{len(names)} studies, {sum(len(plan.missing) for plan in plans)} runs are missing; {_duration(seconds)}", flush=True)
     held = [run_study(name, arguments) for name in names]
     if not arguments.quick:
-        for file, text in lists().items():
+        for file, text in page_texts().items():
             file.write_text(text, encoding="utf-8")
     return 0 if all(held) else 1
 

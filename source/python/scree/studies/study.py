@@ -21,14 +21,14 @@ from scree.command import ROOT
 class Claim(NamedTuple):
     """A sentence of the verdict, its numbers taken from the table, and whether the table bears it out.
 
-    With `quick` False it needs the whole study, and the short version does not check it. `table`: rows that stand below the sentence, the first
-    is the head. `worst`: it stands in the head of the page.
+    With `quick` False it needs the whole study, and the short version does not check it. `worst`: it stands at the head of its section.
+    `tabled`: the table of the section says the same; the sentence stands on the page only if it does not hold.
     """
     text: str
     holds: bool
     quick: bool = True
-    table: list | None = None
     worst: bool = False
+    tabled: bool = False
 
 
 class Variant(NamedTuple):
@@ -84,8 +84,12 @@ class Study:
     no measures. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
     its headline is the share of these cells that are stable. program: scree or scree-element.
     environment(): variables that it is run with. after(run, program): what else is to be made in a run's folder, right after it.
+    table(rows): the table of its section, the first row is the head; a map has one without it. compared(rows): lines of the table of experiments,
+    (quantity, unit, measured, computed).
     """
     title: str
+    question: str
+    advice: str
     base: str
     variants: list
     measure: Callable
@@ -100,6 +104,8 @@ class Study:
     program: str = "scree"
     environment: Callable = dict
     after: Callable = lambda run, program: None
+    table: Callable | None = None
+    compared: Callable | None = None
 
 
 class Run:

@@ -1,12 +1,7 @@
-"""A body 0.4 m high falls on another one, 0.4 m high, between smooth walls.
-The exact end is known: all is at rest, and the gap is closed.
-Pairs: water on water, saturated soil on water, water on saturated soil, soil on soil.
-The gap (in cells of 0.05 m) and the speed at the start vary. Air has no pressure.
-Further row of panels: `Fading = 5`.
-
-State: `measures.BOUNDS`.
+"""A body 0.4 m high falls on another one, 0.4 m high, between smooth walls; the upper one is named first.
+In the exact end state all is at rest and the gap is closed: air has no pressure.
+The gap (in cells of 0.05 m) and the speed at the start vary; lower row of panels: `Fading = 5`.
 The oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g 0.8 m.
-The number is the air that stays in the closed gap, as a height in cells.
 """
 import numpy as np
 
@@ -79,7 +74,10 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Closure of an air gap", base="prm/columns/column_saturated.prm", needs_end=False,
+STUDY = Study(title="Closure of an air gap",
+              question="Does a gap of air between two bodies close without a gain of energy?",
+              advice="Keep the default of `Fading` for gaps. Expect half a cell of air below saturated bodies.",
+              base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": CELL, "Water/Initial pressure": "none", "Water/Points per cell": 3,
                        "End time": 0.5, "Output/Interval": 0.25, "Output/Statistics interval": 0.005},
               variants=with_case(product(axis("old p", PRESSURES.get, list(PRESSURES)),
@@ -87,4 +85,4 @@ STUDY = Study(title="Closure of an air gap", base="prm/columns/column_saturated.
                                          axis("v", lambda _: {}, [0., 1., 5.]))),
               quick=lambda labels: labels["pair"] != PAIRS[1] and labels["gap"] in (1., 4.) and labels["v"] in (0., 5.),
               measure=measure, verdict=verdict, default={"old p": "default"},
-              chart=StabilityMap("v", "gap", panels=["old p", "pair"], number="air left, cells", xlabel="speed, m/s", ylabel="gap, cells"))
+              chart=StabilityMap("v", "gap", panels=["old p", "pair"], xlabel="speed (m/s)", ylabel="gap (cells)"))

@@ -1,23 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Dry columns of Mohr-Coulomb soil, released at once, against the laws of two laboratories for grains in a channel.
-
-A column of width L0 and height H0 = a L0 collapses on a rough base.
-Lube et al. 2005 and Lajeunesse et al. 2005 give the final run-out (L - L0)/L0 and height H/L0 as functions of a alone.
-See `doc/studies/reference/lube_lajeunesse_2005.csv`; between a = 1.8 and 2.8 Lube et al. give none.
+"""A dry column of Mohr-Coulomb soil of width L0 and height H0 = a L0 collapses on a rough base.
+Lube et al. 2005 and Lajeunesse et al. 2005 give the final run-out (L - L0)/L0 and height H/L0 for grains in a channel as functions of a alone.
+Between a = 1.8 and 2.8 Lube et al. give none (`doc/studies/reference/lube_lajeunesse_2005.csv`).
 Their grains had friction angles of 22 to 31 degrees; both ends of that range are run.
-The number of cells is that over the smaller side of the column, 1 m.
-Young's modulus grows with H0, so that the strain under the own weight is the same.
+The number of cells is that over the smaller side of the column, 1 m; Young's modulus grows with H0.
 L is the front that holds 99.5 % of the mass after 8 sqrt(H0/g), H the largest height of a point at that time.
-
-The friction of the channel walls is not modelled, nor is rolling or a friction that depends on the speed.
-Agreement is expected only within the band of the two laws.
+The friction of the channel walls, rolling, and a friction that depends on the speed are not modelled.
 """
 import math
 import re
 
 import numpy as np
 
-from scree.studies.charts import Curves
+from scree.studies.charts import Curves, tick_axis
 from scree.studies.study import Claim, Study, axis, product, reference_rows
 
 GRAVITY = 9.81
@@ -107,6 +102,16 @@ def verdict(rows):
     return claims
 
 
+LAWS = {31: "Lube", 22: "Lajeunesse"}  # friction angle -> the law of the run-out that it is compared with
+
+
+def compared(rows):
+    fine = [row for row in rows if row["cells"] == 16]
+    found = [(f"{quantity} of columns over L0, a = {row['a']:g}, {row['friction']:g} degrees ({source})", "-", law(source, quantity, row["a"]), row[quantity])
+             for row in fine for quantity, source in (("run-out", LAWS[row["friction"]]), ("height", "Lube"))]
+    return [line for line in found if not math.isnan(line[2])]
+
+
 def draw(figure, rows):
     plots = dict(zip(("run-out", "height"), figure.subplots(1, 2)))
     aspects = np.geomspace(0.4, 8, 400)
@@ -114,26 +119,28 @@ def draw(figure, rows):
         for source, style in (("Lube", "k-"), ("Lajeunesse", "k--")):
             values = np.array([law(source, quantity, aspect) for aspect in aspects])
             if np.any(np.isfinite(values)):
-                plot.plot(aspects, values, style, linewidth=1, label=f"{source} et al. 2005")
-        for cells, marker in ((8, "v"), (16, "o"), (32, "^")):
-            for friction, colour in ((22, "C1"), (31, "C0")):
+                plot.plot(aspects, values, style, linewidth=1)
+        for friction, colour in ((22, "C1"), (31, "C0")):
+            for cells, face in ((8, "none"), (16, colour)):
                 group = chosen(rows, friction, cells)
-                plot.plot([row["a"] for row in group], [row[quantity] for row in group], marker, color=colour, markersize=5,
-                          markerfacecolor=colour if cells == 16 else "none", label=f"{friction} degrees, {cells} cells")
-        pairs = {row["a"]: [other[quantity] for other in rows if other["a"] == row["a"] and other["cells"] == 16] for row in rows}
-        pairs = {aspect: values for aspect, values in sorted(pairs.items()) if values}
-        plot.fill_between(list(pairs), [min(values) for values in pairs.values()], [max(values) for values in pairs.values()], color="0.88")
-        plot.set(xscale="log", yscale="log", xlabel="aspect ratio a = H0/L0")
-        plot.grid(alpha=0.3, which="both")
+                plot.plot([row["a"] for row in group], [row[quantity] for row in group], "o", color=colour, markersize=6, markerfacecolor=face)
+        plot.set(xscale="log", yscale="log", xlabel="aspect ratio a = H0/L0; open: 8 cells, full: 16")
+        tick_axis(plot.xaxis)
+        tick_axis(plot.yaxis)
     plots["run-out"].set_ylabel("run-out (L - L0)/L0")
     plots["height"].set_ylabel("height H/L0")
-    plots["run-out"].legend(fontsize="x-small")
+    for place, text, colour in (((1.2, 5.2), "22 degrees", "C1"), ((3.5, 3.0), "31 degrees", "C0"), ((0.42, 3.4), "Lajeunesse (dashed)", "k"), ((0.75, 0.62), "Lube (line)", "k")):
+        plots["run-out"].text(*place, text, color=colour, fontsize=9)
+    plots["height"].text(0.55, 1.3, "Lube (line)", fontsize=9)
 
 
 CELLS = axis("cells", in_cells, [8, 16])
 ANGLES = axis("friction", "Soil/Mohr-Coulomb/Friction angle", [22, 31])
-STUDY = Study(title="Collapse of granular columns", base="prm/columns/mohr_coulomb_collapse.prm", entries={"Output/Graphics": "none"},
+STUDY = Study(title="Granular columns",
+              question="Do run-out and height of dry columns follow the laws of two laboratories?",
+              advice="Take the run-out as a band over friction angles and cell sizes; do not use the height of tall columns.",
+              base="prm/columns/mohr_coulomb_collapse.prm", entries={"Output/Graphics": "none"},
               variants=product(CELLS, ANGLES, axis("a", column, [0.5, 1, 3, 6]))
               + product(axis("cells", in_cells, [32]), ANGLES, axis("a", column, [1])),
               quick=lambda labels: labels["cells"] == 8 and labels["a"] <= 3,
-              measure=measure, verdict=verdict, chart=Curves(draw, size=(10, 4.5)))
+              measure=measure, verdict=verdict, compared=compared, chart=Curves(draw, 3.8))

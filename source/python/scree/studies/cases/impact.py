@@ -1,14 +1,9 @@
-"""A saturated block of soil falls on the floor, for several speeds of impact, conductivities and cell sizes.
-The block, 1 m x 0.5 m of Mohr-Coulomb sand, starts 0.1 m above the floor with the speed of the axis, without stress and pressure.
-It is followed for 0.3 s after the impact.
-
-Water is incompressible here. The stop takes as long as the last cell takes to close.
-The peak of p therefore depends on time step and cell size more than on the impact.
-The impulse on the floor is the part of the momentum at the touch that the block has lost 0.1 s later, beyond its weight.
+"""A saturated block of Mohr-Coulomb sand, 1 m x 0.5 m, falls on the floor with the speed of the axis and is followed for 0.3 s after the impact.
+Water is incompressible: the stop takes as long as the last cell takes to close, so that the peak of p depends on time step and cell size.
+The impulse is the part of the momentum at the touch that the block has lost 0.1 s later, beyond its weight.
 It is 1 if the block is at rest, less if it still sinks and spreads, more if it rebounds.
-
-Panels: cell size, and `Fading = 5` in place of the default.
-State: `measures.BOUNDS`; the oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g 0.5 m, and the number.
+Panels: cell size, and the default or `Fading = 5`.
+The oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g 0.5 m.
 """
 import numpy as np
 
@@ -70,7 +65,10 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Impact of a saturated block", base="prm/columns/column_saturated.prm", needs_end=False,
+STUDY = Study(title="Impact of a saturated block",
+              question="Which results of an impact of saturated soil can be used?",
+              advice="Report the impulse, not the peak of p. Set `Fading = 5` for an impact on a rigid floor.",
+              base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6", "Soil/Initial state/Type": "none", "Water/Initial pressure": "none",
                        "Mesh/Upper corner": "2, 1.5", "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Interval": 0.1,
                        "Output/Statistics interval": 0.002},
@@ -78,4 +76,4 @@ STUDY = Study(title="Impact of a saturated block", base="prm/columns/column_satu
                                axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-2, 1e-3, 1e-5]), axis("v", speed, [0.5, 1., 2., 5., 10.])),
               quick=lambda labels: labels["h"] == 0.1 and labels["k"] in (1e-1, 1e-5) and labels["v"] in (1., 10.),
               measure=measure, verdict=verdict, default={"old p": "default"},
-              chart=StabilityMap("v", "k", panels=["old p", "h"], number="oscillation of p", xlabel="speed, m/s", ylabel="k, m/s"))
+              chart=StabilityMap("v", "k", panels=["old p", "h"], xlabel="speed (m/s); h in m", ylabel="k (m/s)"))

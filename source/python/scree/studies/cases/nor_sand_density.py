@@ -1,6 +1,6 @@
-"""Collapse of a small column of Nor-Sand, 1 m x 1 m, from very dense to very loose, with each stabilisation, dry and saturated.
+"""A column of Nor-Sand, 1 m x 1 m with cells of 0.1 m, collapses for 1 s, from very dense to very loose, with each stabilisation, dry and saturated.
 The critical state at the mean pressure of the column, 5 kPa, has a specific volume of 1.78; v_0 = 1.5 is denser than any sand.
-State: `measures.BOUNDS`; the oscillation of p' is the time mean of `Stress oscillation`, and the number.
+The oscillation of p' is the time mean of `Stress oscillation`.
 """
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify, mean_oscillation
@@ -49,11 +49,14 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Density of Nor-Sand", base="prm/columns/column_loose.prm", needs_end=False,
+STUDY = Study(title="Density of Nor-Sand",
+              question="How smooth is the stress of Nor-Sand for any density?",
+              advice="Use modified F-bar; judge loose saturated Nor-Sand by its front, not by p' of points.",
+              base="prm/columns/column_loose.prm", needs_end=False,
               entries={"Mesh/Upper corner": "2.5, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "End time": 1., "Output/Interval": 0.25,
                        "Output/Statistics interval": 0.02},
               variants=product(axis("pores", water, ["dry", "saturated"]), axis("F-bar", "Stabilisation/F-bar", ["none", "standard", "modified"]),
                                axis("v_0", "Soil/Nor-Sand/Initial specific volume", [1.5, 1.55, 1.63, 1.7, 1.78, 1.85])),
               quick=lambda labels: labels["pores"] == "dry" and labels["v_0"] in (1.55, 1.85),
               measure=measure, verdict=verdict, default={"F-bar": "modified"},
-              chart=StabilityMap("v_0", "F-bar", panels=["pores"], number="oscillation of p'", xlabel="initial specific volume"))
+              chart=StabilityMap("v_0", "F-bar", panels=["pores"], xlabel="initial specific volume v_0 (-)", ylabel="F-bar"))

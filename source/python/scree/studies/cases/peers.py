@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Nanoseconds of one core per point and time step, of the benchmarks of Scree and of other public codes.
-
-Right after each run, `doc/studies/kernel.cc` is run on the same core: the bare method for one elastic block.
+"""Right after each benchmark, `doc/studies/kernel.cc` is run on the same core: the bare method for one elastic block.
 The ratio to it depends little on the machine.
-Numbers of the other codes are in `doc/studies/reference/peers.csv`.
-They were measured once on a machine of the same kind, built from public sources with their own release flags, with 16 points per cell in 2D.
-The kernel there was another, simpler one.
+The other codes were measured once on a machine of the same kind (`doc/studies/reference/peers.csv`), built from public sources with their own release flags,
+with 16 points per cell in 2D.
 Scree has 16 points per cell in 2D and 8 in 3D.
 Its water has points of its own: points are those of soil and water together, while each point of the other code carries both.
 """
@@ -13,7 +10,7 @@ Its water has points of its own: points are those of soil and water together, wh
 import math
 import subprocess
 
-from scree.studies.charts import Curves
+from scree.studies.charts import Curves, legend_above, tick_axis
 from scree.studies.study import Claim, Study, Variant, compiled, reference_rows
 
 SCENES = {"elastic 2D": "elastic_2d", "elastic 3D": "elastic_3d", "Mohr-Coulomb 3D": "mohr_coulomb_column_3d", "Nor-Sand 2D": "nor_sand_slope_2d",
@@ -40,17 +37,22 @@ def peers():
     return [{**row, "beside": LIKE.get(row["scene"], row["scene"])} for row in reference_rows("peers")]
 
 
+def fastest_peer(scene):
+    """The smallest ns per point and step of another code beside a scene, None without one."""
+    return min((float(peer["ns_low"]) for peer in peers() if peer["beside"] == scene and "kernel" not in peer["code"]), default=None)
+
+
+def table(rows):
+    return [("scene", "Scree (ns per point and time step)", "over the bare kernel", "fastest other code (ns)", "over Scree"),
+            *((row["scene"], f"{row['ns per point and step']:.0f}", f"{row['over kernel']:.1f}",
+               *((f"{fastest:.0f}", f"{fastest / row['ns per point and step']:.1f}") if (fastest := fastest_peer(row["scene"])) else ("-", "-"))) for row in rows)]
+
+
 def verdict(rows):
     slowest = max(rows, key=lambda row: row["over kernel"])
     claims = [Claim(f"Scree takes {min(row['over kernel'] for row in rows):.1f} to {slowest['over kernel']:.1f} times the time of the bare kernel, most for {slowest['scene']}.",
-                    all(math.isfinite(row["over kernel"]) for row in rows),
-                    table=[("scene", "ns per point and time step", "over the kernel"),
-                           *((row["scene"], f"{row['ns per point and step']:.0f}", f"{row['over kernel']:.1f}") for row in rows)])]
-    factors = {}
-    for row in rows:
-        others = [float(peer["ns_low"]) for peer in peers() if peer["beside"] == row["scene"] and "kernel" not in peer["code"]]
-        if others:
-            factors[row["scene"]] = min(others) / row["ns per point and step"]
+                    all(math.isfinite(row["over kernel"]) for row in rows))]
+    factors = {row["scene"]: fastest / row["ns per point and step"] for row in rows if (fastest := fastest_peer(row["scene"]))}
     claims.append(Claim("The fastest other code, at its best and with any basis, takes " + ", ".join(f"{factor:.1f} ({scene})" for scene, factor in factors.items())
                         + " times as long.", min(factors.values()) > 1))
     slow = [f"{row['scene']} {row['ns per point and step']:.0f} ({WANTED[row['scene']]})" for row in rows
@@ -61,23 +63,24 @@ def verdict(rows):
 
 def draw(figure, rows):
     axes = figure.subplots()
-    bars = []
-    for row in rows:
-        ns = row["ns per point and step"]
-        bars.append((f"{row['scene']}: Scree", ns, ns, "C3"))
-        beside = sorted((peer for peer in peers() if peer["beside"] == row["scene"]), key=lambda peer: float(peer["ns_low"]))
-        bars += [(f"{peer['code']}, {peer['basis']}" + ("" if peer["scene"] == row["scene"] else f" ({peer['scene']})"), float(peer["ns_low"]), float(peer["ns_high"]),
-                  "0.8" if "kernel" in peer["code"] else "C0") for peer in beside]
-        if row["scene"].startswith("elastic"):
-            bars.append(("doc/studies/kernel.cc, beside the run", row["kernel ns"], row["kernel ns"], "0.6"))
-    for line, (_, low, high, colour) in enumerate(bars):
-        axes.barh(-line, high, color=colour, alpha=0.5 if high > low else 1.)
-        axes.barh(-line, low, color=colour)
-        axes.text(high * 1.05, -line, f"{low:.0f}" + (f" to {high:.0f}" if high > low else ""), va="center", fontsize="x-small")
-    axes.set_yticks([-line for line in range(len(bars))], [name for name, *_ in bars], fontsize="x-small")
-    axes.set(xscale="log", xlabel="ns of one core per point and step", xlim=(10, 30000))
+    for line, row in enumerate(rows):
+        times = {"bare kernel": (row["kernel ns"], "0.6"), "Scree": (row["ns per point and step"], "C3")}
+        if fastest := fastest_peer(row["scene"]):
+            times["fastest other code"] = fastest, "C0"
+        for offset, (name, (ns, colour)) in enumerate(times.items()):
+            axes.barh(line + 0.27 * (offset - 1), ns, 0.25, color=colour, label=name if line == 0 else None)
+            axes.text(1.06 * ns, line + 0.27 * (offset - 1), f"{ns:.0f}", va="center", fontsize=8)
+    axes.set_yticks(range(len(rows)), [row["scene"] for row in rows])
+    axes.invert_yaxis()
+    axes.grid(False, axis="y")
+    axes.set(xscale="log", xlabel="ns of one core per point and time step", xlim=(10, 5000))
+    tick_axis(axes.xaxis)
+    legend_above(figure, axes, 3)
 
 
-STUDY = Study(title="Speed beside other codes", base="prm/benchmarks/elastic_2d.prm", measure=measure, verdict=verdict,
+STUDY = Study(title="Speed beside other codes",
+              question="How fast is Scree beside the bare method and other codes?",
+              advice="Expect 40 to 290 ns per point, time step and core.",
+              base="prm/benchmarks/elastic_2d.prm", measure=measure, verdict=verdict,
               variants=[Variant({"scene": scene}, {}, f"prm/benchmarks/{name}.prm") for scene, name in SCENES.items()],
-              quick=lambda labels: labels["scene"] == "elastic 2D", chart=Curves(draw, size=(10, 9), timed=True))
+              quick=lambda labels: labels["scene"] == "elastic 2D", table=table, chart=Curves(draw, 4.6, timed=True))

@@ -1,29 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Range of the drained and the undrained model, against runs with soil and water.
+"""A saturated column of height H is computed with soil and water for k from 1e-12 to 1e-1 m/s, and with simpler models, until 4 sqrt(H/g).
+It **collapses** in air, collapses **submerged** under 1.2 H of water (both Mohr-Coulomb soil, 30 degrees), or is elastic and **loaded** by a growing pressure.
 
-Three scenes of a saturated column of height H are computed with soil and water for conductivities k from 1e-12 to 1e-1 m/s.
-The column **collapses** in air; it collapses **submerged** under 1.2 H of water; or it is **loaded** by a pressure that grows to 1e-3 E_oed.
-The first two are of Mohr-Coulomb soil (30 degrees, no dilation), H wide and released at once.
-The loaded one is elastic and held at its sides. All end after 4 sqrt(H/g).
+- *Drained*, one phase: dry soil; under water soil of the buoyant weight; for the load soil of the saturated density.
+- *Undrained*: no water moves through the soil, which is the run with k = 1e-12 m/s.
+- *Total stress*: undrained soil as one phase, strength c = (1 + K0)/2 sigma_v' sin(phi) for each row of cells, Poisson's ratio 0.49.
 
-- *Drained*, one phase: the dry soil; under water soil of the saturated density whose weight is the buoyant one; for the load soil of the saturated
-  density.
-- *Undrained*: no water moves through the soil, which is the run with k = 1e-12 m/s (single-point water is sufficient).
-
-For the collapse in air, undrained soil is also computed as one phase in total stress.
-Its strength at constant volume is c = (1 + K0)/2 sigma_v' sin(phi) for each row of cells, without friction, Poisson's ratio 0.49.
-
-The error of a model is the largest one at t = 1, 2, 3, 4 sqrt(H/g), against the coupled run.
-It is that of the front that holds 90 % of the soil, or that of the settlement under load over the drained one at the end.
-An error of 5 % is the bound.
-The abscissa is drainage time over motion time, G = (H^2/c_v)/sqrt(H/g), with c_v = k E_oed/(rho_w g); the time factor at the end is 4/G.
-Zienkiewicz, Chang & Bettess 1980 drew such a map for a layer under a periodic load.
+The error of a model is the largest deviation from the coupled run at t = 1, 2, 3, 4 sqrt(H/g): of the front of 90 % of the soil over its position, or of the
+settlement over the final drained one.
+G = (H^2/c_v)/sqrt(H/g), with c_v = k E_oed/(rho_w g), is drainage time over motion time.
 """
 import math
 
 import numpy as np
 
-from scree.studies.charts import Curves
+from scree.studies.charts import Curves, tick_axis
 from scree.studies.study import Claim, Study, Variant, transfer
 
 GRAVITY, WATER, GRAINS, POROSITY = 9.81, 1000., 2650., 0.4
@@ -231,23 +222,37 @@ def verdict(rows):
     return claims
 
 
+def table(rows):
+    def limits(scene, size, model):
+        return number(value) if math.isfinite(value := threshold(rows, scene, size, model)) else "-"
+    return [("scene", "H (m)", "E (MPa)", "drained below G", "undrained above G"),
+            *((scene, f"{size[0]:g}", f"{1e-6 * size[1]:g}", limits(scene, size, "drained"), limits(scene, size, "undrained"))
+              for scene in ("load", "collapse", "submerged") for size in sizes(rows) if pick(rows, scene=scene, model="coupled", H=size[0], E=size[1]))]
+
+
 def draw(figure, rows):
     plots = figure.subplots(1, 3, sharey=True)
     for scene, plot in zip(("load", "collapse", "submerged"), plots):
-        for index, size in enumerate(SIZES):
-            for model, style in (("drained", "-"), ("undrained", "--")):
+        for size, weight in ((SIZES[0], 1.8), (SIZES[3], 0.8)):
+            for model, colour in (("drained", "C1"), ("undrained", "C0")):
                 groups, errors = curve(rows, scene, size, model)
                 if len(groups):
-                    plot.plot(groups, errors, style, color=f"C{index}", marker="o", markersize=3, linewidth=1,
-                              label=f"{model}, H = {size[0]:g} m, E = {1e-6 * size[1]:g} MPa")
-        plot.axhline(ENOUGH, color="k", linewidth=0.6, linestyle=":")
-        plot.set(xscale="log", yscale="log", ylim=(1e-3, 1), xlim=(1e-2, 1e5), xlabel="time of drainage / time of motion", title=scene)
-        plot.grid(alpha=0.3)
-    plots[0].set_ylabel("error of the simpler model (-)")
-    plots[2].legend(*plots[0].get_legend_handles_labels(), fontsize="x-small", loc="lower left")
+                    plot.plot(groups, errors, color=colour, marker="o", markersize=3, linewidth=weight)
+        plot.axhline(ENOUGH, color="k", linewidth=0.8, linestyle=":")
+        plot.set(xscale="log", yscale="log", ylim=(1e-3, 1), xlim=(1e-2, 1e5), xlabel="G (-)", title=scene)
+        tick_axis(plot.yaxis)
+        plot.set_xticks([1e-2, 1, 1e2, 1e4], ["0.01", "1", "100", "10$^4$"])
+    plots[0].text(0.03, 0.13, "drained", color="C1", transform=plots[0].transAxes)
+    plots[0].text(0.6, 0.75, "undrained", color="C0", transform=plots[0].transAxes)
+    plots[0].text(1.2e3, 1.1 * ENOUGH, "bound 5 %", fontsize=9)
+    plots[0].set_ylabel("error of the simpler model against\nthe coupled run (-)")
+    figure.supxlabel("G: drainage time over motion time; H = 1 m, E = 1 MPa (thick) and 10 MPa (thin)", fontsize=9)
 
 
-STUDY = Study(title="Drained, coupled or undrained model", base=COLLAPSE, variants=variants(), measure=measure, verdict=verdict,
+STUDY = Study(title="Drained, coupled or undrained model",
+              question="When is a drained or an undrained model sufficient instead of soil and water?",
+              advice="Compute G. Use the drained model for a load with G below 0.5, the undrained one above 414, else soil and water.",
+              base=COLLAPSE, variants=variants(), measure=measure, verdict=verdict,
               quick=lambda labels: (labels["H"], labels["E"], labels["cells"]) == (*SIZES[0], 10) and labels["scene"] != "submerged"
               and labels["model"] != "total stress" and labels["k"] in (0, 1e-1, 1e-2, 1e-3, 1e-5, 1e-12),
-              chart=Curves(draw, size=(12, 4.6), timed=True))
+              table=table, chart=Curves(draw, 4., timed=True))

@@ -1,42 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Run-out of columns (1 m x 1 m) and slopes (crest 2 m, height 2 m, 45 degrees) of Nor-Sand over the cell size.
-The front is the x below which 90 % of the mass lies (column `Front 90 %` of a run), when the soil has come to rest.
-The rest of the mass is a tongue thinner than a cell.
-
-Times: columns 1.5 s, dry slopes 3 s, loose saturated slopes 5 s, dense permeable ones (k = 5e-2 m/s) 6 s.
-The dense slope with k = 5e-3 m/s still slides slowly; it is measured after 9 s.
-
-Three treatments:
-
-- the fixed base of `prm/slopes/slope_*.prm` and `prm/columns/column_*.prm`;
-- a base with friction of the soil's own angle at critical state in simple shear, tan(22.3 degrees) = M/sqrt(3) = 0.41;
-- the same with a PIC rate of FLIP of 1/s instead of 5 (`prm/slopes/slope_*_friction.prm`).
-
+"""Columns (1 m x 1 m) and slopes (crest 2 m, height 2 m, 45 degrees) of Nor-Sand, at rest, over the cell size.
+The front is the x below which 90 or 99 % of the mass lies; the rest is a tongue thinner than a cell.
+Recommended: a base with friction of the soil at critical state in simple shear, 22.3 degrees, and for dry soil FLIP with a PIC rate of 1/s.
 Slopes with water use TPIC, which has no such rate.
-Columns have 3 x 3 points per cell, slopes 2 x 2.
-The dry dense slope of the third treatment varies more with the cell size and has 3 x 3.
+The fixed base is that of `prm/columns/column_*.prm` and `prm/slopes/slope_*.prm`, with a PIC rate of 5/s.
 
-Choices that were made after results were there:
-
-- The quantile: the study began with 99 % of the mass and went to 90 % after the first results. Both are listed below.
-- Base and PIC rate: the front depends less on the mesh with them ([run_out_causes](run_out_causes.md)), seen on the dense column that is judged here,
-  too.
-- Points: the dry dense slope got 3 x 3 points because its last change was 2.5 % with 2 x 2, above the bound of 2 %.
-- Cases and sizes: the dense saturated slope with k = 5e-3 m/s, left out of the headline at first, had a last change of 3.8 % with three sizes.
-  It got a fourth size. The permeable one was added after it.
-
+Some choices were made after results were there: the quantile of 90 %, base and PIC rate (seen on the dense column), 3 x 3 points in the dry dense slope
+and the fourth size of the saturated ones.
 The last changes at 90 % are therefore no test of the treatment on new cases.
 
-Value at h = 0: the mean of the least-squares fits with errors in proportion to h and to h^2.
-Its uncertainty is half their distance and the RMS deviation of the worse one.
-Order: the exponent between 0.5 and 3 that fits best; at an end of that range the sizes do not determine it.
+Value at h = 0: mean of the least-squares fits with errors in proportion to h and to h^2, with half their distance and the RMS deviation of the worse one.
+Times: columns 1.5 s, slopes 3 s (dry), 5 s (loose), 6 s (permeable, k = 5e-2 m/s) and 9 s (dense, k = 5e-3 m/s, which still slides).
 """
 
 import math
 
 import numpy as np
 
-from scree.studies.charts import Curves
+from scree.studies.charts import Curves, name_lines
 from scree.studies.study import Claim, Study, Variant
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
@@ -153,35 +134,48 @@ def verdict(rows):
                     f"changes by {100 * spread_tip:.0f} %. The front of 90 % changes by up to {100 * worst:.1f} %, and by {100 * spread:.0f} % over all four. 90 % was chosen "
                     "after the results at 99 %.", worst < 0.02, quick=False)]
     claims += [Claim(f"{scene.capitalize()}, {soil}, {treatment}: {limit.text}. All sizes are within {100 * limit.spread:.1f} %. At 99 %: {tips[scene, soil, treatment].short_text}.",
-                     abs(limit.last_change) < 0.02, quick=False) for (scene, soil, treatment), limit in best.items()]
+                     abs(limit.last_change) < 0.02, quick=False, tabled=True) for (scene, soil, treatment), limit in best.items()]
     for (scene, soil, treatment), limit in limits.items():
         if treatment == FIXED:
             other = limits[scene, soil, RECOMMENDED[scene]]
             claims.append(Claim(f"{scene.capitalize()}, {soil}, {treatment}: {limit.text}. With the largest cells the front is {100 * limit.missing:.0f} % short of the value at "
-                                f"h = 0; with friction and a PIC rate of 1/s {100 * other.missing:.0f} %.", limit.missing > 1.5 * other.missing))
+                                f"h = 0; with friction and a PIC rate of 1/s {100 * other.missing:.0f} %.", limit.missing > 1.5 * other.missing, tabled=True))
     dry, wet = (max((abs(tip.last_change) for (scene, _, _), tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan) for is_dry in (True, False))
     claims.append(Claim(f"Nearer to the tip, at 99 % of the mass, the last change is at most {100 * dry:.1f} % dry, and up to {100 * wet:.1f} % with water.",
                         dry < 0.03 < wet, quick=False))
     return claims
 
 
+def table(rows):
+    groups = {key: group for key, group in curves(rows).items() if key[2] in (RECOMMENDED[key[0]], FIXED)}
+    lines = [("scene", "base", "smallest h (m)", "fronts of 90 % (m)", "last change", "at h = 0 (m)", "99 %, last change")]
+    for (scene, soil, treatment), group in sorted(groups.items(), key=lambda item: item[0][2] == FIXED):
+        limit, tip = Limit(group), Limit(group, TIP)
+        lines.append((f"{scene}, {soil}", "fixed" if treatment == FIXED else "friction", f"{limit.h[-1]:.3g}", limit.fronts,
+                      f"{100 * limit.last_change:+.1f} %", f"{limit.value:.2f} +- {limit.uncertainty:.2f}", f"{100 * tip.last_change:+.1f} %"))
+    return lines
+
+
 def draw(figure, rows):
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    for axes, scene in zip(figure.subplots(1, len(scenes), squeeze=False)[0], scenes):
+    plots = figure.subplots(2, 2)
+    for axes, scene in zip(plots.flat, (COLUMN, SLOPE, SATURATED, PERMEABLE)):
         for (_, soil, treatment), group in ((key, group) for key, group in curves(rows).items() if key[0] == scene):
-            color = {"dense": "C0", "loose": "C1"}[soil]
-            axes.plot([row["h"] for row in group], [row[FRONT] for row in group], color=color, marker="o", markersize=4,
-                      linestyle={FIXED: ":", FRICTION: "--", LOW_PIC: "-"}[treatment], label=f"{soil}: {treatment}")
-            if treatment == RECOMMENDED[scene]:
-                limit = Limit(group)
-                axes.errorbar(0., limit.value, limit.uncertainty, color=color, marker="s", markersize=4, capsize=3)
-        axes.set(title=scene, xlabel="cell size h (m)", ylabel="front, 90 % of the mass (m)", xlim=(-0.005, None))
-        axes.grid(alpha=0.3)
-        axes.legend(fontsize="x-small")
+            if treatment not in (FIXED, RECOMMENDED[scene]):
+                continue
+            style = {"color": {"dense": "C0", "loose": "C1"}[soil], "linestyle": "--" if treatment == FIXED else "-", "marker": "o", "markersize": 4}
+            limit = Limit(group)
+            axes.plot([*limit.h[::-1]], [*limit.values[::-1]], label=f"{soil},\n{'fixed base' if treatment == FIXED else 'friction'}", **style)
+            axes.errorbar(0., limit.value, limit.uncertainty, color=style["color"], marker="s", markersize=4, capsize=3)
+        axes.set(title=scene, xlabel="cell size h (m); squares: fit at h = 0", ylabel="front of 90 % (m)", xlim=(-0.005, None))
+        axes.margins(y=0.2)
+        name_lines(axes, 8)
 
 
 STUDY = Study(
-    title="Run-out and mesh", base="prm/slopes/slope_dense.prm",
+    title="Run-out and mesh",
+    question="Does the run-out converge with the cell size?",
+    advice="Give the base friction; use a PIC rate of 1 1/s; report the front of 90 % of the mass, for two cell sizes.",
+    base="prm/slopes/slope_dense.prm",
     variants=[variant(scene, soil, treatment, n) for (scene, soil, treatment), sizes in CELLS_PER_METRE.items() for n in sizes],
     quick=lambda labels: labels["scene"] == COLUMN and labels["soil"] == "dense" and labels["treatment"] != FRICTION and labels["h"] > 0.06,
-    measure=measure, verdict=verdict, chart=Curves(draw, size=(15, 4.5)))
+    measure=measure, verdict=verdict, table=table, chart=Curves(draw, 5.4))

@@ -1,12 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Parts of the method that make the front of a collapse depend on the cell size.
-The dense dry column of [run_out](run_out.md), 1 m x 1 m, is run to 1.5 s with cells of 0.1 m and of 0.05 m.
-It has 3 x 3 points per cell and FLIP with a PIC rate of 5/s.
-The base is fixed or has the friction of the soil's own angle, 22.3 degrees.
-One thing at a time is changed: damping (PIC rate, TPIC), F-bar, points per cell, base.
-Bars: advance of the front from the larger to the smaller cells, measured at 90 % and at 99 % of the mass.
-
-Column "front by depth 0.05 m": the largest x at which the soil, averaged over 0.1 m, is that deep.
+"""The dense dry column of the section above, 1 m x 1 m, with cells of 0.1 m and of 0.05 m; one thing at a time is changed.
+It has 3 x 3 points per cell, FLIP with a PIC rate of 5/s, and a base that is fixed or has the friction of the soil, 22.3 degrees.
+The bars show by how much the front advances from the larger to the smaller cells.
 """
 
 from scree.studies.cases import run_out
@@ -88,16 +83,19 @@ def draw(figure, rows):
     for axes, (title, group) in zip(figure.subplots(1, len(groups), squeeze=False, sharex=True)[0], groups.items()):
         for offset, quantile in ((-0.2, 90), (0.2, 99)):
             axes.barh([line + offset for line in range(len(group))], [100 * advance(pair, quantile) for pair in group.values()], 0.38,
-                      label=f"front at {quantile} % of the mass")
+                      label=f"front of {quantile} %")
         axes.set_yticks(range(len(group)), list(group))
         axes.invert_yaxis()
         axes.axvline(0, color="0.5", linewidth=0.8)
-        axes.set(title=title, xlabel="smaller cells bring it forward by (%)")
-        axes.grid(alpha=0.3, axis="x")
-    axes.legend(fontsize="x-small")
+        axes.set(title=title, xlabel="advance of the front (%)")
+        axes.grid(False, axis="y")
+    axes.legend(fontsize=9, loc="lower right")
 
 
 STUDY = Study(
-    title="Causes of the mesh dependence of the run-out", base="prm/columns/column_dense.prm", variants=VARIANTS,
+    title="Causes of the mesh dependence of the run-out",
+    question="Which part of the method makes the front depend on the cell size?",
+    advice="Use a base with friction instead of a fixed one, and a low PIC rate. F-bar and points do not help.",
+    base="prm/columns/column_dense.prm", variants=VARIANTS,
     quick=lambda labels: labels["scene"] == run_out.COLUMN and labels["changed"] == "as it is" and labels["h"] > 0.06,
-    measure=run_out.measure, verdict=verdict, chart=Curves(draw, size=(13, 4.2)))
+    measure=run_out.measure, verdict=verdict, chart=Curves(draw, 4.4))

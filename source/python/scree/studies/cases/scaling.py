@@ -1,22 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Communication and load balance of parallel runs, and a model for more cores than were available.
-
-1. Messages, bytes and collectives per time step for 1 to 64 ranks, counted by `doc/studies/count_mpi.c` through MPI's profiling interface.
-   They are the difference of a long and a short run, without start-up and output.
+"""1. Messages, bytes and collectives per time step for 1 to 64 ranks, counted by `doc/studies/count_mpi.c`, without start-up and output.
    With more ranks than cores only these numbers are meaningful, not the times.
-   Imbalance is that of the log: the work of the slowest rank over the mean, an upper bound on a busy machine.
-2. Wall time on two ranks over that on one, each on a core of its own; the dam break with 12 800 points and with 16 times as many.
-3. Iterations of the pressure solve over unknowns and ranks: a dam break with finer and finer cells.
+2. Wall time on two ranks over that on one, each on a core of its own; the dam break with 12 800 and 205 000 points.
+3. Iterations of the pressure solve: a dam break with finer and finer cells.
 
-The model: time per time step = (ns per point of one core) x (points/rank) x imbalance + communication.
+The model for more cores: time per time step = (ns per point of one core) x (points/rank) x imbalance + communication.
 Communication is (messages x 1.5 us + bytes/(10 GB/s)) of the busiest rank + collectives x 1.5 us x log2(ranks).
-These are numbers of a common cluster network, not measured here.
+These are numbers of a common cluster network, not measured here; the imbalance is taken as 1.1.
 """
 
 import math
 import re
 
-from scree.studies.charts import Curves
+from scree.studies.charts import Curves, name_lines, tick_axis
 from scree.studies.study import Claim, Study, Variant, compiled, transfer
 
 QUIET = {"Output/Interval": 100, "Output/Graphics": "none", "Output/Statistics interval": 100}
@@ -107,9 +103,8 @@ def verdict(rows):
         claims.append(Claim("Two ranks are " + ", ".join(f"{value:.2f} ({scene})" for scene, value in times.items()) + " times as fast as one. Bound: 1.8.",
                             min(times.values()) >= 1.8, quick=False))
     most = max(ranks for steps in counted.values() for ranks in steps)
-    claims.append(Claim(f"Messages of the busiest rank and collectives per time step on {most:g} ranks. One rank sends nothing.", table=[
-        ("scene", "collectives", "messages"), *((scene, f"{steps[most]['collectives']:.0f}", f"{steps[most]['messages of busiest']:.0f}")
-                                                for scene, steps in counted.items())], holds=all(steps[1]["messages"] == 0 for steps in counted.values())))
+    claims.append(Claim(f"Messages of the busiest rank and collectives per time step on {most:g} ranks. One rank sends nothing.",
+                        holds=all(steps[1]["messages"] == 0 for steps in counted.values()), tabled=True))
     dry = [scene for scene in counted if scene in ("dry slope", "3D column")]
     claims.append(Claim("Dry scenes need " + ", ".join(f"{max(steps['collectives'] for steps in counted[scene].values()):.1f}" for scene in dry)
                         + " collectives per time step on any number of ranks.", all(max(steps["collectives"] for steps in counted[scene].values()) < 5 for scene in dry)))
@@ -126,29 +121,38 @@ def verdict(rows):
     return claims
 
 
-def draw(figure, rows):
-    axes = figure.subplots(1, 3)
+def table(rows):
+    lines, most = [("scene", "points", "two ranks over one (bound 1.8)", "messages on 64 ranks", "collectives", "kB of the busiest rank")], max(RANKS)
     for scene in SCENES:
         steps = per_step(rows, scene)
-        ranks = [number for number in steps if number > 1]
-        axes[0].plot(ranks, [steps[number]["messages of busiest"] for number in ranks], marker="o", label=f"{scene}: messages of the busiest rank")
-        axes[0].plot(ranks, [steps[number]["collectives"] for number in ranks], marker="x", linestyle="--", color=axes[0].lines[-1].get_color(), label="collectives")
-        axes[1].plot(ranks, [1e-3 * steps[number]["bytes of busiest"] for number in ranks], marker="o", label=scene)
-        if any(row["question"] == "two ranks" for row in rows):
-            ns, dimensions = ns_of_one_core(rows, scene), 3 if "3D" in scene else 2
-            everyone = [1, *ranks]
-            for times, style in ((1, ":"), (100, "-")):
-                one = modelled(steps[1], 1, ns, times)
-                axes[2].plot(everyone, [one / modelled(steps[number], number, ns, times, dimensions) for number in everyone], linestyle=style,
-                             color=axes[0].lines[-1].get_color(), label=f"{scene}, {times * steps[1]['points']:.0e} points")
-    axes[2].plot(RANKS, RANKS, color="0.7", linewidth=1)
-    for plot, label in zip(axes, ("messages and collectives a step", "kB a step of the busiest rank", "speed-up by the model")):
+        lines.append((scene, f"{steps[1]['points']:.0f}", f"{speed_up(rows, scene):.2f}", f"{steps[most]['messages of busiest']:.0f}",
+                      f"{steps[most]['collectives']:.0f}", f"{1e-3 * steps[most]['bytes of busiest']:.0f}"))
+    return [*lines, ("dam break, 205000 points", "205000", f"{speed_up(rows, 'dam break, 205000 points'):.2f}", "-", "-", "-")]
+
+
+def draw(figure, rows):
+    if not any(row["question"] == "two ranks" for row in rows):
+        return
+    messages, speeds = figure.subplots(1, 2)
+    for index, scene in enumerate(SCENES):
+        steps = per_step(rows, scene)
+        ranks = list(steps)
+        ns, dimensions = ns_of_one_core(rows, scene), 3 if "3D" in scene else 2
+        messages.plot(ranks[1:], [steps[number]["messages of busiest"] for number in ranks[1:]], marker="o", markersize=4, color=f"C{index}")
+        one = modelled(steps[1], 1, ns, 100)
+        speeds.plot(ranks, [one / modelled(steps[number], number, ns, 100, dimensions) for number in ranks], color=f"C{index}", marker="o", markersize=4, label=scene)
+    speeds.plot(RANKS, RANKS, color="0.6", linewidth=1, label="ideal")
+    for plot, label in ((messages, "messages of the busiest rank per time step"), (speeds, "speed-up by the model,\n100 times the points")):
         plot.set(xscale="log", yscale="log", xlabel="ranks", ylabel=label)
+        tick_axis(plot.yaxis)
         plot.set_xticks(RANKS, RANKS, minor=False)
-        plot.grid(alpha=0.3)
-        plot.legend(fontsize="xx-small")
+        plot.minorticks_off()
+    name_lines(speeds)
 
 
-STUDY = Study(title="Parallel runs: messages and load balance", base="prm/slopes/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
+STUDY = Study(title="Parallel runs: messages and load balance",
+              question="How do runs scale with the number of ranks?",
+              advice="Use as many ranks as keep some ten thousand points each; free water scales worst.",
+              base="prm/slopes/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
               quick=lambda labels: labels["question"] == "counts" and labels["ranks"] <= 2 and labels["scene"] in ("dry slope", "dam break"),
-              chart=Curves(draw, size=(15, 5), timed=True))
+              table=table, chart=Curves(draw, 3.6, timed=True))

@@ -1,12 +1,9 @@
-"""A slope of Mohr-Coulomb sand (friction 30 degrees, no cohesion) under still water.
-Slopes below 30 degrees must stay at rest, steeper ones slide.
-The crest is 0.6 m high. The water surface lies below the crest, just above it, or 0.4 m above it; conductivities are from gravel to clay.
-The slope settles for at most 1 s with damping and is then released for 1 s.
-
-State: `measures.BOUNDS` with the work of the soil's weight over a centimetre as energy.
-The error is 1 if the front of a slope below the friction angle moves by a millimetre, or if a steeper one stands (soil slower than 5 mm/s); else 0.
+"""A slope of Mohr-Coulomb sand (friction 30 degrees, no cohesion, crest 0.6 m) under still water, for three water levels and conductivities from gravel to
+clay, h = 0.1 m.
+It settles for at most 1 s with damping and is then released for 1 s.
+The gain is over the work of the weight of the soil along a centimetre.
+The error is 1 if the front of a slope below the friction angle moves by a millimetre, or if a steeper one stands (soil slower than 5 mm/s), else 0.
 No options are compared: all cells count as default cells.
-The number is the mean (RMS) speed of the free water at the end, mm/s: spurious currents, where the slope is at rest.
 """
 import math
 
@@ -55,11 +52,14 @@ def verdict(rows):
     ]
 
 
-STUDY = Study(title="Slope under still water", base="prm/columns/column_saturated.prm", needs_end=False,
+STUDY = Study(title="Slope under still water",
+              question="Do slopes under water stand below the friction angle and slide above it?",
+              advice="No setting is needed; water levels may cut the slope at any height.",
+              base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "Water/Points per cell": 3, "End time": 1.,
                        "Settling/Maximum time": 1., "Time step/Maximum time step": 2e-3, "Output/Interval": 0.5, "Output/Statistics interval": 0.05},
               variants=product(axis("surface", lambda y: {"Water/Region": f"y < {y:g}"}, [0.45, 0.65, 1.]),
                                axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-4, 1e-8]), axis("angle", slope, [15, 25, 30, 35, 45])),
               quick=lambda labels: labels["surface"] == 1. and labels["k"] in (1e-1, 1e-4) and labels["angle"] in (25, 45),
               measure=measure, verdict=verdict, default={},
-              chart=StabilityMap("angle", "k", panels=["surface"], number="water, mm/s", xlabel="slope, degrees", ylabel="k, m/s"))
+              chart=StabilityMap("angle", "k", panels=["surface"], xlabel="angle of the slope (degrees); level of the water surface in m", ylabel="k (m/s)"))

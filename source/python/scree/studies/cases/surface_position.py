@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Error of p over the position of the water surface in its cell.
-The distance of the surface from the nodes follows from their fill.
+"""Water alone, and saturated soil, at rest for 0.2 s, ten cells deep, on regular points and on points moved by up to a quarter of their spacing.
+The error is the RMS error of p at the water points over rho g h, h the cell, against rho g depth.
 Other conditions at the surface are in doc/developer/development_log.md, "Choices for the pressure that failed".
-Water alone, and saturated soil, are at rest for 0.2 s, ten cells deep, on regular points and on points moved by up to a quarter of their spacing.
-State: `measures.BOUNDS`.
-The number is the error, the RMS error of p at the water points over rho g h, h the cell, against rho g depth.
 """
 
 from scree.studies import measures
@@ -43,9 +40,12 @@ def verdict(rows):
 
 
 STUDY = Study(
-    title="Water at rest: place of the surface in its cell", base="prm/water/hydrostatic.prm",
+    title="Place of the surface in its cell",
+    question="Does p at rest depend on where the surface lies in its cell?",
+    advice="Choose the water level freely; it need not be on a cell face.",
+    base="prm/water/hydrostatic.prm",
     entries={"Mesh/Cell size": CELL, "End time": 0.2, "Output/Interval": 0.1, "Output/Statistics interval": 0.02, "Output/Graphics": "points"},
     variants=[variant for name in SCENES for variant in scene(name)],
     measure=measure, verdict=verdict, needs_end=False, default={},
     quick=lambda labels: labels["surface"] in (0., 0.375) and labels["scene"] == "water",
-    chart=StabilityMap("surface", "points", panels=["scene"], number="error", xlabel="surface above a cell's face (cells)", ylabel=""))
+    chart=StabilityMap("surface", "points", panels=["scene"], xlabel="position of the surface above the face of its cell (cells)", ylabel="points"))

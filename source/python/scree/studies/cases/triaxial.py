@@ -1,25 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One material point of Nor-Sand under triaxial compression, dense and loose, drained and undrained: the soil of the landslides.
-
-The parameters are those of Xie, Navas & Lopez-Querol 2024, Table 1 (the defaults of the law; v_0 = 1.629 dense, 1.736 loose).
-The start is an isotropic stress of 10 or 100 kPa on the yield surface.
-The curves of the discrete element tests behind the parameters are only in figures of the paper; nothing is compared with them.
-The paper leaves out three values, which are assumed:
-
-- the reference pressure of the critical state line: 1 Pa (with 1 kPa the loose sand would dilate as a dense one);
-- the overconsolidation at the start: none;
-- for the slopes, geometry and K0: crest 2 m, height 2 m, 45 degrees, K0 = 1 - sin phi_c = 0.683.
-
-The theory can be checked without the curves: both sands must come to the same critical state, M and v_c = v_c0 - lambda ln(p'/p_ref).
-
-Strains are logarithmic, compression positive, and q = sigma_1 - sigma_3.
-Undrained tests hold the volume; the pore pressure is the difference between p' and the total mean stress.
-A path has 2000 steps, to an axial strain of 50 % (drained) or 20 % (undrained).
+"""One material point of Nor-Sand under triaxial compression with the parameters of Xie, Navas & Lopez-Querol 2024, Table 1 (v_0 = 1.629 dense, 1.736 loose).
+The start is an isotropic stress of 10 or 100 kPa on the yield surface; the chart shows 100 kPa.
+Their curves of discrete element tests are only in figures; nothing is compared with them.
+Assumed are a reference pressure of 1 Pa of the critical state line (with 1 kPa loose sand would dilate) and no overconsolidation at the start.
+Without curves the theory can be checked: both sands must come to the same critical state, M and v_c = v_c0 - lambda ln(p'/p_ref).
+Strains are logarithmic, compression positive, and q = sigma_1 - sigma_3; undrained tests hold the volume.
 """
 import numpy as np
 
 from scree import plot_element
-from scree.studies.charts import RunCurves
+from scree.studies.charts import RunCurves, legend_above, tick_axis
 from scree.studies.study import Claim, Study, axis, product
 
 SOILS = {"dense": 1.629, "loose": 1.736}
@@ -31,7 +21,6 @@ def critical_volume(pressure):
 
 
 def measure(run):
-    CHART.keep(run)
     columns = plot_element.read(run.folder / "table.txt")
     strain, ratio, pressure = columns["strain"], columns["stress_ratio"], columns["mean_pressure"]
     peak = np.argmax(ratio)
@@ -65,38 +54,50 @@ def verdict(rows):
     ]
 
 
-def draw(figure, runs):
-    (strength, volume), (path, state) = figure.subplots(2, 2)
-    for run in runs:
-        columns = plot_element.read(run.folder / "table.txt")
-        drained = run.labels["path"] == "drained"
-        style = {"color": {"dense": "C3", "loose": "C0"}[run.labels["soil"]], "linestyle": "-" if drained else "--",
-                 "linewidth": 1.6 if run.labels["confining pressure (kPa)"] == 100 else 0.8,
-                 "label": f"{run.labels['soil']}, {run.labels['path']}, {run.labels['confining pressure (kPa)']:g} kPa"}
-        pressure = columns["mean_pressure"]
-        strength.plot(100 * columns["strain"], columns["stress_ratio"], **style)
-        if drained:
-            volume.plot(100 * columns["strain"], -100 * np.log(columns["volume_ratio"]), **style)
-        path.plot(1e-3 * pressure, 1e-3 * columns["deviator_stress"], **style)
-        state.plot(1e-3 * pressure, columns["specific_volume"], **style)
-    strength.axhline(M, color="k", linewidth=0.6, linestyle=":")
-    pressures = np.geomspace(4, 3e3, 50)
-    path.plot(pressures, M * pressures, "k:", linewidth=0.8, label="critical state")
-    state.plot(pressures, critical_volume(1e3 * pressures), "k:", linewidth=0.8)
-    strength.set(xlabel="axial strain (%)", ylabel="q/p' (-)")
-    volume.set(xlabel="axial strain (%)", ylabel="volumetric strain, drained (%)")
-    volume.invert_yaxis()
-    path.set(xlabel="p' (kPa)", ylabel="q (kPa)", xscale="log", yscale="log", ylim=(3, 3e3))
-    state.set(xlim=path.get_xlim(), xlabel="p' (kPa)", ylabel="specific volume (-)", xscale="log")
-    path.legend(fontsize="x-small")
-    for axes in figure.axes:
-        axes.grid(alpha=0.3)
+def table(rows):
+    return [("path, soil, pressure", "peak q/p'", "q/p' at the end, M = 0.71", "p' at the end (kPa)", "v over critical"),
+            *((f"{row['path']}, {row['soil']}, {row['confining pressure (kPa)']:g} kPa", f"{row['peak stress ratio']:.2f}", f"{row['stress ratio at the end']:.3f}",
+               f"{row['effective stress at the end (kPa)']:.0f}", f"{row['v beyond critical at the end']:+.4f}") for row in rows)]
 
 
-CHART = RunCurves(draw, size=(10, 7.5))
-STUDY = Study(title="Nor-Sand in the triaxial test", base="prm/element/drained_triaxial_dense.prm", program="scree-element",
+def curves(run):
+    """Of the tests from 100 kPa: {"panel: soil, path": (x, y)}."""
+    if run.labels["confining pressure (kPa)"] != 100:
+        return {}
+    columns, name = plot_element.read(run.folder / "table.txt"), f"{run.labels['soil']}, {run.labels['path']}"
+    strain, pressure = 100 * columns["strain"], 1e-3 * columns["mean_pressure"]
+    return {f"strength: {name}": (strain, columns["stress_ratio"]), f"volume: {name}": (strain, -100 * np.log(columns["volume_ratio"])),
+            f"path: {name}": (pressure, 1e-3 * columns["deviator_stress"]), f"state: {name}": (pressure, columns["specific_volume"])}
+
+
+def draw(figure, found, _):
+    plots = dict(zip(("strength", "volume", "path", "state"), figure.subplots(2, 2).flat))
+    for name, points in found.items():
+        panel, curve = name.split(": ")
+        style = {"color": "C3" if curve.startswith("dense") else "C0", "linestyle": "--" if curve.endswith("undrained") else "-"}
+        if panel != "volume" or curve.endswith(" drained"):
+            plots[panel].plot(*points, linewidth=1.5, label=curve, **style)
+    pressures = np.geomspace(30, 3e3, 50)
+    plots["strength"].axhline(M, color="k", linewidth=0.8, linestyle=":")
+    plots["path"].plot(pressures, M * pressures, "k:", linewidth=1)
+    plots["state"].plot(pressures, critical_volume(1e3 * pressures), "k:", linewidth=1, label="critical state")
+    plots["strength"].set(xlabel="axial strain (%)", ylabel="q/p' (-)")
+    plots["volume"].set(xlabel="axial strain (%)", ylabel="volumetric strain, drained (%)")
+    plots["volume"].invert_yaxis()
+    plots["path"].set(xlabel="p' (kPa)", ylabel="q (kPa)", xscale="log", yscale="log", xlim=(30, 3e3), ylim=(10, 3e3))
+    plots["state"].set(xlim=(30, 3e3), xlabel="p' (kPa)", ylabel="specific volume (-)", xscale="log")
+    for logarithmic in (plots["path"].xaxis, plots["path"].yaxis, plots["state"].xaxis):
+        tick_axis(logarithmic)
+    legend_above(figure, plots["state"], 5)
+
+
+CHART = RunCurves(curves, draw, 6.)
+STUDY = Study(title="Nor-Sand in the triaxial test",
+              question="Does Nor-Sand come to its critical state, drained and undrained?",
+              advice="Do not expect liquefaction of the loose sand with the published parameters.",
+              base="prm/element/drained_triaxial_dense.prm", program="scree-element",
               variants=product(axis("path", lambda path: {"Path": f"{path} triaxial", "Final strain": {"drained": 0.5, "undrained": 0.2}[path]},
                                     ["drained", "undrained"]),
                                axis("soil", lambda soil: {"Nor-Sand/Initial specific volume": SOILS[soil]}, SOILS),
                                axis("confining pressure (kPa)", lambda pressure: {"Initial confining pressure": 1e3 * pressure}, [10, 100])),
-              measure=measure, verdict=verdict, chart=CHART)
+              measure=measure, verdict=verdict, chart=CHART, table=table)

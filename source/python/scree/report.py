@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Writes a report of a run: one HTML file with verdict, warnings, statistics, pictures, maps, the case and the log.
+
+scree-report results/quickstart
+
+Writes report.html into the run folder. The file holds its pictures, so that it can be sent and archived alone. Pictures are those of scree-render and
+scree-maps; one that cannot be drawn is replaced by the message of its command.
+"""
+
+import base64
+import datetime
+import html
+import io
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+from typing import NamedTuple
+
+import numpy as np
+import PIL.Image
+
+from scree import maps, results, variants
+from scree.command import Command
+
+LARGEST_PICTURE = 700_000  # bytes; larger ones are compressed with loss
+
+STYLE = """
+body { font: 15px/1.5 system-ui, "Segoe UI", "Liberation Sans", Arial, sans-serif; color: #222; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.7rem; margin-bottom: 0; } h2 { font-size: 1.2rem; border-bottom: 1px solid #bbb; margin-top: 2.2rem; }
+nav { font-size: .9rem; margin: 1rem 0; } nav a { margin-right: 1rem; } a { color: #14568c; }
+table { border-collapse: collapse; } th, td { text-align: left; vertical-align: top; padding: .15rem .9rem .15rem 0; border-bottom: 1px solid #e4e4e4; }
+th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
+pre { background: #f6f6f4; border: 1px solid #e0e0dc; padding: .7rem; overflow-x: auto; font-size: 12.5px; line-height: 1.4; }
+figure { margin: 1rem 0; } img { max-width: 100%; height: auto; } figcaption, .note { color: #555; font-size: .9rem; }
+.good, .bad { border-left: 5px solid #3a8a4d; background: #eef6ef; padding: .4rem .8rem; margin: .5rem 0; white-space: pre-line; }
+.bad { border-color: #b8322a; background: #fbeeed; }
+summary { cursor: pointer; } ul { padding-left: 1.2rem; }
+@media print { body { font-size: 10pt; margin: 0; max-width: none; } nav { display: none; } figure, tr, .good, .bad { break-inside: avoid; }
+               h2 { break-after: avoid; } pre { white-space: pre-wrap; font-size: 8pt; } a { color: inherit; } }
+"""
+
+
+# The log --------------------------------------------------------------------------------------------------------------
+
+
+class Log(NamedTuple):
+    """What the log tells of a run: parts of its last start by their labels, such as "Checks", and warnings of all starts."""
+    parts: dict
+    warnings: list
+    text: str
+
+
+def read_log(run):
+    """The log of a run folder; empty if there is none. A label is a word in the first 12 columns; its further lines are indented."""
+    file = pathlib.Path(run) / "log.txt"
+    text = file.read_text(encoding="utf-8", errors="replace") if file.exists() else ""
+    parts, warnings, label = {}, [], None
+    for line in text.splitlines():
+        labelled = re.match(r"([A-Z][A-Za-z ]{1,9}[A-Za-z])  +(\S.*)$", line)
+        if line.startswith("Scree "):
+            parts, label = {"Program": line}, None
+        elif labelled and len(line) - len(labelled.group(2)) == 12:
+            label = labelled.group(1)
+            parts[label] = labelled.group(2)
+            if label == "Warning":
+                warnings.append(labelled.group(2))
+        elif re.match(r" {2,}\S", line) and label and not re.match(r" +[-0-9.e+]+ +[0-9]+ %", line):
+            parts[label] += "\n" + line.strip()
+            if label == "Warning":
+                warnings[-1] += " " + line.strip()
+        else:
+            label = None
+            if re.match(r"Check:|Unusual value|'Maximum time step' bounds|Stopped|The run before this one|.*NODATA|.*not yet at rest", line):
+                warnings.append(line)
+            _read_older_line(line, parts)
+    return Log(parts, warnings, text)
+
+
+def _read_older_line(line, parts):
+    """Lines without a label, which are the verdict in some logs."""
+    for label, wanted in (("Finished", r"t = \S+ s \(100 %\), (step .*)"), ("Limits", r"per simulated second: .*(time step limited by: .*)"),
+                          ("Stopped", r"Stopped (.*)"), ("Date", r".* on \S+; (\d{4}-.*)")):
+        found = re.match(wanted, line)
+        if found:
+            parts[label] = found.group(1)
+    found = re.match(r"(\d+) rank\(s\), .* on (\S+);", line)
+    if found:
+        parts["Ranks"], parts["Process"] = found.groups()
+
+
+def identity(run, log):
+    """[(what, text)] of program, date, command, case, model and machine."""
+    program, case = log.parts.get("Program", ""), log.parts.get("Case", "original.prm").split(" -> ")[0]
+    version = re.match(r"Scree (\S+)(?: \((?:commit )?([^)]*)\))?", program)
+    date = re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC", program + log.parts.get("Date", ""))
+    ranks = re.search(r"(\d+) ranks?\b", program)
+    n_ranks = int(ranks.group(1) if ranks else log.parts.get("Ranks", 1))
+    return [(what, text) for what, text in (
+        ("Run folder", str(pathlib.Path(run))),
+        ("Start of the run", date.group(0) if date else ""),
+        ("Program", f"Scree {version.group(1)}" if version else ""),
+        ("Commit", version.group(2) if version else ""),
+        ("Command", (f"mpirun -np {n_ranks} " if n_ranks > 1 else "") + f"scree {case}"),
+        *((label, log.parts.get(label, "")) for label in ("Model", "Mesh", "Memory", "Libraries", "Process")),
+    ) if text]
+
+
+# Sections -------------------------------------------------------------------------------------------------------------
+
+
+def _table(rows, head=()):
+    is_number = [isinstance(cell, float) for cell in rows[0]] if rows else []
+    cells = "".join(f'<th{" class=number" if is_right else ""}>{html.escape(word)}</th>' for word, is_right in zip(head, is_number))
+    lines = [f"<tr>{cells}</tr>"] if head else []
+    for row in rows:
+        lines.append("<tr>" + "".join(f'<td{" class=number" if isinstance(cell, float) else ""}>'
+                                      f"{f'{cell + 0.:.6g}' if isinstance(cell, float) else html.escape(cell)}</td>" for cell in row) + "</tr>")
+    return "<table>\n" + "\n".join(lines) + "\n</table>"
+
+
+def verdict(run, log):
+    """How the run has ended, and the lines Limits and Checks, each marked as good or bad."""
+    lines = []
+    if "Stopped" in log.parts:
+        lines.append(("bad", "Stopped", log.parts["Stopped"]))
+    elif "Finished" in log.parts:
+        lines.append(("good", "Finished", log.parts["Finished"]))
+    else:
+        lines.append(("bad", "Not finished", f"the run still goes on, or has ended with an error; {_last_time(run)}"))
+    if "Limits" in log.parts:
+        lines.append(("good", "Limits", log.parts["Limits"]))
+    checks = log.parts.get("Checks", "there is no such line in the log: the run did not come to its end")
+    is_bad = "Checks" not in log.parts or "out of bounds" in checks or "worst:" in checks
+    lines.append(("bad" if is_bad else "good", "Checks", checks))
+    return "\n".join(f'<div class="{mark}"><b>{label}</b> {html.escape(text)}</div>' for mark, label, text in lines)
+
+
+def _last_time(run):
+    statistics = results.read_statistics(run) if (pathlib.Path(run) / "statistics").exists() else {}
+    times = statistics.get("Time (s)", [])
+    end = variants.read_entries(pathlib.Path(run) / "parameters.prm").get("End time", "?")
+    return f"the last row of statistics is at t = {times[-1]:g} s, the end time is {end} s" if len(times) else "there are no statistics"
+
+
+def warnings(log):
+    if not log.warnings:
+        return "<p>None.</p>"
+    return "<ul>\n" + "\n".join(f"<li>{html.escape(line)}</li>" for line in dict.fromkeys(log.warnings)) + "\n</ul>"
+
+
+def final_statistics(run):
+    """Table of the first and the last row of the statistics."""
+    if not (pathlib.Path(run) / "statistics").exists():
+        return "<p>There are no statistics.</p>"
+    rows = []
+    for name, values in results.read_statistics(run).items():
+        unit = re.search(r"\(([^()]*)\)\s*$", name)
+        numbers = values[np.isfinite(values)]
+        if len(values):
+            rows.append((re.sub(r"\s*\([^()]*\)\s*$", "", name), unit.group(1) if unit else "-", float(values[0]), float(values[-1]),
+                         *((float(numbers.min()), float(numbers.max())) if len(numbers) else ("-", "-"))))
+    return _table(rows, ("quantity", "unit", "first row", "last row", "smallest", "largest")) if rows else "<p>The statistics have no row.</p>"
+
+
+def case_text(run):
+    """The case as given, and folded all entries with the values used."""
+    run, parts = pathlib.Path(run), []
+    for name, heading in (("original.prm", ""), ("parameters.prm", "All entries with the values used")):
+        if (run / name).exists():
+            text = f"<pre>{html.escape((run / name).read_text(encoding='utf-8', errors='replace').strip())}</pre>"
+            parts.append(f"<details><summary>{heading} ({name})</summary>{text}</details>" if heading else f'<p class="note">{name}</p>{text}')
+    return "\n".join(parts)
+
+
+def files(run):
+    """Table of files and their sizes; of folders the sum."""
+    run, rows = pathlib.Path(run), []
+    for path in sorted(run.iterdir()):
+        if path.name != "report.html":
+            parts = [part for part in path.rglob("*") if part.is_file()] if path.is_dir() else [path]
+            rows.append((path.name + (f"/ ({len(parts)} files)" if path.is_dir() else ""), sum(part.stat().st_size for part in parts) / 1000))
+    return _table(rows, ("file", "size (kB)"))
+
+
+# Pictures -------------------------------------------------------------------------------------------------------------
+
+
+def picture_commands(run, field, times):
+    """[(caption, module, arguments)] of the pictures that there is something for."""
+    run = pathlib.Path(run)
+    at_times = ["--times", times] if times else []
+    commands = {"points": [], "charts": [], "maps": []}
+    for collection, caption in (("points", "Soil points"), ("water", "Water points")):
+        if (run / "solution" / f"{collection}.pvd").exists():
+            asked = ["--field", field] if field and collection == "points" else []
+            commands["points"].append((caption, "render", ["--collection", collection, *asked, *at_times]))
+    for probe in sorted(path.name[len("probe_"):] for path in run.glob("probe_*") if not path.suffix):
+        commands["charts"].append((f"Probe {probe}", "render", ["--probe", probe]))
+    if maps.map_files(run):
+        commands["maps"].append(("Maps", "maps", []))
+    return commands
+
+
+def draw(run, module, arguments, folder):
+    """The pictures that a command writes, {name: content}. Throws a ValueError with its message if it fails."""
+    package = pathlib.Path(__file__).resolve().parents[1]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(package), *filter(None, [os.environ.get("PYTHONPATH")])])}
+    with tempfile.TemporaryDirectory(dir=folder) as place:
+        output = pathlib.Path(place) / "picture.png"
+        done = subprocess.run([sys.executable, "-m", "scree", module, str(run), *arguments, "--output", str(output)],
+                              capture_output=True, text=True, check=False, env=environment)
+        if done.returncode != 0:
+            raise ValueError(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"exit code {done.returncode}")
+        return {path.stem: path.read_bytes() for path in sorted(pathlib.Path(place).glob("*.png"))}
+
+
+def embedded(content):
+    """The address of a picture within the text. Too large a picture becomes a JPEG, of 1600 pixels at most."""
+    kind = "png"
+    if len(content) > LARGEST_PICTURE:
+        with PIL.Image.open(io.BytesIO(content)) as image:
+            small = image.convert("RGB")
+            small.thumbnail((1600, 3000))
+            smaller = io.BytesIO()
+            small.save(smaller, "JPEG", quality=88, optimize=True)
+        content, kind = smaller.getvalue(), "jpeg"
+    return f"data:image/{kind};base64," + base64.b64encode(content).decode("ascii")
+
+
+def _figures(run, commands, folder, charts):
+    """The figures of a section. Charts of statistics that a command has drawn besides go to `charts`."""
+    parts = []
+    for caption, module, arguments in commands:
+        try:
+            pictures = draw(run, module, arguments, folder)
+        except ValueError as error:
+            parts.append(f'<p class="note">{html.escape(caption)}: not drawn. {html.escape(str(error))}</p>')
+            continue
+        for name, content in pictures.items():
+            is_chart = "statistics" in name
+            text = "Statistics" if is_chart else caption
+            figure = f'<figure><img alt="{html.escape(text)}" src="{embedded(content)}"><figcaption>{html.escape(text)}</figcaption></figure>'
+            if is_chart:
+                charts[:] = [figure]  # the same for each collection
+            else:
+                parts.append(figure)
+    return "\n".join(parts)
+
+
+# The page -------------------------------------------------------------------------------------------------------------
+
+
+def description(run):
+    """The comment at the head of the case."""
+    file, lines = pathlib.Path(run) / "original.prm", []
+    for line in file.read_text(encoding="utf-8-sig", errors="replace").splitlines() if file.exists() else []:
+        if not line.startswith("#"):
+            break
+        lines.append(line.lstrip("# ").strip())
+    return " ".join(lines)
+
+
+def page(run, field=None, times=None):
+    """The whole text of the report. Throws OSError or ValueError if `run` is no run folder."""
+    run = pathlib.Path(run)
+    variants.read_entries(run / "parameters.prm")
+    log, charts = read_log(run), []
+    with tempfile.TemporaryDirectory() as folder:
+        drawn = {section: _figures(run, commands, folder, charts) for section, commands in picture_commands(run, field, times).items()}
+    sections = [
+        ("verdict", "Verdict", verdict(run, log)),
+        ("warnings", "Warnings", warnings(log)),
+        ("run", "Run", _table(identity(run, log))),
+        ("maps", "Maps", drawn["maps"]),
+        ("pictures", "Pictures", drawn["points"]),
+        ("charts", "Charts", "\n".join(charts) + drawn["charts"]),
+        ("statistics", "Statistics", final_statistics(run)),
+        ("case", "Case", case_text(run)),
+        ("log", "Log", f"<details><summary>log.txt</summary><pre>{html.escape(log.text.strip())}</pre></details>"),
+        ("files", "Files", files(run)),
+    ]
+    sections = [section for section in sections if section[2].strip()]
+    title, now = run.resolve().name, datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+    links = "".join(f'<a href="#{anchor}">{heading}</a>' for anchor, heading, _ in sections)
+    body = "\n".join(f'<section id="{anchor}">\n<h2>{heading}</h2>\n{text}\n</section>' for anchor, heading, text in sections)
+    return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f"<title>{html.escape(title)}: report of a run of Scree</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{html.escape(title)}</h1>\n"
+            f'<p>{html.escape(description(run))}</p>\n<p class="note">Report of {now}</p>\n<nav>{links}</nav>\n{body}\n</body>\n</html>\n')
+
+
+def _write(arguments):
+    output = arguments.output or arguments.run / "report.html"
+    text = page(arguments.run, arguments.field, arguments.times)
+    output.write_text(text, encoding="utf-8")
+    print(f"Wrote {output} ({len(text.encode()) / 1e6:.1f} MB)")
+
+
+def main():
+    parser = Command("scree-report", __doc__)
+    parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
+    parser.add_argument("--field", help="of the pictures of soil points, as for scree-render; default: mean_effective_stress")
+    parser.add_argument("--times", help="times of these pictures in s, separated by commas; default: first, 1/4, 1/2 and last")
+    parser.add_argument("--output", type=pathlib.Path, help="another file; default: report.html in the run folder")
+    parser.run(_write)

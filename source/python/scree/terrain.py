@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The ground below the maps of a run: heights, light and shade, contours."""
+
+import pathlib
+
+import matplotlib.colors
+import matplotlib.ticker
+import numpy as np
+
+from scree import expressions, results, variants
+from scree.results import Raster
+
+
+def origin_of_maps(entries, dim):
+    """Map coordinates of the place 0, 0 of a case, m."""
+    given = [float(word) for word in entries.get("Local origin", "0, 0").split(",")]
+    return np.array((given + [0., 0.])[:dim - 1])
+
+
+def ground(run, window):
+    """Heights of the bed of a run in 3D within `window`, (x, x, y, y) in map coordinates; None without a bed. Throws OSError or ValueError."""
+    prm = pathlib.Path(run) / "parameters.prm"
+    entries = variants.read_entries(prm)
+    if entries.get("Bed/Type", "none") == "none":
+        return None
+    if entries.get("Bed/Raster"):
+        raster = variants.file_named(prm, entries["Bed/Raster"])
+        if raster is None:
+            raise ValueError(f"the raster of the bed, {entries['Bed/Raster']}, is not there: the run folder or the raster has moved")
+        return cut(results.read_raster(raster), window)
+    if entries.get("Bed/Level set expression"):
+        return _of_expression(results.read_box(run), entries["Bed/Level set expression"], origin_of_maps(entries, 3), window)
+    raise ValueError("the heights of the bed are drawn only if it is given by a raster or an expression")
+
+
+def _of_expression(box, text, origin, window):
+    """The highest zero of a level set in each column, by linear interpolation between half cells."""
+    width = box.cell_size / 2
+    columns, rows = (max(2, round((window[i + 1] - window[i]) / width)) for i in (0, 2))
+    x = window[0] + (np.arange(columns) + 0.5) * width - origin[0]
+    y = window[3] - (np.arange(rows) + 0.5) * width - origin[1]
+    heights = np.full((rows, columns), np.nan)
+    z = np.linspace(box.upper[2], box.lower[2], 1 + max(2, round((box.upper[2] - box.lower[2]) / width)))  # from the top
+    above = None
+    for height in z:
+        value = np.broadcast_to(expressions.evaluate(text, x=x[None, :], y=y[:, None], z=height), heights.shape)
+        if above is not None:
+            found = np.isnan(heights) & (above > 0) & (value <= 0)
+            heights[found] = height + (z[0] - z[1]) * (value / (value - above))[found]
+        above = value
+    return Raster(heights, window[0], window[3] - rows * width, width)
+
+
+def cut(raster, window):
+    """The cells of a raster that a window touches, and one more on each side."""
+    rows, columns = raster.values.shape
+    left, right = (int(np.clip(round((x - raster.x) / raster.width) + more, 0, columns)) for x, more in ((window[0], -2), (window[1], 2)))
+    bottom, top = (int(np.clip(round((y - raster.y) / raster.width) + more, 0, rows)) for y, more in ((window[2], -2), (window[3], 2)))
+    return Raster(raster.values[rows - top:rows - bottom, left:right], raster.x + left * raster.width, raster.y + bottom * raster.width, raster.width)
+
+
+def places(raster):
+    """x and y of the centres of a raster's cells, y in the order of its rows."""
+    rows, columns = raster.values.shape
+    return raster.x + (np.arange(columns) + 0.5) * raster.width, raster.y + (rows - np.arange(rows) - 0.5) * raster.width
+
+
+def contour_step(raster, count=12):
+    """Height between contours, m, of which there are about `count`: 1, 2 or 5 times a power of ten."""
+    least, largest = np.nanmin(raster.values), np.nanmax(raster.values)
+    if not largest > least:
+        return 1.
+    power = 10. ** np.floor(np.log10((largest - least) / count))
+    return next(power * factor for factor in (1, 2, 5, 10) if power * factor * count >= largest - least)
+
+
+def draw_shade(axes, ground, strength, zorder, soil=None):
+    """Light from the north-west, as a shadow over what lies below: it leaves its hue, and darkens it by up to `strength`; only where `soil` has values."""
+    filled = np.where(np.isnan(ground.values), np.nanmin(ground.values), ground.values)
+    slope = max(1e-9, np.percentile(np.hypot(*np.gradient(filled, ground.width)), 90))
+    light = matplotlib.colors.LightSource(azdeg=315, altdeg=45)
+    # Steep and gentle terrain get the same contrast.
+    shade = light.hillshade(filled, vert_exag=0.7 / slope, dx=ground.width, dy=ground.width)
+    dark = strength * _smooth(np.where(np.isnan(ground.values), 0., 0.1 + 0.9 * (1 - shade)))
+    image = np.zeros((*dark.shape, 4))
+    image[..., 3] = np.round(60 * dark) / 60  # Steps that nobody sees make a small file.
+    if soil is not None:
+        x, y = places(Raster(dark, ground.x, ground.y, ground.width * ground.values.shape[1] / dark.shape[1]))
+        column, row = (np.floor((place - start) / soil.width).astype(int) for place, start in ((x, soil.x), (y, soil.y)))
+        row = soil.values.shape[0] - 1 - row
+        is_inside = np.outer((row >= 0) & (row < soil.values.shape[0]), (column >= 0) & (column < soil.values.shape[1]))
+        has_soil = np.isfinite(soil.values[np.clip(row, 0, soil.values.shape[0] - 1)][:, np.clip(column, 0, soil.values.shape[1] - 1)])
+        image[~(is_inside & has_soil), 3] = 0.
+    axes.imshow(image, extent=ground.extent, interpolation="nearest", zorder=zorder)
+
+
+def _smooth(values, longest=700):
+    """Values of small cells by linear interpolation between the centres of large ones."""
+    parts = max(1, round(longest / max(values.shape)))
+    for axis in (0, 1):
+        count = values.shape[axis]
+        place = np.clip((np.arange(count * parts) + 0.5) / parts - 0.5, 0, count - 1)
+        below = np.minimum(place.astype(int), max(0, count - 2))
+        weight = np.expand_dims(place - below, 1 - axis)
+        values = (1 - weight) * np.take(values, below, axis) + weight * np.take(values, np.minimum(below + 1, count - 1), axis)
+    return values
+
+
+def draw_contours(axes, raster, zorder):
+    """Contours of the height, with their heights."""
+    step = contour_step(raster)
+    levels = step * np.arange(np.ceil(np.nanmin(raster.values) / step), np.floor(np.nanmax(raster.values) / step) + 1)
+    if len(levels) == 0:
+        return
+    lines = axes.contour(*places(raster), raster.values, levels=levels, colors="0.2", linewidths=0.4, alpha=0.8, zorder=zorder)
+    axes.clabel(lines, levels[::2], fontsize=5.5, fmt=matplotlib.ticker.FormatStrFormatter("%g"))

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a report tells of a run: its parts by labels of the log, verdicts, escaped texts; no address outside of the file."""
+
+import html.parser
+import pathlib
+
+from scree import report
+
+LOG = """Scree 0.9.0 (abc1234), 2 ranks                          2026-11-25 12:53:12 UTC
+Case        my <slope>.prm -> run
+Model       2D plane strain, dry, FLIP, 38480 soil points
+Unusual value: my.prm, line 3: this value is unusual in Pa.
+
+    time (s)    done      step     dt (s)     front 90 % (m)    kinetic (J)     remaining
+      1.0000   100 %       500   2.79e-04             3.1000           2100           0 s
+Check: Soil, point 3 at (1, 2) m, t = 0.5 s: it is compressed to V/V_0 = 0.5.
+
+Finished    wall time 26.2 s, 500 steps
+Limits      time step limited by wave speed (100 % of steps)
+Warning     'Maximum time step' bounds 90 % of the steps.
+            Write a larger one.
+Checks      out of bounds: smallest V/V_0 0.5 (bound 0.6)
+            worst: Soil, point 3 at (1, 2) m
+            within bounds: mass balance 0; points of soil lost 0
+Results     run
+"""
+OLDER = """Scree 0.9.0 (commit abc1234-dirty)
+1 rank(s), the first is process 20035 on host; 2026-11-26 06:21:04 UTC
+t = 40 s (100 %), step 910 of 0.05 s, wall time 12 s
+per simulated second: 22.75 steps, 0.311 s wall time; time step limited by: wave speed 100 %
+Checks      fastest point 1.2 times the 99.9 % quantile of the speeds; points of soil lost 0
+Results are in results/mountain_dry (open solution/points.pvd in ParaView).
+"""
+
+
+class Tags(html.parser.HTMLParser):
+    """Throws an AssertionError at a tag that is not closed; `sources` has what the page loads."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.sources, self.sections = [], [], []
+        self.feed(text)
+        assert not self.open, self.open
+
+    def handle_starttag(self, tag, attrs):
+        self.sources += [value for name, value in attrs if name == "src"] + [value for name, value in attrs if name == "href" and value[0] != "#"]
+        self.sections += [value for name, value in attrs if tag == "section" and name == "id"]
+        if tag not in ("meta", "img"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, tag
+
+
+def folder(log):
+    run = pathlib.Path("run")
+    run.mkdir(exist_ok=True)
+    (run / "log.txt").write_text(log, encoding="utf-8")
+    (run / "original.prm").write_text("# A slope & more.\n# Compare: front.\n\nset End time = 1 # s, <b>\n", encoding="utf-8")
+    (run / "parameters.prm").write_text("set End time = 1\nset Bodies = Soil\n", encoding="utf-8")
+    (run / "statistics").write_text("# 1: Time (s)\n# 2: Front 90 % (m)\n# 3: Step\n0 1.5 0\n1 nan 500\n", encoding="utf-8")
+    (run / "probe_empty").write_text("# 1: Time (s)\n# 2: Pore pressure (Pa)\n0 nan\n", encoding="utf-8")
+    return run
+
+
+def test_log():
+    log = report.read_log(folder(LOG))
+    assert log.parts["Checks"].splitlines()[2] == "within bounds: mass balance 0; points of soil lost 0", log.parts
+    assert log.parts["Model"] == "2D plane strain, dry, FLIP, 38480 soil points"
+    assert [line[:30] for line in log.warnings] == ["Unusual value: my.prm, line 3:", "Check: Soil, point 3 at (1, 2)", "'Maximum time step' bounds 90 "], log.warnings
+    assert log.warnings[-1].endswith("steps. Write a larger one.")
+    identity = dict(report.identity("run", log))
+    assert (identity["Commit"], identity["Command"], identity["Start of the run"]) == ("abc1234", "mpirun -np 2 scree my <slope>.prm", "2026-11-25 12:53:12 UTC")
+    assert [word in report.verdict("run", log) for word in ('good"><b>Finished', 'good"><b>Limits', 'bad"><b>Checks')] == [True] * 3
+
+
+def test_other_logs():
+    log = report.read_log(folder(OLDER))
+    text = report.verdict("run", log)
+    assert 'good"><b>Finished</b> step 910' in text and 'good"><b>Limits</b> time step limited by: wave' in text and 'good"><b>Checks' in text, text
+    identity = dict(report.identity("run", log))
+    assert (identity["Commit"], identity["Command"], identity["Process"]) == ("abc1234-dirty", "scree original.prm", "host")
+    text = report.verdict("run", report.read_log(folder(LOG.split("Finished")[0])))
+    assert 'bad"><b>Not finished</b>' in text and "at t = 1 s, the end time is 1 s" in text and 'bad"><b>Checks' in text, text
+    assert 'bad"><b>Stopped' in report.verdict("run", report.read_log(folder(LOG.replace("Finished ", "Stopped  "))))
+
+
+def test_page():
+    text = report.page(folder(LOG))
+    tags = Tags(text)
+    assert tags.sections == ["verdict", "warnings", "run", "charts", "statistics", "case", "log", "files"], tags.sections
+    assert all(source.startswith("data:image/") for source in tags.sources)
+    for wanted in ("<p>A slope &amp; more. Compare: front.</p>", "# s, &lt;b&gt;", "scree my &lt;slope&gt;.prm", "Probe empty: not drawn.",
+                   "<td>Front 90 %</td><td>m</td><td class=number>1.5</td><td class=number>nan</td>"):
+        assert wanted in text, wanted
+
+
+test_log()
+test_other_logs()
+test_page()
