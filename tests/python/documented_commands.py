@@ -6,7 +6,7 @@ In both versions all commands run; those on the list NOT_RUN do not, and are not
 
 - quick: all times of the cases, of scree-variant and of --times are divided by 200, so that pictures are where the text asks for them; of the pictures
   that the text does not ask for, most are left out.
-- full: the times are those of the text, apart from the pages of SHORTENED. Also what takes long and does not depend on these times (LONG).
+- full: the times are those of the text, apart from the pages of SHORTENED. Also what takes long and does not depend on these times (LONG, LONG_PAGES).
 
 What stands for the reader's own files and folders is in PLACES and PREPARED; how commands that build or test are checked instead, in checked().
 """
@@ -34,7 +34,8 @@ NOT_RUN = {
     "spack load dealii": "needs the package of the line before",
 }
 SHORTENED = {"doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4, "doc/tutorials/bore.md": 2, "doc/tutorials/dry_slope.md": 2}
-LONG = re.compile(r"cmake (-S|--install)|build/scree-study|gdal")
+LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report)|gdal|mpirun -np 4")
+LONG_PAGES = {"doc/tutorials/bore.md"}  # 50 pictures of 51 200 points
 # What a reader replaces by something of his own.
 PLACES = {"FOLDER": "installed", "XMIN YMIN XMAX YMAX": "100 100 500 800"}
 # What a page takes for granted: files and runs of the reader.
@@ -135,7 +136,8 @@ class Page:
         if command in NOT_RUN:
             self.left_out.add(command)
             return
-        if (LONG.match(command) and self.version == "quick") or (command.startswith("gdal") and shutil.which("gdalwarp") is None):
+        is_long = LONG.match(command) or self.name in LONG_PAGES
+        if (is_long and self.version == "quick") or (command.startswith("gdal") and shutil.which("gdalwarp") is None):
             self.n_skipped += 1
             return
         called = self.checked(shortened_words(command, self.factor))
