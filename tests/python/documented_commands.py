@@ -197,7 +197,7 @@ def pages():
 
 def main():
     build, version = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
-    chosen = [path for path in pages() if len(sys.argv) < 4 or str(path.relative_to(ROOT)) in sys.argv[3:]]
+    chosen = [ROOT / name for name in sys.argv[3:]] or pages()
     scratch = pathlib.Path("documented_commands", version).resolve()
     if os.geteuid() == 0:
         os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
