@@ -29,9 +29,16 @@ def rows(study):
     return studies.read_table(studies.PAGES / f"{study}.csv")
 
 
+def with_labels(study, labels):
+    """The rows with these labels; `h` to within rounding."""
+    def has(row, name, value):
+        return abs(row[name] - value) < 1e-4 if name == "h" else row[name] == value
+    return [row for row in rows(study) if all(has(row, name, value) for name, value in labels.items())]
+
+
 def one(study, **labels):
-    """The row with these labels; `h` to within rounding."""
-    found = [row for row in rows(study) if all(abs(row[name] - value) < 1e-4 if name == "h" else row[name] == value for name, value in labels.items())]
+    """The one row with these labels."""
+    found = with_labels(study, labels)
     if len(found) != 1:
         raise ValueError(f"{study}.csv has {len(found)} rows with {labels}")
     return found[0]
@@ -103,6 +110,10 @@ def at(series, *numbers):
     return ", ".join(f"{percent(series[n])} at {n}" for n in numbers)
 
 
+def in_one_list(series):
+    return ", ".join(percent(value).removesuffix(" %") for value in series.values()) + f" % at {', '.join(map(str, series))}"
+
+
 def span(values, sign=False):
     low, high = (percent(value, sign) for value in (min(values), max(values)))
     return low if low == high else f"{low.removesuffix(' %')} to {high}"
@@ -110,8 +121,7 @@ def span(values, sign=False):
 
 def minutes(study, n, **labels):
     """Core-minutes of the run with these labels, or of the slowest one, and its H/h."""
-    found = [row["core-seconds"] for row in rows(study) if all(abs(row[name] - value) < 1e-4 if name == "h" else row[name] == value for name, value in labels.items())]
-    value = max(found) / 60
+    value = max(row["core-seconds"] for row in with_labels(study, labels)) / 60
     return f"{value:.2g} ({n})" if value >= 0.001 else f"< 0.001 ({n})"
 
 
@@ -124,7 +134,8 @@ DAM_BREAK = lacks("dam_break", 2, 1 / 60, (0.1, 0.05, 0.033333))
 TERZAGHI, LARGE = errors("terzaghi", 1), errors("large_strain", 1)
 BAR = errors("bar", 1, "TPIC")
 MANUFACTURED = errors("manufactured", 1, "TPIC")
-POND = {round(0.2 / h): max(abs(row["fall/exact"] - 1) for row in rows("wetting_front") if row["default"] and row["h"] == h) for h in (0.1, 0.05, 0.025, 0.0125)}
+POND = {round(0.2 / h): max(abs(row["fall/exact"] - 1) for row in with_labels("wetting_front", {"default": True, "h": h}))
+        for h in (0.1, 0.05, 0.025, 0.0125)}
 
 
 def tip_change():
@@ -221,7 +232,7 @@ def accuracy():
         row("[dam break][mm], front", "4", none, minutes("martin_moyce", 80, h=0.025), ", ".join(f"{percent(tips()[n], True)} at {n}" for n in (20, 80)), "experiment"),
         row("[impact][impact], impulse", "3", {5: impulse_change()}, minutes("impact", 10, h=0.05), f"{percent(impulse_change())} from 5 to 10", "finer run"),
         row("[impact][impact], peak of p", "3", none, minutes("impact", 10, h=0.05), f"factor {low:.2g} to {high:.2g} from 5 to 10", "finer run"),
-        row("[infiltration][infil], pond of 0.2 m", "4", POND, minutes("wetting_front", 4, h=0.05, default=True), ", ".join(percent(POND[n]).removesuffix(" %") for n in POND) + f" % at {', '.join(map(str, POND))}", "exact"),
+        row("[infiltration][infil], pond of 0.2 m", "4", POND, minutes("wetting_front", 4, h=0.05, default=True), in_one_list(POND), "exact"),
         ("[terrain][mountain], 10 and 5 m", "3", "not known", "not known", "-", f"deposit {quoted('tutorials/own_terrain.md', mountain, '30 %')} thicker",
          "finer run"),
         row("[elastic waves][bar], cells in the bar", "4", BAR, minutes("bar", 32, method="TPIC", h=0.03125), at(BAR, 16, 32), "exact")])
