@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""probes.py SCREE LAUNCHER TEST: what probes write, on one rank and two, and after a resume; drawn by scree.render.
+"""probes.py SCREE LAUNCHER TEST: what probes write, on one rank and two, and after a resume; drawn by scree.pictures.tables.
 
 Each test is a function below (case_tools.py).
 """
@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 
-from scree.render import render_probe
+from scree.pictures.tables import render_probe
 from scree.results import read_points, read_statistics, read_table, read_times
 
 from case_tools import HERE, check, run

@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import py_compile
 import re
 import shutil
 import subprocess
@@ -19,6 +20,27 @@ subsection Sand
   set Region = y < 0.5
 end
 subsection Water
+end
+subsection Output
+  set Interval = 1e-3
+  set Screen = nothing
+end
+"""
+CASE_3D = """set Dimension = 3
+set Gravity = 0, 0, -9.81
+set End time = 2e-3
+set Output directory = run_3d
+subsection Mesh
+  set Lower corner = 0, 0, 0
+  set Upper corner = 1, 1, 1
+  set Cell size = 0.25
+end
+subsection Bed
+  set Type = fixed
+  set Level set expression = z - 0.2 - 0.2*x
+end
+subsection Soil
+  set Region = x < 0.5 && z < 0.6
 end
 subsection Output
   set Interval = 1e-3
@@ -109,7 +131,14 @@ def check_render(commands):
     commands.writes(["film.gif"], "scree-render", "run", "--animate", "gif", "--collection", "water", "--output", "film.gif")
     commands.refuses("film.png: a film of --animate gif ends with .gif", "scree-render", "run", "--animate", "gif", "--collection", "water",
                     "--output", "film.png")
-    if shutil.which("ffmpeg") is None:
+    films = [f"run/water{ending}" for ending in ((".gif", ".mp4") if shutil.which("ffmpeg", path=commands.environment["PATH"]) else (".gif",))]
+    commands.writes(films, "scree-render", "run", "--animate", "--collection", "water")
+    commands.writes(["run/paraview.py"], "scree-render", "run", "--paraview")
+    py_compile.compile("run/paraview.py", cfile="paraview.pyc", doraise=True)
+    commands.refuses("--limits low,high: write 2 numbers", "scree-render", "run", "--limits", "low,high")
+    commands.writes(["run/water_limits_-1_2.png", statistics], "scree-render", "run", "--collection", "water", "--limits", "-1,2")
+    check_render_3d(commands)
+    if shutil.which("ffmpeg", path=commands.environment["PATH"]) is None:
         commands.refuses("--animate mp4: ffmpeg is missing. Install ffmpeg, or write --animate gif", "scree-render", "run", "--animate", "mp4")
     picture = max(pathlib.Path("run/solution").glob("water*.vtu"))
     text = picture.read_bytes()
@@ -163,6 +192,16 @@ def check_report(commands):
             commands.faults.append(f"{page}: {text.count('src=')} pictures, {len(text)} bytes, {re.findall('.*not drawn.*', text)}")
 
 
+def check_render_3d(commands):
+    pictures = ["run_3d", "--field", "velocity"]
+    if shutil.which("Xvfb") is None:
+        if not os.environ.get("DISPLAY"):
+            commands.refuses("pictures of 3D runs need an X server. Install Xvfb", "scree-render", *pictures)
+        return
+    commands.writes(["run_3d/points_velocity.png", "run_3d/statistics.png"], "scree-render", *pictures)
+    commands.writes(["run_3d/points_velocity.gif"], "scree-render", *pictures, "--animate", "gif", "--view", "-30,40")
+
+
 def check_mountain(commands):
     """The rasters of prm/terrain are those that the generator makes, to the digits that it writes."""
     commands.refuses("^scree-mountain: .*case.prm", "scree-mountain", "1", "case.prm/folder")
@@ -202,8 +241,10 @@ def main():
     for path in pathlib.Path(".").iterdir():
         (shutil.rmtree if path.is_dir() else os.remove)(path)
     pathlib.Path("case.prm").write_text(CASE, encoding="utf-8")
+    pathlib.Path("case_3d.prm").write_text(CASE_3D, encoding="utf-8")
     pathlib.Path("element.prm").write_text(ELEMENT, encoding="utf-8")
-    subprocess.run([scree, "case.prm"], check=True)
+    for case in ("case.prm", "case_3d.prm"):
+        subprocess.run([scree, case], check=True)
     subprocess.run([element, "element.prm"], check=True, capture_output=True)
     pathlib.Path("run/table.txt").write_text("a b\n1 2\n", encoding="utf-8")
     commands = Commands(build, os.path.dirname(scree))

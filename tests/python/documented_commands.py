@@ -126,6 +126,8 @@ class Page:
             for place, entry in (("/path/to/dealii", "deal.II_DIR"), ("/path/to/python3", "SCREE_PYTHON")):
                 command = command.replace(place, re.search(f"^{entry}:.*=(.*)$", cache, re.MULTILINE).group(1))
             return command.replace("-S . -B build", f"-S {ROOT} -B configured")
+        if words[0] == "paraview":  # that the script is there and can be read
+            return f"{sys.executable} -m py_compile {words[1].removeprefix('--script=')}"
         if words[0] == "build/scree-study" and words[1] != "--list":
             return command + " --quick --jobs 1 --results results/studies"
         return command

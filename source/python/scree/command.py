@@ -4,6 +4,7 @@
 import argparse
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -23,6 +24,8 @@ class Command(argparse.ArgumentParser):
 
     def __init__(self, name, text):
         super().__init__(prog=name, description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+        # Lists of numbers may begin with a minus: --limits -5,15
+        self._negative_number_matcher = re.compile(r"-[\d.][-\d.,eE+]*$")
 
     def error(self, message):
         self.exit(1, f"{self.prog}: {message}. {self.prog} --help lists the arguments.\n")

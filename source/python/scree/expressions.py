@@ -6,11 +6,11 @@ import re
 
 import numpy as np
 
-_FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "abs", "exp", "log", "log10", "log2", "sin", "cos", "tan", "sinh", "cosh", "tanh", "sign", "rint")}
+_FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "abs", "exp", "log", "log10", "log2", "sin", "cos", "tan", "sinh", "cosh", "tanh", "sign", "rint", "floor", "ceil")}
 _FUNCTIONS |= {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "ln": np.log, "pow": np.power, "where": np.where,
                "min": lambda *values: np.minimum.reduce(np.broadcast_arrays(*values)),
                "max": lambda *values: np.maximum.reduce(np.broadcast_arrays(*values))}
-_CONSTANTS = {"pi": np.pi, "_pi": np.pi, "_e": np.e}
+_CONSTANTS = {"pi": np.pi, "Pi": np.pi, "_pi": np.pi, "_e": np.e}
 _BINARY = {ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide, ast.Pow: np.power}
 _COMPARISONS = {ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater, ast.GtE: np.greater_equal, ast.Eq: np.equal, ast.NotEq: np.not_equal}
 

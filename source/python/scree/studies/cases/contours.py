@@ -7,7 +7,8 @@ Energy gained is the largest decrease of the numerical dissipation over the pote
 """
 import numpy as np
 
-from scree import render, results
+from scree import results
+from scree.pictures import fields, plane
 from scree.studies.charts import Pictures
 from scree.studies.study import Claim, Study, axis, product
 
@@ -90,12 +91,12 @@ def draw(figure, runs):
     for run in runs:
         box = results.read_box(run.folder)
         plot = plots[lines.index((run.labels["soil"], run.labels["h"])), list(TITLES).index(run.labels["F-bar"])]
-        drawn = render.draw_points(plot, run.points(SHOWN), box._replace(upper=np.array([4.4, 2.1])), FIELD, (0., LARGEST))
+        drawn = plane.draw_points(plot, run.points(SHOWN), box._replace(upper=np.array([4.4, 2.1])), FIELD, (0., LARGEST))
         plot.label_outer()
         plot.text(0.97, 0.9, f"{run.labels['soil']}, {run.labels['h']:g} m", transform=plot.transAxes, ha="right", va="top", fontsize=9)
     for plot, title in zip(plots[0], TITLES.values()):
         plot.set_title(title, fontsize="medium")
-    figure.colorbar(drawn, ax=plots, label=f"{render.field_label(FIELD)}, t = {SHOWN:g} s", extend="max", aspect=40)
+    figure.colorbar(drawn, ax=plots, label=f"{fields.field_label(FIELD)}, t = {SHOWN:g} s", extend="max", aspect=40)
 
 
 def slopes(cell_size, soils, end):

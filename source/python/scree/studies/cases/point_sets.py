@@ -11,13 +11,14 @@ import re
 
 import numpy as np
 
-from scree import render, results
+from scree import results
+from scree.pictures import fields, plane
 from scree.studies.charts import Pictures
 from scree.studies.study import Claim, Study, Variant, axis, product
 
 SOILS = {"dense": "slopes/slope_saturated_dense", "loose": "slopes/slope_saturated_loose", "Mohr-Coulomb": "slopes/slope_saturated_mohr_coulomb"}
 SHOWN = (1., 4., 12.)  # s
-CELL, POROSITY = 0.05, 0.4  # m, -; of the cases
+CELL = 0.05  # m, of the cases
 
 
 def soil(name):
@@ -118,18 +119,13 @@ def draw(figure, runs):
             if soil_name != run.labels["soil"]:
                 continue
             plot = pair[["double", "single"].index(run.labels["points"])]
-            grey = render.draw_points(plot, run.points(time), box, "mass", (0, 1))
-            grey.set_array(None)
-            grey.set_facecolor("0.72")
-            water = run.points(time, "water")
-            # As large as the soil that it fills: with gaps between them the points make patterns.
-            water.arrays["volume"] = water.arrays["volume"] / POROSITY
-            drawn = render.draw_points(plot, water, box, "pressure", (-5, 15))
+            plane.draw_points(plot, run.points(time), box, "mass", (0, 1), colour="0.72")
+            drawn = plane.draw_points(plot, run.points(time, "water"), box, "pressure", (-5, 15))
             plot.label_outer()
             plot.text(0.97, 0.9, f"{soil_name}, t = {time:g} s", transform=plot.transAxes, ha="right", va="top", fontsize=9)
     plots[0, 0].set_title("double-point", fontsize="medium")
     plots[0, 1].set_title("single-point", fontsize="medium")
-    figure.colorbar(drawn, ax=plots, label=render.field_label("pressure"), extend="both", aspect=50)
+    figure.colorbar(drawn, ax=plots, label=fields.field_label("pressure"), extend="both", aspect=50)
 
 
 POINTS = axis("points", "Water/Point sets", ["double", "single"])

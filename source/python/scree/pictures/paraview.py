@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A state script for ParaView: `paraview --script=paraview.py`, or `pvpython paraview.py`. It uses paraview.simple only."""
+
+import pathlib
+
+import numpy as np
+
+from scree import results
+from scree.pictures import fields, frame
+
+SCRIPT = '''\
+# Written by scree-render --paraview for {run}.
+# Start it by `paraview --script={name}`, or `pvpython {name}`, which writes {name_of_picture}.
+import os
+import sys
+
+from paraview.simple import *
+
+folder = os.path.dirname(os.path.abspath(globals().get("__file__", {absolute!r})))
+view = GetActiveViewOrCreate("RenderView")
+view.OrientationAxesVisibility = 1
+
+
+def array_of(source, name):
+    """The array `name` of the file, whose name may end with a unit in brackets."""
+    return next(array for array in source.PointData.keys() if array.split(" [")[0] == name)
+
+
+def show(file, name, low, high, preset, inverted, radius, title):
+    source = PVDReader(registrationName=file, FileName=os.path.join(folder, "solution", file))
+    source.UpdatePipeline(source.TimestepValues[-1] if hasattr(source.TimestepValues, "__len__") else source.TimestepValues)
+    display = Show(source, view)
+    display.SetRepresentationType("Point Gaussian")
+    display.GaussianRadius = radius
+    display.ShaderPreset = {shape!r}
+    array = array_of(source, name)
+    values = source.PointData[array]
+    ColorBy(display, ("POINTS", array, "Magnitude") if values.GetNumberOfComponents() > 1 else ("POINTS", array))
+    colours = GetColorTransferFunction(array)
+    colours.ApplyPreset(preset, True)
+    if inverted:
+        colours.InvertTransferFunction()
+    colours.RescaleTransferFunction(low, high)
+    bar = GetScalarBar(colours, view)
+    bar.Title, bar.ComponentTitle = title, ""
+    display.SetScalarBarVisibility(view, True)
+    return source
+
+
+# Values are in the SI units of the files.
+{shown}
+
+scene = GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()
+scene.GoToLast()
+
+view.InteractionMode = {interaction!r}
+view.CameraParallelProjection = 1
+view.CameraFocalPoint = {focus}
+view.CameraPosition = {position}
+view.CameraViewUp = {up}
+view.CameraParallelScale = {scale:.6g}
+Render(view)
+if "pvpython" in os.path.basename(sys.executable) or "pvbatch" in os.path.basename(sys.executable):
+    SaveScreenshot(os.path.join(folder, {name_of_picture!r}), view, ImageResolution=[1600, 1000])
+'''
+# Of ParaView for matplotlib's colour maps, and whether it is to be inverted.
+PRESETS = {"RdBu_r": ("Cool to Warm", False), "YlOrRd": ("Inferno (matplotlib)", True)}
+
+
+def _camera(box, pictures):
+    """Focus, position, upward direction and half height of the view."""
+    shown = frame.fitted(box, pictures)
+    lower, upper = np.pad(shown.lower, (0, 3 - box.dim)), np.pad(shown.upper, (0, 3 - box.dim))
+    focus, size = 0.5 * (lower + upper), upper - lower
+    if box.dim == 2:
+        return focus, focus + [0, 0, 2 * max(size)], np.array([0., 1., 0.]), 0.55 * max(size[1], 0.6 * size[0])
+    from scree.pictures import space  # pylint: disable=import-outside-toplevel
+    order = space.axes_order(box)
+    camera = space.camera_of(np.array([lower[order], upper[order]]), space.view_along(box, pictures))
+    focus, towards, up = (np.empty(3) for _ in range(3))
+    focus[order], towards[order], up[order] = camera.focus, camera.towards, camera.up
+    return focus, focus + 3 * np.linalg.norm(size) * towards, up, camera.half_height
+
+
+def write_state(run, output, chosen, limits=None):
+    """Writes the script. `chosen`: {collection: field}."""
+    box, shown, seen = results.read_box(run), [], []
+    for collection, name in chosen.items():
+        available = results.read_times(run, collection)
+        pictures = [results.read_points(run, time, collection) for time in available[np.unique(np.linspace(0, len(available) - 1, 5).astype(int))]]
+        style = fields.field_style(name)
+        low, high = limits or fields.colour_limits(np.concatenate([fields.field_values(points, name) for points in pictures]), name)
+        volumes = [points.arrays["volume"] for points in pictures if "volume" in points.arrays]
+        radius = 0.6 * np.median(np.concatenate(volumes)) ** (1 / box.dim) if volumes else box.cell_size / 6
+        preset = PRESETS.get(style.colours, ("Viridis (matplotlib)", False))
+        limits_si = f"{low / style.factor:.6g}, {high / style.factor:.6g}"
+        shown.append(f"show({collection + '.pvd'!r}, {name!r}, {limits_si}, {preset[0]!r}, {preset[1]}, {radius:.4g}, {style.label!r})")
+        seen += pictures
+    focus, position, up, scale = _camera(box, seen)
+    output = pathlib.Path(output)
+    output.write_text(SCRIPT.format(
+        run=run, name=output.name, name_of_picture=output.stem + ".png", absolute=str(output.resolve()), shown="\n".join(shown),
+        shape="Plain circle" if box.dim == 2 else "Sphere", interaction=f"{box.dim}D", focus=_list(focus), position=_list(position), up=_list(up),
+        scale=scale), encoding="utf-8")
+
+
+def _list(vector):
+    return "[" + ", ".join(f"{value:.6g}" for value in vector) + "]"

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rigid ground of a run: level sets of its bed and obstacles, from their expressions, profiles, rasters and closed surfaces."""
+
+import pathlib
+import re
+import sys
+from typing import NamedTuple
+
+import numpy as np
+
+from scree import expressions, results, variants
+
+
+class Surface(NamedTuple):
+    """A rigid surface at one time: name of its subsection, level set at the places asked for (positive in the open), displacement in m."""
+    name: str
+    level_set: np.ndarray
+    displacement: np.ndarray
+
+    @property
+    def is_bed(self):
+        return self.name == "Bed"
+
+
+def _expression(text, places):
+    """The value of a case's expression at the places."""
+    value = expressions.evaluate(text, **dict(zip("xyz", places)))
+    return np.broadcast_to(np.asarray(value, dtype=float), np.broadcast_shapes(*(np.shape(place) for place in places)))
+
+
+def _profile(file, places):
+    points = np.array([[float(word) for word in re.split(r"[,\s]+", line.strip())[:2]]
+                       for line in file.read_text(encoding="utf-8").splitlines() if re.match(r"\s*[-+.0-9]", line)])
+    return places[1] - np.interp(places[0], *points.T)
+
+
+def _raster(file, places, origin):
+    """Vertical distance from a raster's bilinear surface; open where it has no heights."""
+    ground = results.read_raster(file)
+    heights = ground.values[::-1]  # the southern row first
+    column = (places[0] + origin[0] - ground.x) / ground.width - 0.5
+    row = (places[1] + origin[1] - ground.y) / ground.width - 0.5
+    column, row = np.clip(column, 0, heights.shape[1] - 1), np.clip(row, 0, heights.shape[0] - 1)
+    i, j = np.minimum(column.astype(int), heights.shape[1] - 2), np.minimum(row.astype(int), heights.shape[0] - 2)
+    s, t = column - i, row - j
+    z = (1 - t) * ((1 - s) * heights[j, i] + s * heights[j, i + 1]) + t * ((1 - s) * heights[j + 1, i] + s * heights[j + 1, i + 1])
+    distance = places[2] + origin[2] - z
+    return np.where(np.isnan(distance), np.nanmax(places[2]) - np.nanmin(places[2]) + 1., distance)
+
+
+def _closed_surface(file, places):
+    """Signed distance from a closed STL surface."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # pylint: disable=import-outside-toplevel
+    from vtkmodules.vtkCommonCore import vtkDoubleArray  # pylint: disable=import-outside-toplevel
+    from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance  # pylint: disable=import-outside-toplevel
+    from vtkmodules.vtkIOGeometry import vtkSTLReader  # pylint: disable=import-outside-toplevel
+
+    reader = vtkSTLReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    distance = vtkImplicitPolyDataDistance()
+    distance.SetInput(reader.GetOutput())
+    shape = np.broadcast_shapes(*(np.shape(place) for place in places))
+    asked = np.ascontiguousarray(np.stack([np.broadcast_to(place, shape).ravel() for place in places], axis=1), dtype=float)
+    found = vtkDoubleArray()
+    distance.FunctionValue(numpy_to_vtk(asked), found)
+    return vtk_to_numpy(found).reshape(shape).copy()
+
+
+def displacement(run, subsection, time, dim):
+    """How far an obstacle has moved, m, from the statistics of the run."""
+    file = pathlib.Path(run) / "statistics"
+    statistics = results.read_statistics(run) if subsection != "Bed" and file.exists() else {}
+    ways = [f"{subsection} displacement {axis} (m)" for axis in "xyz"[:dim]]
+    return np.array([np.interp(time, statistics["Time (s)"], statistics[way]) if way in statistics else 0. for way in ways])
+
+
+def _report(subsection, error, reported=set()):  # pylint: disable=dangerous-default-value  # once per subsection
+    if subsection not in reported:
+        print(f"scree-render: subsection {subsection} is not drawn: {error or type(error).__name__}.", file=sys.stderr)
+        reported.add(subsection)
+
+
+def _level_set(prm, entries, subsection, here, origin):
+    """The level set that an expression or a file gives."""
+    for ending, read in (("Profile", lambda file: _profile(file, here)), ("Raster", lambda file: _raster(file, here, origin)),
+                         ("Closed surface", lambda file: _closed_surface(file, here))):
+        name = entries.get(f"{subsection}/{ending}", "")
+        if name:
+            return read(pathlib.Path(prm).parent / name)
+    return _expression(entries[subsection + "/Level set expression"], here)
+
+
+def rigid_surfaces(run, places, time):
+    """The bed and the obstacles of a run at `places` (arrays x, y, or x, y, z) and a time. Those that cannot be read are left out."""
+    prm = pathlib.Path(run) / "parameters.prm"
+    entries = variants.read_entries(prm)
+    origin = np.zeros(3)
+    written = [float(word) for word in entries.get("Local origin", "").split(",") if word.strip()]
+    origin[:len(written)] = written
+    surfaces = []
+    for key, kind in entries.items():
+        subsection, _, name = key.rpartition("/")
+        if name != "Type" or not re.match(r"(Bed|Obstacle [^/]*)$", subsection) or kind == "none":
+            continue
+        moved = displacement(run, subsection, time, len(places))
+        here = [place - way for place, way in zip(places, moved)]
+        try:
+            level_set = _level_set(prm, entries, subsection, here, origin)
+        except (OSError, SyntaxError, NameError, TypeError, ValueError, KeyError) as error:
+            _report(subsection, error)
+            continue
+        surfaces.append(Surface(subsection, level_set, moved))
+    return surfaces
+
+
+def rigid_bodies(run):
+    """Numbers of the bodies that are structures of points, such as nets: their material is rigid."""
+    entries = variants.read_entries(pathlib.Path(run) / "parameters.prm")
+    names = [name.strip() for name in entries.get("Bodies", "Soil").split(",")]
+    return [number for number, name in enumerate(names) if entries.get(f"{name}/Material") == "rigid"]

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of tables: the statistics of a run, and its probes."""
+
+import pathlib
+import re
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from scree import results
+from scree.pictures.panels import save_picture
+
+# Panel, and the columns of the statistics that belong to it. A scene has some of them: water's, soil's, a load's.
+PANELS = {
+    "energy": ["Kinetic energy (J)", "Potential energy (J)", "Elastic energy (J)", "Plastic dissipation (J)", "Wall dissipation (J)",
+               "Bed dissipation (J)", "Numerical dissipation (J)", "Drag dissipation (J)", "Energy entered (J)", "Load work (J)"],
+    "front": ["Front 90 % (m)", "Front 99 % (m)", "Front 99.5 % (m)", "Water front 90 % (m)", "Water front 99 % (m)", "Water front 99.5 % (m)"],
+    "force": [],  # on obstacles: their columns have names of the case
+    "moment": [],
+    "oscillation": ["Stress oscillation (-)", "p oscillation (-)"],
+    "step size": ["Time step (s)"],
+}
+LEAST_ENERGY = 2e-3  # of the largest change of an energy; what is always below it is no line to see
+DEFAULT_PANELS = ["energy", "front", "force"]
+PREFIXES = {-9: "n", -6: "\u00b5", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+
+
+def _columns(statistics, title):
+    """{name: values} of a panel. Energies are changes since the start; columns without any value, and energies too small to see, are left out."""
+    names = PANELS[title] or [name for name in statistics if re.match(rf"Obstacle .* {title} . \(", name)]
+    columns = {name: statistics[name] for name in names if name in statistics and np.any(np.isfinite(statistics[name]))}
+    if title in ("force", "moment"):
+        columns = {name: values for name, values in columns.items() if np.any(values != 0)} or columns
+    if title == "energy":
+        columns = {name: values - values[np.isfinite(values)][0] for name, values in columns.items()}
+        largest = max((np.nanmax(np.abs(values)) for values in columns.values()), default=0.)
+        columns = {name: values for name, values in columns.items()
+                   if np.nanmax(np.abs(values)) > LEAST_ENERGY * largest or name.startswith(("Kinetic", "Numerical"))}
+    return columns
+
+
+def _scaled(columns, unit):
+    """Values between 1 and 1000 of a unit with a prefix, and that unit."""
+    largest = max(np.nanmax(np.abs(values)) for values in columns.values())
+    if unit == "-" or largest == 0 or not np.isfinite(largest):
+        return columns, unit
+    if unit == "m" and 1e-2 <= largest < 1e5:
+        return columns, unit
+    power = int(np.clip(3 * np.floor(np.log10(largest) / 3), -9, 12))
+    return {name: values / 10. ** power for name, values in columns.items()}, PREFIXES[power] + unit
+
+
+def _label_lines(panel, lines):
+    """Names at the right ends of the lines, moved apart where they would overlap."""
+    low, high = panel.get_ylim()
+    least = 0.085 * (high - low) * 2.6 / (panel.figure.get_figheight() / len(panel.figure.axes))
+    ends = sorted(((line.get_ydata()[np.isfinite(line.get_ydata())][-1], line) for line in lines), key=lambda end: end[0])
+    places = [value for value, _ in ends]
+    for _ in range(200):
+        for i in range(len(places) - 1):
+            missing = least - (places[i + 1] - places[i])
+            if missing > 1e-9:
+                places[i], places[i + 1] = max(places[i] - 0.5 * missing, low), places[i + 1] + 0.5 * missing
+    right = panel.get_xlim()[1]
+    for place, (value, line) in zip(places, ends):
+        panel.annotate(line.get_label(), (right, value), (1.02, (place - low) / (high - low)), xycoords="data", textcoords="axes fraction",
+                       color=line.get_color(), fontsize="small", va="center", annotation_clip=False,
+                       arrowprops={"arrowstyle": "-", "color": line.get_color(), "lw": 0.6, "shrinkA": 0, "shrinkB": 0})
+
+
+def render_statistics(run, output, titles=None):
+    """The columns of interest against time in one PNG, the usual panels or those of the titles; returns False when there is nothing to draw."""
+    statistics = results.read_statistics(run)
+    if not statistics:
+        return False
+    time = results.column(statistics, "Time (s)")
+    for title in titles or []:
+        if title not in PANELS:
+            raise ValueError(f"--panels: there is no panel {title}; there are: {', '.join(PANELS)}.")
+    groups = {title: _columns(statistics, title) for title in titles or DEFAULT_PANELS}
+    groups = {title: columns for title, columns in groups.items() if columns}
+    if not groups or len(time) == 0:
+        return False
+
+    figure, axes = plt.subplots(len(groups), 1, figsize=(8.5, 0.6 + 2.6 * len(groups)), squeeze=False, sharex=True, layout="constrained")
+    for panel, (title, columns) in zip(axes.flat, groups.items()):
+        unit = re.search(r"\(([^()]*)\)\s*$", next(iter(columns))).group(1)
+        columns, unit = _scaled(columns, unit)
+        if title not in ("front", "step size"):
+            panel.axhline(0, color="0.6", lw=0.6)
+        lines = [panel.plot(time, values, lw=1.3, label=_short(name))[0] for name, values in columns.items()]
+        panel.set_ylabel(("change of energy" if title == "energy" else title) + f" ({unit})")
+        panel.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.)
+        panel.grid(alpha=0.3)
+        _label_lines(panel, lines)
+    axes.flat[-1].set_xlabel("time (s)")
+    save_picture(figure, output)
+    return True
+
+
+def _short(name):
+    """A column's name without its unit, and without what its panel says."""
+    return _without_unit(name).replace(" energy", "").replace("Obstacle ", "")
+
+
+def _by_unit(columns):
+    """{unit: columns} of names such as "Front (m)"."""
+    groups = {}
+    for name in columns:
+        unit = re.search(r"\(([^()]*)\)\s*$", name)
+        groups.setdefault(unit.group(1) if unit else "", []).append(name)
+    return groups
+
+
+def _without_unit(name):
+    return re.sub(r"\s*\([^()]*\)\s*$", "", name)
+
+
+def render_probe(run, name, output):
+    """A probe in one PNG: of a line, each quantity along it, a curve a time; of others, all columns against time."""
+    table = results.read_table(pathlib.Path(run) / f"probe_{name}")
+    shown = [key for key in table if key not in ("Time (s)", "Distance (m)", "x (m)", "y (m)", "z (m)") and np.any(np.isfinite(table[key]))]
+    if not shown:
+        raise ValueError(f"probe_{name} has no numbers: there was never material.")
+    is_line = "Distance (m)" in table
+    groups = [(key, [key]) for key in shown] if is_line else list(_by_unit(shown).items())
+    columns = 3 if is_line else 1
+    rows = -(-len(groups) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(11 if is_line else 8, 0.6 + 2.3 * rows), squeeze=False, sharex=True,
+                                layout="constrained")
+    for panel in axes.flat[len(groups):]:
+        panel.set_visible(False)
+    times = np.unique(table["Time (s)"])
+    for panel, (title, names) in zip(axes.flat, groups):
+        if is_line:
+            for i, time in enumerate(times):
+                at = table["Time (s)"] == time
+                panel.plot(table["Distance (m)"][at], table[title][at], color=plt.get_cmap("viridis")(i / max(1, len(times) - 1) * 0.9))
+            panel.set_xlabel("distance (m)")
+        else:
+            for key in names:
+                panel.plot(table["Time (s)"], table[key], label=_without_unit(key))
+            panel.legend(fontsize="small", loc="best")
+        panel.set_ylabel(title if is_line else f"({title})")
+        panel.grid(alpha=0.3)
+    if is_line:
+        figure.suptitle(f"{name}, from t = {times[0]:.4g} s (dark) to {times[-1]:.4g} s (bright)", fontsize="medium")
+    else:
+        axes.flat[-1].set_xlabel("time (s)")
+    save_picture(figure, output)

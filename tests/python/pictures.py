@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""pictures.py: how scree.pictures turns points into areas, surfaces and colours; on points made here, without a run."""
+
+import contextlib
+import pathlib
+import shutil
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+from scree.pictures import fields, frame, plane, rigid  # noqa: E402
+from scree.results import Box, Points  # noqa: E402
+
+CELL = 0.1
+PLANE = """set Local origin = 100, 200
+subsection Bed
+  set Type = fixed
+  set Level set expression = if(x < 1 && y > -1, y - 0.1*x^2, max(y, 0))
+end
+subsection Obstacle Sphere
+  set Type = free slip
+  set Closed surface = tetrahedron.stl
+end
+subsection Obstacle Hill
+  set Type = free slip
+  set Raster = hill.asc
+end
+"""
+TETRAHEDRON = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))  # outward
+CORNERS = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+
+
+def lattice(dim, stretch=1.):
+    """Points of a block of 1 m per axis, three a cell; `stretch` pulls it along x."""
+    line = (np.arange(30) + 0.5) / 30
+    places = np.stack(np.meshgrid(*[line] * dim, indexing="ij"), axis=-1).reshape(-1, dim)
+    positions = np.zeros((len(places), 3))
+    positions[:, :dim] = places
+    positions[:, 0] *= stretch
+    arrays = {"volume": np.full(len(places), stretch / 30 ** dim), "plastic_shear_strain": positions[:, 0].copy()}
+    return Points(0., positions, arrays)
+
+
+def box(dim):
+    return Box(np.zeros(dim), np.array([4., 2., 2.])[:dim], CELL, dim - 1)
+
+
+def check_colours():
+    strain, pressure = "plastic_shear_strain", "pressure"
+    assert fields.colour_scale(np.zeros(9), strain)[1:] == (0., 1., "neither")
+    assert fields.colour_scale(np.linspace(0.4, 1, 101), strain).low == 0.
+    low = fields.colour_scale(np.append(np.linspace(0, 1, 999), -0.5), pressure)
+    assert low.extend == "min" and fields.colour_scale(np.append(np.linspace(0, 1, 999), 9), strain).extend == "max"
+    assert np.mean(fields.colour_scale(np.zeros(9), strain).mappable.to_rgba(0.)[:3]) > 0.85, "zero must be light"
+
+
+def check_areas():
+    """Stretched points leave no gaps, and the area is that of the points."""
+    for stretch in (1., 2.5):
+        points, pixels = lattice(2, stretch), plane.pixels_of(box(2), 400)
+        filled = plane.fill(points, box(2), pixels, np.ones((pixels.ny, pixels.nx), dtype=bool))
+        covered, nearest = plane._covered(points, box(2), pixels, filled)
+        inside = np.zeros_like(covered)
+        inside[:int(0.95 / pixels.width), :int(0.95 * stretch / pixels.width)] = True
+        assert np.all(covered[inside]), f"stretch {stretch}: {np.sum(~covered[inside])} pixels are missing"
+        area = np.sum(covered) * pixels.width ** 2
+        assert abs(area / stretch - 1) < 0.02, f"stretch {stretch}: area {area}"
+        x = np.meshgrid(*pixels.centres)[0]
+        assert np.max(np.abs(points.positions[nearest, 0] - x)[covered]) < 0.6 * stretch / 30 + pixels.width
+    shown = frame.fitted(box(2), [lattice(2)])
+    assert np.allclose(shown.lower, 0.) and np.allclose(shown.upper, [1 - 0.5 / 30 + 0.3] * 2)
+    figure, axes = plt.subplots()
+    plane.draw_points(axes, lattice(2), box(2), "plastic_shear_strain", (0., 1.))
+    plt.close(figure)
+
+
+def check_ground(run):
+    (run / "parameters.prm").write_text(PLANE, encoding="utf-8")
+    facets = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*CORNERS[i]) for i in facet) + "endloop\nendfacet\n"
+                     for facet in TETRAHEDRON)
+    (run / "tetrahedron.stl").write_text(f"solid t\n{facets}endsolid t\n", encoding="utf-8")
+    (run / "hill.asc").write_text("ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\ncellsize 1\n3 4 5\n0 1 2\n", encoding="utf-8")
+    places = [np.array([0.5, 0.1]), np.array([0.5, 0.1]), np.array([0.5, 0.1])]
+    surfaces = {surface.name: surface.level_set for surface in rigid.rigid_surfaces(run, places, 0.)}
+    assert np.allclose(surfaces["Bed"], [0.475, 0.099]), surfaces
+    assert np.allclose(surfaces["Obstacle Sphere"], [0.5 / 3 ** 0.5, -0.1], atol=1e-6), surfaces
+    assert np.allclose(surfaces["Obstacle Hill"], [0.5 - (0.5 + 1.5), 0.1 - (0.1 + 0.3)]), surfaces
+
+
+def check_space(run):
+    """The colour of the points, the ground and white paper are in the image."""
+    from scree.pictures import space  # pylint: disable=import-outside-toplevel
+    (run / "parameters.prm").write_text("subsection Bed\n  set Type = fixed\n  set Level set expression = z - 0.05*x\nend\n", encoding="utf-8")
+    points = lattice(3)
+    with contextlib.ExitStack() as stack:
+        scene = space.Scene(run, box(3), box(3), space.view_along(box(3), [points]), stack, 300)
+        image = scene.image(points, np.tile([1., 0., 0., 1.], (len(points.positions), 1))).astype(int)
+        empty = scene.image(points._replace(positions=np.zeros((0, 3)), arrays={}), np.zeros((0, 4))).astype(int)
+    is_red = image[..., 0] - image[..., 1] > 60
+    assert 0.03 < np.mean(is_red) < 0.4, np.mean(is_red)
+    assert np.mean(np.all(image == 255, axis=2)) > 0.2
+    is_ground = (np.ptp(empty, axis=2) < 60) & (empty[..., 0] < 240)
+    assert np.mean(is_ground) > 0.2, np.mean(is_ground)
+    column, row = scene.camera.pixel([0.5, 0.5, 1.])
+    assert is_red[int(row), int(column)], "the middle of the top of the block is elsewhere"
+
+
+def main():
+    run = pathlib.Path("run")
+    run.mkdir(exist_ok=True)
+    check_colours()
+    check_areas()
+    check_ground(run)
+    if shutil.which("Xvfb"):
+        check_space(run)
+    else:
+        print("No Xvfb: 3D pictures are not tested.")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
