@@ -33,7 +33,8 @@ NOT_RUN = {
     "spack install dealii@9.5 +mpi +p4est +trilinos +muparser": "compiles for hours; the page says that it is not tested",
     "spack load dealii": "needs the package of the line before",
 }
-SHORTENED = {"doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4, "doc/tutorials/bore.md": 2, "doc/tutorials/dry_slope.md": 2}
+SHORTENED = {"README.md": 2, "doc/installation.md": 20, "doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4,
+             "doc/tutorials/bore.md": 2, "doc/tutorials/dry_slope.md": 2}
 LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report)|gdal|mpirun -np 4")
 LONG_PAGES = {"doc/tutorials/bore.md"}  # 50 pictures of 51 200 points
 # What a reader replaces by something of his own.
