@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """tutorials.py ROOT FOLDER: what the pages of FOLDER quote exists in ROOT.
 
-- Each command of a block ```sh starts with a program of the build, or with mpirun, cmake or sh.
+- Each command of a block ```sh starts with a program of the build, or with one of OTHERS.
 - Each case it names is in the repository, or an earlier scree-variant of the page has written it.
 - Each run folder it names is the output directory of a case that the page names or writes.
 - Each line `set ...` of a block ```text is in a case that the page names, apart from blanks and comments.
@@ -13,7 +13,7 @@ import re
 import shlex
 import sys
 
-OTHERS = {"mpirun", "cmake", "sh"}
+OTHERS = {"mpirun", "cmake", "sh", "gdalinfo", "gdalwarp", "gdal_translate", "gdal_rasterize"}
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

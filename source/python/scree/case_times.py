@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Times of prm/README.md, the last column of its tables, from the table of the study `advice`.
+
+PYTHONPATH=source/python python3 -m scree.case_times
+
+A case of which the study ran the first part only has "~" and its time in proportion. Whole runs by hand are in BY_HAND.
+"""
+
+import re
+
+from scree.command import ROOT
+from scree.studies import run as studies
+from scree.variants import read_entries
+
+PAGE = ROOT / "prm" / "README.md"
+ROW = re.compile(r"^(\| `([\w-]+)` \|.*\| )([^|]*)( \|)$", re.MULTILINE)
+# Processor time of whole runs, s; with other programs on the machine.
+BY_HAND = {"first_slope": 3, "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "debris_flow": 9}
+
+
+def rounded(seconds):
+    """Two digits above 10 s, whole seconds below, at least 1 s."""
+    if seconds < 10:
+        return f"{max(1, round(seconds))}"
+    return f"{float(f'{seconds:.2g}'):,.0f}".replace(",", " ") if seconds >= 1e4 else f"{float(f'{seconds:.2g}'):.0f}"
+
+
+def time_of(name, rows):
+    """The last cell of a case; None for a case of scree-element."""
+    path, = (ROOT / "prm").rglob(f"{name}.prm")
+    entries = read_entries(path)
+    if "Path" in entries:
+        return None
+    if name in BY_HAND or name not in rows:
+        return f"{BY_HAND[name]} *" if name in BY_HAND else "-"
+    row = rows[name]
+    if row["whole"]:
+        return rounded(row["core-seconds"])
+    return f"~{rounded(row['core-seconds'] * float(entries['End time']) / row['simulated'])}"
+
+
+def filled(text):
+    """The page with its times made again."""
+    rows = {row["case"]: row for row in studies.read_table(studies.PAGES / "advice.csv")}
+
+    def cell(match):
+        time = time_of(match.group(2), rows)
+        return match.group() if time is None else match.group(1) + time + match.group(4)
+    return ROW.sub(cell, text)
+
+
+def main():
+    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The tables of doc/choosing.md are what the tables of the studies and of the benchmarks give, and every table with numbers is one of them."""
+
+import re
+import sys
+
+from scree import choices
+
+
+def faults(text):
+    if choices.filled(text) != text:
+        yield "doc/choosing.md is not current. Run PYTHONPATH=source/python python3 -m scree.choices."
+    missing = set(choices.MAKERS) - {match.group(2) for match in choices.BLOCK.finditer(text)}
+    if missing:
+        yield f"doc/choosing.md has no block for {', '.join(sorted(missing))}."
+    for line in choices.BLOCK.sub("", text).splitlines():
+        if line.startswith("|") and re.search(r"\d %|\d \(\d+\)", line):
+            yield f"A number of a table that no table of a study gives: {line}"
+
+
+def main():
+    text = choices.PAGE.read_text(encoding="utf-8")
+    found = list(faults(text))
+    number = re.search(r"\d+ % at \d+", text).group()
+    if not list(faults(text.replace(number, "1" + number, 1))):
+        found.append("A page with another number passes.")
+    if not list(faults(text + "\n| scene | 5 % |\n")):
+        found.append("A table by hand passes.")
+    try:
+        choices.quoted("limits.md", "3 parts of 4", "3")
+        found.append("A number that its page does not have passes.")
+    except ValueError:
+        pass
+    if [choices.reached({5: 0.2, 10: 0.04, 20: 0.06, 40: 0.01}, bound) for bound in (0.05, 0.1, 0.001)] != ["40", "10", "none"]:
+        found.append("The smallest H/h from which on all runs are within the bound is wrong.")
+    print(f"{len(choices.MAKERS)} blocks")
+    sys.exit("\n".join(found) or 0)
+
+
+if __name__ == "__main__":
+    main()
