@@ -19,7 +19,7 @@ namespace scree
           if (line.size() + item.size() > margin)
             {
               lines += line + '\n';
-              line = indent + ' ';
+              line = indent.substr(1);
             }
           line += item;
         }
