@@ -29,7 +29,8 @@ namespace scree
 
 
   Parameters::Parameters(const std::string &file_name)
-      : file(file_name)
+      : case_file(file_name)
+      , file(file_name)
   {
     try
       {

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -23,16 +24,49 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// The paths whose last names, or which as a whole, are closest to `path`, in words; empty: none is.
+    std::string meant_subsections(const std::vector<std::string> &paths, const std::string &path)
+    {
+      const auto last_name = [](const std::string &one) { return one.substr(one.rfind('/') + 1); };
+      std::vector<std::string> last_names;
+      for (const std::string &one : paths)
+        last_names.push_back(last_name(one));
+      std::vector<std::string> close = nearest(paths, path);
+      if (close.empty() || lower_case(close.front()) != lower_case(path))
+        if (const auto names = nearest(last_names, last_name(path)); !names.empty())
+          {
+            close.clear();
+            for (const std::string &one : paths)
+              if (std::find(names.begin(), names.end(), last_name(one)) != names.end())
+                close.push_back(one);
+          }
+      std::string text;
+      for (const std::string &one : close)
+        text += (text.empty() ? " Did you mean " : " or ") + quoted(one);
+      return text.empty() ? "" : text + '?';
+    }
+  } // namespace
+
+
+  void Parameters::print_sections(const std::string &path, std::ostream &out)
+  {
+    for (const std::string &one : DeclaredNames(handler).subsection_paths())
+      if (path.empty() || (one + '/').rfind(path + '/', 0) == 0)
+        out << one << '\n';
+  }
+
+
   void Parameters::print_subsection(const std::string &path, std::ostream &out)
   {
-    const std::size_t slash  = path.rfind('/');
-    const std::string parent = slash == std::string::npos ? "" : path.substr(0, slash);
-    const std::string name   = slash == std::string::npos ? path : path.substr(slash + 1);
-    const DeclaredNames declared(handler);
-    if (!declared.has_subsection(parent, name))
-      throw InputError("command line: there is no subsection " + quoted(path) + ". " +
-                       declared.suggest_subsection(parent, name) +
-                       " scree --print-parameters lists all of them; those of any body are those of Soil.");
+    const auto paths = DeclaredNames(handler).subsection_paths();
+    if (std::find(paths.begin(), paths.end(), path) == paths.end())
+      throw InputError("command line: there is no subsection " + quoted(path) + '.' + meant_subsections(paths, path) +
+                       (case_file.empty()
+                            ? " scree --print-parameters --sections lists all of them; \"Soil\" stands "
+                              "for any body. A case file adds its own names."
+                            : " scree " + case_file + " --print-parameters --sections lists all of them."));
     std::stringstream all;
     print(all);
     std::vector<std::string> open; // subsections

@@ -2,6 +2,7 @@
 #include <scree/element/element_command_line.h>
 #include <scree/element/element_driver.h>
 #include <scree/input/input_file.h>
+#include <scree/input/suggestions.h>
 #include <scree/version.h>
 
 #include <filesystem>
@@ -103,6 +104,13 @@ namespace scree
       }
     try
       {
+        if (argument.rfind('-', 0) == 0)
+          {
+            const auto close = nearest({ "--version", "--help" }, argument);
+            throw InputError("command line: there is no option " + quoted(argument) + '.' +
+                             (close.empty() ? "" : " Did you mean " + quoted(close.front()) + '?') +
+                             " scree-element --help lists all options.");
+          }
         run(argument);
       }
     catch (const std::exception &error)

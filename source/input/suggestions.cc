@@ -216,6 +216,27 @@ namespace scree
   }
 
 
+  std::vector<std::string> DeclaredNames::subsection_paths() const
+  {
+    std::vector<std::string> paths;
+    for (const Name &name : subsections)
+      paths.push_back(subsection_path(name.path, name.name));
+    return paths;
+  }
+
+
+  std::vector<std::string> nearest(const std::vector<std::string> &names, const std::string &written)
+  {
+    std::vector<Name> all;
+    for (const std::string &name : names)
+      all.push_back({ "", name, "", "" });
+    std::vector<std::string> result;
+    for (const Name &name : closest(all, "", written))
+      result.push_back(name.name);
+    return result;
+  }
+
+
   std::string value_remedy(const DeclaredNames::Name &entry, const std::string &value)
   {
     std::string remedy = "write " + pattern_as_words(entry.pattern) + '.';

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <ctime>
 #include <numeric>
+#include <utility>
 
 namespace scree
 {
@@ -43,73 +44,127 @@ namespace scree
   }
 
 
-  Progress::Progress(RunFolder &folder, const double start_time, const double end_time)
+  Progress::Progress(RunFolder &folder, const double start_time, const double end_time, const std::string &place_column)
       : folder(folder)
       , start_time(start_time)
       , end_time(end_time)
+      , place_column(place_column)
   {
   }
 
 
-  void Progress::report(const double time, const unsigned long long step, const double time_step)
+  bool Progress::is_due() const
   {
     constexpr double seconds_between_lines = 5.;
-    const double elapsed                   = clock.wall_time();
-    if (time < end_time && elapsed - last_line < seconds_between_lines)
-      return;
-    last_line         = elapsed;
-    const double done = (time - start_time) / (end_time - start_time);
-    folder.log(
-        format("t = %.4g s (%.0f %%), step %llu of %.3g s, ", time, 100 * done, step, time_step) +
-        (done > 0 && done < 1 ? duration(elapsed / done * (1 - done)) + " left" : "wall time " + duration(elapsed)));
+    return clock.wall_time() - last_line >= seconds_between_lines;
   }
 
 
-  void Progress::summarise_steps(const double time)
+  void Progress::report(const double time,
+                        const unsigned long long step,
+                        const double time_step,
+                        const double place,
+                        const double kinetic_energy)
   {
-    const unsigned long long n_steps = std::accumulate(counts.begin(), counts.end(), 0ull);
-    const double motion              = time - start_time;
-    if (n_steps == 0 || motion <= 0)
+    const int width = std::max<int>(16, place_column.size() + 2);
+    if (!has_heading)
+      folder.log(format("\n%12s %7s %9s %10s %*s %14s %13s",
+                        "time (s)",
+                        "done",
+                        "step",
+                        "dt (s)",
+                        width,
+                        place_column.c_str(),
+                        "kinetic (J)",
+                        "remaining"));
+    has_heading          = true;
+    const double elapsed = clock.wall_time();
+    last_line            = elapsed;
+    const double done    = std::min(1., (time - start_time) / (end_time - start_time));
+    // Five digits of the end time.
+    const int decimals = 4 - static_cast<int>(std::floor(std::log10(std::max(end_time, 1e-300))));
+    folder.log((decimals <= 8 ? format("%12.*f", std::max(0, decimals), time) : format("%12.4e", time)) +
+               format(" %5.0f %% %9llu %10.2e %*.4f %14.4g %13s",
+                      100 * done,
+                      step,
+                      time_step,
+                      width,
+                      place,
+                      kinetic_energy,
+                      (done > 0 ? duration(elapsed / done * (1 - done)) : std::string()).c_str()));
+  }
+
+
+  std::string Progress::text_of_limits() const
+  {
+    static const std::pair<StepLimit, const char *> names[] = { { StepLimit::waves, "wave speed" },
+                                                                { StepLimit::motion, "largest speed" },
+                                                                { StepLimit::entry, "Maximum time step" } };
+    std::string text;
+    for (const auto &[limit, name] : names)
+      if (const double share = percent(limit); share > 0)
+        text += (text.empty() ? "" : ", ") + format(share < 1 ? "%s (below 1 %%" : "%s (%.0f %%", name, share) +
+                (text.empty() ? " of steps)" : ")");
+    return text;
+  }
+
+
+  double Progress::percent(const StepLimit limit) const
+  {
+    return n_steps() > 0 ? 100. * counts[static_cast<unsigned int>(limit)] / n_steps() : 0.;
+  }
+
+
+  unsigned long long Progress::n_steps() const
+  {
+    return std::accumulate(counts.begin(), counts.end(), 0ull);
+  }
+
+
+  void
+  Progress::conclude(const std::string &how, const double time, const double point_updates, const MPI_Comm communicator)
+  {
+    const double total         = clock.wall_time();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    folder.log(format("\n%-11s wall time %s, %llu steps",
+                      how.c_str(),
+                      total < 60 ? format("%.1f s", total).c_str() : duration(total).c_str(),
+                      n_steps()) +
+               (point_updates > 0
+                    ? format(", %.0f ns per point and step and core", 1e9 * n_ranks * total / point_updates)
+                    : ""));
+    if (n_steps() == 0)
       return;
-    const auto percent = [&](const StepLimit limit) {
-      return 100. * counts[static_cast<unsigned int>(limit)] / n_steps;
-    };
-    folder.log(format("per simulated second: %.4g steps, %.3g s wall time; time step limited by: wave speed %.0f %%, "
-                      "largest speed %.0f %%, 'Maximum time step' %.0f %%",
-                      n_steps / motion,
-                      clock.wall_time() / motion,
-                      percent(StepLimit::waves),
-                      percent(StepLimit::motion),
-                      percent(StepLimit::entry)));
+    folder.log("Limits      time step limited by " + text_of_limits());
     constexpr double most = 50.; // % of the steps
     if (percent(StepLimit::entry) > most && others > 0.)
       folder.log(
-          format("'Maximum time step' bounds %.0f %% of the steps: without it the run would have taken %.3g times "
-                 "fewer. Write a larger one, or auto, unless results depend on it",
+          format("Warning     'Maximum time step' bounds %.0f %% of the steps: without it the run would have "
+                 "taken %.3g times fewer.\n            Write a larger one, or auto, unless results depend on it.",
                  percent(StepLimit::entry),
-                 n_steps / others));
+                 n_steps() / others));
+    if (const double motion = time - start_time; motion > 0)
+      folder.record(format("Per simulated second: %.4g steps, %.3g s wall time", n_steps() / motion, total / motion));
   }
 
 
-  void Progress::summarise(const double time,
-                           const TimerOutput &parts,
+  void Progress::summarise(const TimerOutput &parts,
                            const double point_updates,
                            const std::string &point,
                            const MPI_Comm communicator)
   {
     if (point_updates <= 0)
       return;
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const double core_seconds  = Utilities::MPI::sum(processor_time() - processor_time_before, communicator);
-    summarise_steps(time);
+    const unsigned int n_ranks    = Utilities::MPI::n_mpi_processes(communicator);
+    const double core_seconds     = Utilities::MPI::sum(processor_time() - processor_time_before, communicator);
     const double total            = clock.wall_time();
     const double to_ns            = 1e9 * n_ranks / point_updates;
     double accounted              = 0;
     const std::string last_column = "ns per " + point + " and step";
     const int width               = std::max<int>(22, last_column.size());
-    folder.log(format("%-34s %10s %8s %*s", "part", "seconds", "share", width, last_column.c_str()));
+    folder.record(format("%-34s %10s %8s %*s", "part", "seconds", "share", width, last_column.c_str()));
     const auto line = [&](const std::string &name, const double s) {
-      folder.log(format("%-34s %10.2f %6.1f %% %*.1f", name.c_str(), s, 100 * s / total, width, s * to_ns));
+      folder.record(format("%-34s %10.2f %6.1f %% %*.1f", name.c_str(), s, 100 * s / total, width, s * to_ns));
     };
     for (const TimerSection part : step_parts)
       if (const double s = seconds_of(parts, part); s > 0)
@@ -119,10 +174,10 @@ namespace scree
         }
     line("everything else", total - accounted);
     line("total", total);
-    folder.log(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates; processor time %.4g s)",
-                      n_ranks,
-                      point_updates,
-                      core_seconds));
+    folder.record(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates; processor time %.4g s)",
+                         n_ranks,
+                         point_updates,
+                         core_seconds));
   }
 
 
@@ -135,12 +190,12 @@ namespace scree
       return;
     const double total  = clock.wall_time();
     const auto of_ranks = Utilities::MPI::min_max_avg(waiting, communicator);
-    folder.log(format("waiting: %.1f %% of the ranks' time (%.1f %% to %.1f %%)",
-                      100 * of_ranks.avg / total,
-                      100 * of_ranks.min / total,
-                      100 * of_ranks.max / total));
-    folder.log(format("imbalance: %.3f (slowest rank over mean, without waiting); repartitioned %u times",
-                      imbalance,
-                      n_repartitions));
+    folder.record(format("waiting: %.1f %% of the ranks' time (%.1f %% to %.1f %%)",
+                         100 * of_ranks.avg / total,
+                         100 * of_ranks.min / total,
+                         100 * of_ranks.max / total));
+    folder.record(format("imbalance: %.3f (slowest rank over mean, without waiting); repartitioned %u times",
+                         imbalance,
+                         n_repartitions));
   }
 } // namespace scree

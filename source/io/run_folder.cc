@@ -129,16 +129,22 @@ namespace scree
   }
 
 
-  void RunFolder::log(const std::string &line)
+  void RunFolder::log(const std::string &lines)
+  {
+    record(lines);
+    if (writer && to_screen)
+      std::cout << lines << std::endl;
+  }
+
+
+  void RunFolder::record(const std::string &lines)
   {
     if (!writer)
       return;
-    log_file << line << std::endl;
+    log_file << lines << std::endl;
     if (!log_file)
-      tell_once("log.txt", error_of_writing(file("log.txt"), line.size() + 1).what());
+      tell_once("log.txt", error_of_writing(file("log.txt"), lines.size() + 1).what());
     log_file.clear();
-    if (to_screen)
-      std::cout << line << std::endl;
   }
 
 

@@ -6,9 +6,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/string.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,13 +21,6 @@ namespace scree
 
     /// What a sound run does not exceed, by Check.
     constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 2., 0. };
-
-    std::string short_text(const double value)
-    {
-      char text[32];
-      std::snprintf(text, sizeof text, "%.3g", value);
-      return text;
-    }
 
     template <int dim>
     std::string short_text(const Point<dim> &x)
@@ -61,7 +51,7 @@ namespace scree
 
 
   template <int dim>
-  void RunChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
+  bool RunChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
                             const std::list<WaterPhase<dim>> &water,
                             const double n_lost,
                             const double time,
@@ -69,15 +59,17 @@ namespace scree
                             const bool is_end)
   {
     if (has_looked && !is_end && step < last_step + steps_between)
-      return;
+      return false;
     has_looked = true;
     last_step  = step;
     now        = Suspects();
+    has_soil   = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return !body.is_rigid; });
     look_at_speeds(bodies, water);
-    look_at_soil(bodies);
+    look_at_places(bodies, water);
     const double n_all = Utilities::MPI::sum(n_lost, grid.triangulation().get_communicator());
     suspect(Check::lost, n_all, n_all, [] { return std::string(); });
     agree(time);
+    return true;
   }
 
 
@@ -165,7 +157,7 @@ namespace scree
 
 
   template <int dim>
-  void RunChecks<dim>::look_at_soil(const std::list<SoilBody<dim>> &bodies)
+  void RunChecks<dim>::look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
   {
     const double g = gravity.norm();
     std::vector<double> ends(2, std::numeric_limits<double>::lowest()); // heights: highest, minus lowest
@@ -176,7 +168,17 @@ namespace scree
           ends                = { std::max(ends[0], height), std::max(ends[1], -height) };
         });
     Utilities::MPI::max(ends, grid.triangulation().get_communicator(), ends);
-    const double height = ends[0] + ends[1] + grid.cell_size();
+    const double height      = ends[0] + ends[1] + grid.cell_size();
+    const auto look_at_depth = [&](const auto &point, const auto &name) {
+      if (bed == nullptr)
+        return;
+      const double distance = bed->distance_of(point.cell, point.reference_location, point.location);
+      if (distance < 0.)
+        suspect(Check::depth, -distance / grid.cell_size(), -distance, name);
+    };
+    for (const WaterPhase<dim> &part : water)
+      if (part.carrier() == nullptr)
+        for_each_named("Water", part.points(), look_at_depth);
     for (const SoilBody<dim> &body : bodies)
       if (!body.is_rigid)
         for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
@@ -185,10 +187,7 @@ namespace scree
           suspect(Check::shrinkage, 1. / ratio, ratio, name);
           if (g > 0.)
             suspect(Check::pressure, pressure / (body.density * g * height), pressure, name);
-          if (bed != nullptr)
-            if (const double distance = bed->distance_of(point.cell, point.reference_location, point.location);
-                distance < 0.)
-              suspect(Check::depth, -distance / grid.cell_size(), -distance, name);
+          look_at_depth(point, name);
         });
   }
 
@@ -242,22 +241,35 @@ namespace scree
 
 
   template <int dim>
-  void RunChecks<dim>::summarise() const
+  std::vector<CheckResult> RunChecks<dim>::results() const
   {
+    std::vector<CheckResult> list;
     if (!has_looked)
-      return;
-    const auto of    = [&](const Check check) -> const Suspect    &{ return worst[static_cast<unsigned int>(check)]; };
-    std::string line = "Checks      fastest point " + short_text(std::max(1., of(Check::speed).value)) +
-                       " times the 99.9 % quantile of the speeds; smallest V/V_0 " +
-                       short_text(of(Check::shrinkage).value > 0. ? of(Check::shrinkage).found : 1.);
-    if (gravity.norm() > 0.)
-      line += "; largest p' " + short_text(of(Check::pressure).value) + " of rho g H";
+      return list;
+    const auto of  = [&](const Check check) -> const Suspect  &{ return worst[static_cast<unsigned int>(check)]; };
+    const auto add = [&](const Check check, const std::string &value, const std::string &bound) {
+      const bool is_exceeded = is_wrong(check, of(check).value);
+      list.push_back({ value, bound, is_exceeded, is_exceeded ? text(check, of(check)) : "" });
+    };
     if (bed != nullptr)
-      line += "; deepest point " + short_text(of(Check::depth).found) + " m below the bed";
-    folder.log(line + "; points of soil lost " + short_text(of(Check::lost).found));
-    for (unsigned int c = 0; c < n_checks; ++c)
-      if (const Check check = static_cast<Check>(c); is_wrong(check, worst[c].value))
-        folder.log("  worst: " + text(check, worst[c]));
+      add(Check::depth,
+          "deepest point " + short_text(of(Check::depth).found) + " m below the bed",
+          short_text(bounds[1] * grid.cell_size()) + " m");
+    if (has_soil)
+      add(Check::lost, "points of soil lost " + short_text(of(Check::lost).found), "0");
+    add(Check::speed,
+        "fastest point " + short_text(std::max(1., of(Check::speed).value)) +
+            " times the 99.9 % quantile of the speeds",
+        short_text(bounds[0]));
+    if (has_soil)
+      add(Check::shrinkage,
+          "smallest V/V_0 " + short_text(of(Check::shrinkage).value > 0. ? of(Check::shrinkage).found : 1.),
+          short_text(1. / bounds[2]));
+    if (has_soil && gravity.norm() > 0.)
+      add(Check::pressure,
+          "largest p' " + short_text(of(Check::pressure).value) + " of rho g H",
+          short_text(bounds[3]));
+    return list;
   }
 
   template class RunChecks<2>;

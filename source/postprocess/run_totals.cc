@@ -20,6 +20,23 @@ namespace scree
 
 
   template <int dim>
+  Tensor<1, dim> RunTotals<dim>::impulse() const
+  {
+    return balance.wall_impulse + balance.body_impulse + balance.pressure_impulse + balance.load_impulse +
+           balance.bed_impulse + balance.obstacle_impulse() + entered_momentum - lost_momentum;
+  }
+
+
+  template <int dim>
+  double RunTotals<dim>::energy_taken() const
+  {
+    return plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation + balance.contact_dissipation +
+           balance.drag_dissipation + balance.viscous_dissipation + lost_energy - balance.load_work -
+           balance.correction_work - balance.obstacle_energy() - entered_energy;
+  }
+
+
+  template <int dim>
   RunTotals<dim> RunTotals<dim>::sum_over_ranks(const MPI_Comm communicator) const
   {
     RunTotals total      = *this;

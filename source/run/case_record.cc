@@ -11,18 +11,43 @@ namespace scree
 {
   using namespace dealii;
 
-  void record_case(Parameters &parameters, RunFolder &folder, const MPI_Comm communicator)
+  void record_case(Parameters &parameters, RunFolder &folder)
   {
     folder.write("original.prm", parameters.original());
     std::ostringstream all_entries;
     parameters.print_into(parameters.output_directory, all_entries);
     folder.write("parameters.prm", all_entries.str());
-    log_program(folder, communicator);
   }
 
 
   namespace
   {
+    /// "2D plane strain, dry, FLIP (PIC rate 1 1/s)"
+    std::string model_text(const Parameters &parameters)
+    {
+      const bool has_soil = !parameters.bodies.empty();
+      const bool rides    = has_soil && parameters.water.point_sets_kind() == PointSets::single_point;
+      return std::string(parameters.dimension == 2 ? "2D plane strain, " : "3D, ") +
+             (!parameters.has_water ? "dry"
+              : !has_soil           ? "free water"
+              : rides               ? "soil and water (single-point)"
+                                    : "soil and water (double-point)") +
+             ", " + parameters.transfer.text();
+    }
+
+
+    /// What is missing or unusual in a raster also goes to the screen.
+    void log_remark(RunFolder &folder, const std::string &remark)
+    {
+      std::istringstream lines(remark);
+      for (std::string line; std::getline(lines, line);)
+        if (line.find("Unusual value") != std::string::npos || line.find("NODATA") != std::string::npos)
+          folder.log(line);
+        else
+          folder.record(line);
+    }
+
+
     /// Warns of ground that cells do not resolve. Collective.
     template <int dim>
     void log_thin_bed(const DiscreteLevelSet<dim> &bed, RunFolder &folder, const MPI_Comm communicator)
@@ -44,33 +69,32 @@ namespace scree
   template <int dim>
   void log_case(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator)
   {
-    log_size(folder,
-             scene.grid,
-             scene.bodies,
-             scene.water,
-             scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator)));
-    folder.log("Transfer: " + parameters.transfer.text());
+    log_header(folder,
+               { parameters.case_file, parameters.output_directory, model_text(parameters) },
+               scene.grid,
+               scene.bodies,
+               scene.water,
+               scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator)));
     if (const Point<2> &origin = parameters.bed.map_origin; origin != Point<2>())
-      folder.log("Local origin: x = 0, y = 0 is " + number_text(origin) +
-                 " m on the map. Rasters, outlines and maps are in the map's coordinates, all else, the pictures, too, "
-                 "from this place.");
+      folder.record(
+          "Local origin: x = 0, y = 0 is " + number_text(origin) +
+          " m on the map. Rasters, outlines and maps are in the map's coordinates, all else, the pictures, too, "
+          "from this place.");
     if (!parameters.map_system.empty())
-      folder.log("Coordinate system of the maps: " + name_of_system(parameters.map_system));
+      folder.record("Coordinate system of the maps: " + name_of_system(parameters.map_system));
     if (!parameters.text_of_box.empty())
-      folder.log(parameters.text_of_box);
+      folder.record(parameters.text_of_box);
     for (const BodyParameters &body : parameters.bodies)
       if (body.seeding.map)
-        if (const std::string remark = body.seeding.map->remark(body.name); !remark.empty())
-          folder.log(remark);
+        log_remark(folder, body.seeding.map->remark(body.name));
     if (scene.ground)
-      if (const std::string remark = scene.ground->remark(); !remark.empty())
-        folder.log(remark);
+      log_remark(folder, scene.ground->remark());
     if (scene.bed)
       log_thin_bed(*scene.bed, folder, communicator);
     if (const std::string forces = scene.forcing.text(); !forces.empty())
-      folder.log(forces);
+      folder.record(forces);
     for (const std::string &text : scene.texts_of_inflows())
-      folder.log(text);
+      folder.record(text);
   }
 
   template void log_case(const Parameters &, const Scene<2> &, RunFolder &, const MPI_Comm);

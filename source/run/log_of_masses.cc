@@ -67,17 +67,17 @@ namespace scree
         const double mass        = mass_of(body.points, body.layout.mass, communicator);
         const double porosity    = of_case.initial_porosity();
         const bool is_of_the_law = of_case.seeding.initial_porosity < 0.;
-        folder.log(body.name + " at the start: " + volume_and_mass<dim>(mass / body.density, mass) + "; " +
-                   number_text(body.density) + " kg/m^3 dry: grains of " + number_text(body.grain_density) +
-                   " kg/m^3, porosity " + number_text(porosity) +
-                   (!is_of_the_law  ? ""
-                    : porosity > 0. ? " (of the law)"
-                                    : " (no \"Initial porosity\" is set, and \"Material = " + of_case.material.law +
-                                          "\" has none of its own)") +
-                   "; " + stress_text(of_case.initial_state));
+        folder.record(body.name + " at the start: " + volume_and_mass<dim>(mass / body.density, mass) + "; " +
+                      number_text(body.density) + " kg/m^3 dry: grains of " + number_text(body.grain_density) +
+                      " kg/m^3, porosity " + number_text(porosity) +
+                      (!is_of_the_law  ? ""
+                       : porosity > 0. ? " (of the law)"
+                                       : " (no \"Initial porosity\" is set, and \"Material = " + of_case.material.law +
+                                             "\" has none of its own)") +
+                      "; " + stress_text(of_case.initial_state));
       }
     if (!scene.water.empty())
-      folder.log("Water at the start: " + kilograms<dim>(water_mass(scene, communicator)));
+      folder.record("Water at the start: " + kilograms<dim>(water_mass(scene, communicator)));
   }
 
 
@@ -98,14 +98,14 @@ namespace scree
         }
     const bool has_inflows = !scene.inflows.empty();
     if (moves)
-      folder.log("Soil at the end, at its density of the start: in the box " + volume_and_mass<dim>(volume, mass) +
-                 "; lost through open walls " + volume_and_mass<dim>(all.lost_volume, all.lost_mass) + " (" +
-                 number_text(all.n_lost) + " points)" +
-                 (has_inflows ? "; entered " + kilograms<dim>(all.entered_mass) : ""));
+      folder.record("Soil at the end, at its density of the start: in the box " + volume_and_mass<dim>(volume, mass) +
+                    "; lost through open walls " + volume_and_mass<dim>(all.lost_volume, all.lost_mass) + " (" +
+                    number_text(all.n_lost) + " points)" +
+                    (has_inflows ? "; entered " + kilograms<dim>(all.entered_mass) : ""));
     if (!scene.water.empty())
-      folder.log("Water at the end: in the box " + kilograms<dim>(water_mass(scene, communicator)) +
-                 "; lost through open walls " + kilograms<dim>(all.lost_water_mass) +
-                 (has_inflows ? "; entered " + kilograms<dim>(all.entered_water_mass) : ""));
+      folder.record("Water at the end: in the box " + kilograms<dim>(water_mass(scene, communicator)) +
+                    "; lost through open walls " + kilograms<dim>(all.lost_water_mass) +
+                    (has_inflows ? "; entered " + kilograms<dim>(all.entered_water_mass) : ""));
   }
 
   template void log_released(const Parameters &, const Scene<2> &, RunFolder &, const MPI_Comm);

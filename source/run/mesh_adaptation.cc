@@ -83,10 +83,10 @@ namespace scree
   void MeshAdaptation<dim>::summarise(RunFolder &folder) const
   {
     if (scene.grid.follows_points())
-      folder.log("fine cells at the end: " +
-                 number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
-                 "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
-                 number_text(seconds_of(timer, TimerSection::repartition)) + " s");
+      folder.record("fine cells at the end: " +
+                    number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
+                    "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
+                    number_text(seconds_of(timer, TimerSection::repartition)) + " s");
   }
 
   template class MeshAdaptation<2>;

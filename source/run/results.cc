@@ -31,6 +31,7 @@ namespace scree
              scene.grid,
              folder)
       , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
+      , balances(scene.grid, scene.forcing.gravity(), scene.forcing.is_gravity_alone())
   {
   }
 
@@ -45,8 +46,8 @@ namespace scree
 
     if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
       folder.require_presence();
-    if (row_is_due)
-      checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end);
+    if (row_is_due && checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end))
+      balances.look(scene.bodies, scene.water, state.totals);
     if (row_is_due)
       write_row(state);
     else if (picture_is_due)
@@ -103,12 +104,25 @@ namespace scree
 
 
   template <int dim>
+  std::string Results<dim>::text_of_results() const
+  {
+    const std::string path = parameters.output_directory + '/';
+    return parameters.output.graphics_kind() == Pictures::none
+               ? path + "statistics, log.txt"
+               : path + "solution/" + (scene.bodies.empty() ? "water" : "points") +
+                     ".pvd (ParaView), statistics, log.txt";
+  }
+
+
+  template <int dim>
   void Results<dim>::complete()
   {
-    checks.summarise();
-    folder.log(
-        "Results are in " + parameters.output_directory +
-        (parameters.output.graphics_kind() == Pictures::none ? "." : " (open solution/points.pvd in ParaView)."));
+    std::vector<CheckResult> all = balances.results();
+    for (const CheckResult &result : checks.results())
+      all.push_back(result);
+    if (!all.empty())
+      folder.log(verdict(all));
+    folder.log("Results     " + text_of_results());
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
       statistics.print_last_row(std::cout);
     folder.require_presence();

@@ -52,7 +52,7 @@ namespace scree
     control.measure_speeds();
     scene.require_steps(stable_step(), control.speeds_of_points());
     folder.remove_old_results(); // not before the input has proved good
-    record_case(parameters, folder, communicator);
+    record_case(parameters, folder);
     log_case(parameters, scene, folder, communicator);
     log_released(parameters, scene, folder, communicator);
     for (const std::string &question : unusual_units(parameters))
@@ -84,7 +84,7 @@ namespace scree
     reinit();
     adaptation.look_at_points();
     output_times.begin(clock.time());
-    record_case(parameters, folder, communicator);
+    record_case(parameters, folder);
     log_case(parameters, scene, folder, communicator);
     results.cut();
     folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", from " +
@@ -108,7 +108,8 @@ namespace scree
   {
     timer.reset(); // Only the steps' time is to be told.
     stop.listen();
-    Progress progress(folder, clock.time(), parameters.end_time);
+    const ShownMotion<dim> motion(scene);
+    progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, motion.heading());
     if (start == Start::fresh && is_released) // A resumed run has reported its first state, also that at t = 0.
       report();
     const double updates_before = point_updates;
@@ -117,15 +118,16 @@ namespace scree
       {
         const double largest_step = stable_step();
         control.require_stable_step(largest_step, first_step);
-        progress.count(control.limit(), control.part_left());
+        progress->count(control.limit(), control.part_left());
         step(largest_step, output_times.next(largest_step));
         report();
-        progress.report(clock.time(), clock.step(), last_time_step);
+        if (progress_is_due || is_at_end())
+          progress->report(clock.time(), clock.step(), last_time_step, motion.value(), motion.kinetic_energy());
       }
     const End end = is_at_end() ? End::complete : End::stopped;
     if (end == End::stopped)
       write_last();
-    summarise(progress, updates_before);
+    summarise(end, updates_before);
     return end;
   }
 
@@ -162,14 +164,12 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::summarise(Progress &progress, const double point_updates_before)
+  void Simulation<dim>::summarise(const End end, const double point_updates_before)
   {
-    progress.summarise(clock.time(),
-                       timer,
-                       Utilities::MPI::sum(point_updates - point_updates_before, communicator),
-                       scene.name_of_a_point(),
-                       communicator);
-    progress.summarise_ranks(
+    const double n_updates = Utilities::MPI::sum(point_updates - point_updates_before, communicator);
+    progress->conclude(end == End::complete ? "Finished" : "Stopped", clock.time(), n_updates, communicator);
+    progress->summarise(timer, n_updates, scene.name_of_a_point(), communicator);
+    progress->summarise_ranks(
         seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
     adaptation.summarise(folder);
     log_balance(scene, totals, folder, communicator);
@@ -254,7 +254,9 @@ namespace scree
   void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
   {
     const auto sets = point_sets();
-    std::vector<double> largest{ of_rank.wave, of_rank.points, 0. }; // and the disorder of each set
+    // Besides speeds, whether a point is at the edge and a line of progress is due; then the disorder of each set.
+    std::vector<double> largest{ of_rank.wave, of_rank.points, 0., double(progress && progress->is_due()) };
+    const unsigned int first_set = largest.size();
     {
       const TimedPart part(timer, TimerSection::sort);
       for (PointSet<dim> *points : sets)
@@ -268,12 +270,13 @@ namespace scree
     partition.resume();
     control.require_stable_speed(time_step);
     const TimedPart part(timer, TimerSection::sort);
+    progress_is_due = largest[3] > 0.;
     if (largest[2] > 0.)
       adaptation.set_points_at_edge();
     bool is_sorted = false;
     for (unsigned int s = 0; s < sets.size(); ++s)
       {
-        const auto disorder = static_cast<Disorder>(static_cast<int>(largest[3 + s]));
+        const auto disorder = static_cast<Disorder>(static_cast<int>(largest[first_set + s]));
         sets[s]->hand_over(disorder);
         is_sorted = is_sorted || disorder == Disorder::far;
       }

@@ -60,7 +60,7 @@ namespace scree
   {
     if (!keeps_velocity(transfer_method()))
       return method;
-    return method + " with a PIC rate of " + number_text(pic_rate) + " 1/s" + (rate == "auto" ? " (auto)" : "");
+    return method + " (PIC rate " + (rate == "auto" ? "auto: " : "") + number_text(pic_rate) + " 1/s)";
   }
 
 

@@ -42,7 +42,7 @@ print(re.sub("(End time *= )(.*)", r"\g<1>0.002", re.sub("(Upper corner *= )(.*)
 END
 run wide 1 "$PWD/wide.prm"
 for size in around wide; do
-  sed -n 's/^\([0-9e+.]*\) cells of .* m around the points.*/\1/p' $size/results/log.txt >$size/cells
+  sed -n 's/^Mesh  *\([0-9e+.]*\) cells of .* m around the points.*/\1/p' $size/results/log.txt >$size/cells
 done
 echo "fine cells: $(cat around/cells), in a wide box $(cat wide/cells)"
 test -s wide/cells

@@ -221,7 +221,7 @@ def stop_while_settling():
         write_case("settling.prm", ["Checkpoint interval = 0.01", *entries], case)
         fresh()
         process = start("settling.prm", ranks=ranks)
-        wait_for(lambda: (RESULTS / "log.txt").exists() and "Transfer:" in log(), process)
+        wait_for(lambda: (RESULTS / "log.txt").exists() and "Memory" in log(), process)
         time.sleep(0.1)
         ask(process)
         code, errors = end(process)
@@ -407,22 +407,25 @@ def log_header():
     """log.txt begins with what ran where, also on two ranks and after a resume, and tells the time at the end."""
     write_case("case.prm", ["End time = 0.01", "Checkpoint interval = 0.004"])
     header = (
-        r"Scree [0-9.]+ \(commit \S+\)\n"
-        r"deal\.II [0-9.]+, Trilinos [0-9.]+, p4est [0-9.]+\n"
-        r"\w+ [0-9.]+, (Release|Debug)\n"
-        r"flags: .*-std=c\+\+17.*\n"
-        r"{ranks} rank\(s\), the first is process \d+ on \S+; 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d \w+\n"
-        r"120 cells of 0\.1 m(?:; ghost nodes [1-9]\d*)?; points: Soil 400; memory at the start [1-9]\d+ MB, estimated for the run ([1-9]\d+) MB \(all ranks\)\n"
-        r"Transfer: FLIP with a PIC rate of 5 1/s\n"
+        r"Scree [0-9.]+ \(\S+\), {ranks} ranks?  +20\d\d-\d\d-\d\d \d\d:\d\d:\d\d \w+\n"
+        r"Case        case\.prm -> \S+\n"
+        r"Model       2D plane strain, dry, FLIP \(PIC rate 5 1/s\), 400 soil points\n"
+        r"Mesh        120 cells of 0\.1 m\n"
+        r"Memory      ([1-9]\d+) MB estimated\n"
+        r"Libraries   deal\.II [0-9.]+, Trilinos [0-9.]+, p4est [0-9.]+\n"
+        r"Compiler    \w+ [0-9.]+, (Release|Debug), flags .*-std=c\+\+17.*\n"
+        r"Process     \d+ on \S+ \(first rank\)\n"
+        r"In use      [1-9]\d+ MB at the start \(all ranks\)\n"
     )
     for ranks in (1, 2):
         run("case.prm", ranks=ranks)
         begin = re.match(header.replace("{ranks}", str(ranks)), log())
-        most = re.search(r"largest memory: ([1-9]\d+) MB", log())
+        most = re.search(r"Largest memory: ([1-9]\d+) MB", log())
         check(begin and most, log())
-        ratio = int(begin.group(2)) / int(most.group(1))
+        ratio = int(begin.group(1)) / int(most.group(1))
         check(0.5 < ratio < 2, f"the estimate is {ratio} times the largest memory")
-        check(re.search(r"^t = 0\.01 s \(100 %\), step [1-9]\d* of \S+ s, wall time", log(), re.MULTILINE), log())
+        check(re.search(r"^ +0\.0100+ +100 % +[1-9]\d* +\S+ +\S+ +\S+ +0 s$", log(), re.MULTILINE), log())
+        check(re.search(r"^Finished +wall time \S+ s, [1-9]\d* steps", log(), re.MULTILINE), log())
     run("case.prm", "--resume")
     check(len(re.findall(header.replace("{ranks}", r"\d"), log())) == 2, log())
     print(log())

@@ -8,7 +8,7 @@ if ! command -v shellcheck >/dev/null; then
 fi
 
 cd "$1" || exit 1
-count=$(find doc tests -name '*.sh' | wc -l)
+count=$(find doc tests source -name '*.sh' -o -name '*.bash' | wc -l)
 echo "$count files, and .ci/run"
 [ "$count" -gt 10 ] || exit 1
-find doc tests .ci/run \( -name '*.sh' -o -path .ci/run \) -exec shellcheck {} +
+find doc tests source .ci/run \( -name '*.sh' -o -name '*.bash' -o -path .ci/run \) -exec shellcheck {} +

@@ -29,6 +29,12 @@ namespace scree
       return own_gravity;
     }
 
+    /// Whether nothing acts besides gravity.
+    bool is_gravity_alone() const
+    {
+      return forces.empty();
+    }
+
     /// The step, s, whose accelerations are asked for next.
     void set_step(const double time, const double time_step);
 

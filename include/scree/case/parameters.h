@@ -33,6 +33,7 @@ namespace scree
     /// The defaults, as needed to print a template of all entries.
     Parameters();
 
+    std::string case_file;                           ///< path of the file, as given; empty: the defaults
     unsigned int dimension = 2;                      ///< 2 (plane strain) or 3
     double end_time        = 1;                      ///< s
     std::string output_directory{ "results/scree" }; ///< the run folder
@@ -95,7 +96,11 @@ namespace scree
     /// All entries in the order of their declaration, with patterns, as JSON.
     void print_json(std::ostream &out);
 
-    /// The same of one subsection, such as `Soil/Initial state`. Throws InputError if there is none of that path.
+    /// Writes the paths of the subsections, one per line: all of them, or those of and below one.
+    void print_sections(const std::string &path, std::ostream &out);
+
+    /// Writes the entries of one subsection as print() does, such as `Soil/Initial state`. Throws InputError if there
+    /// is none of that path.
     void print_subsection(const std::string &path, std::ostream &out);
 
     /// All entries as a case that lies in `folder`: paths of files count from there.

@@ -39,9 +39,15 @@ namespace scree
     /// The same for a subsection.
     std::string suggest_subsection(const std::string &path, const std::string &written) const;
 
+    /// The paths of all subsections, in the order of their names.
+    std::vector<std::string> subsection_paths() const;
+
   private:
     std::vector<Name> entries, subsections;
   };
+
+  /// The names closest to `written`, all of them equally close; none if no name is close.
+  std::vector<std::string> nearest(const std::vector<std::string> &names, const std::string &written);
 
   /// What to write instead of a `value` that does not match the pattern of the entry, and what the entry means.
   std::string value_remedy(const DeclaredNames::Name &entry, const std::string &value);

@@ -8,23 +8,30 @@
 #include <scree/bodies/water_phase.h>
 
 #include <list>
+#include <string>
 
 namespace scree
 {
-  /// Logs what runs where: program and commit, libraries, compiler and its flags, ranks, host, process, date.
-  /// Collective.
-  void log_program(RunFolder &folder, const MPI_Comm communicator);
+  /// What the head of a log says of the case.
+  struct HeaderTexts
+  {
+    std::string case_file;        ///< as it was given
+    std::string output_directory; ///< the run folder
+    std::string model;            ///< dimension, phases and transfer
+  };
 
-  /// Logs the size of the run: cells, points, and memory, MB of all ranks. Collective.
+  /// Logs the five lines of the head: program, commit, ranks and date; case and run folder; model and points; mesh;
+  /// memory, MB of all ranks. Records libraries, compiler and its flags, process and host. Collective.
   /// @param expected_bytes that the run is estimated to take, of all ranks
   template <int dim>
-  void log_size(RunFolder &folder,
-                const BackgroundGrid<dim> &grid,
-                const std::list<SoilBody<dim>> &bodies,
-                const std::list<WaterPhase<dim>> &water,
-                const double expected_bytes);
+  void log_header(RunFolder &folder,
+                  const HeaderTexts &texts,
+                  const BackgroundGrid<dim> &grid,
+                  const std::list<SoilBody<dim>> &bodies,
+                  const std::list<WaterPhase<dim>> &water,
+                  const double expected_bytes);
 
-  /// Logs the largest memory so far, MB of all ranks. Collective.
+  /// Records the largest memory so far, MB of all ranks. Collective.
   void log_peak_memory(RunFolder &folder, const MPI_Comm communicator);
 } // namespace scree
 

@@ -13,16 +13,28 @@ namespace scree
   /// its own alone, which the system guesses from ticks: of short runs that is nothing or twice as much.)
   double processor_time();
 
-  /// Tells how far a run is, how long it will take, and in the end where its time went.
+  /// Reports how far a run is and how long it will take, and in the end where its time went.
   class Progress
   {
   public:
     /// @param start_time s, of the run or of the checkpoint
     /// @param end_time s
-    Progress(RunFolder &folder, const double start_time, const double end_time);
+    /// @param place_column heading of what report() shows of the motion, such as `front 90 % (m)`
+    Progress(RunFolder &folder, const double start_time, const double end_time, const std::string &place_column);
 
-    /// Writes a line if the last one is some seconds old, or at the end.
-    void report(const double time, const unsigned long long step, const double time_step);
+    /// Whether the last line of this rank is some seconds old.
+    bool is_due() const;
+
+    /// Writes a line of the table, before the first one its heading.
+    /// @param time s
+    /// @param time_step s
+    /// @param place value of the place column
+    /// @param kinetic_energy J
+    void report(const double time,
+                const unsigned long long step,
+                const double time_step,
+                const double place,
+                const double kinetic_energy);
 
     /// Counts a step by what bounds it.
     /// @param part of the step that waves and motion alone would allow
@@ -32,19 +44,22 @@ namespace scree
       others += part;
     }
 
-    /// Writes the table of seconds by part, and ns per point and step; before that how many steps a second of motion
-    /// takes, what bounded them, and how long it takes to compute. Collective.
+    /// Writes how long the run took, and what bounded its steps.
+    /// @param how `Finished` or `Stopped`
     /// @param time s, of the end
+    /// @param point_updates points times steps, of all ranks
+    void conclude(const std::string &how, const double time, const double point_updates, const MPI_Comm communicator);
+
+    /// Records the table of seconds by part, and ns per point and step. Collective.
     /// @param parts timed sections of this rank
     /// @param point_updates points times steps, of all ranks
     /// @param point what is counted as one: "soil or water point" where there is water
-    void summarise(const double time,
-                   const dealii::TimerOutput &parts,
+    void summarise(const dealii::TimerOutput &parts,
                    const double point_updates,
                    const std::string &point,
                    const MPI_Comm communicator);
 
-    /// Writes how evenly several ranks have worked. Collective.
+    /// Records how evenly several ranks have worked. Collective.
     /// @param waiting time that this rank has waited for others, s
     /// @param imbalance time of the slowest ranks over the mean, without waiting
     /// @param n_repartitions how often the mesh was repartitioned
@@ -54,14 +69,18 @@ namespace scree
                          const MPI_Comm communicator);
 
   private:
-    /// Writes what summarise() says before the table.
-    void summarise_steps(const double time);
+    /// What bounded the steps, and how many of them.
+    std::string text_of_limits() const;
+    double percent(const StepLimit limit) const;
+    unsigned long long n_steps() const;
 
     RunFolder &folder;
     const double start_time, end_time;
+    const std::string place_column;
     dealii::Timer clock;
     const double processor_time_before = processor_time();
     double last_line                   = 0; // wall time, s
+    bool has_heading                   = false;
     StepCounts counts                  = {};
     double others                      = 0; // steps that the run would have taken without 'Maximum time step'
   };

@@ -35,8 +35,11 @@ namespace scree
     /// goes on.
     void try_to_write(const std::string &name, const std::function<void()> &write);
 
-    /// Adds a line to `log.txt` and, if wanted, to the screen.
-    void log(const std::string &line);
+    /// Adds lines to `log.txt` and, if wanted, to the screen.
+    void log(const std::string &lines);
+
+    /// Adds lines to `log.txt` alone: details that the screen leaves out.
+    void record(const std::string &lines);
 
     /// Path of a file in the folder.
     std::string file(const std::string &name) const

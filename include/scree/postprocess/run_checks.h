@@ -3,9 +3,13 @@
 #define scree_postprocess_run_checks_h
 
 #include <scree/mesh/discrete_level_set.h>
+#include <scree/io/check_result.h>
 #include <scree/io/run_folder.h>
 #include <scree/bodies/soil_body.h>
 #include <scree/bodies/water_phase.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/string.hpp>
 
 #include <array>
 #include <list>
@@ -38,15 +42,23 @@ namespace scree
 
     /// Looks at the points if the last look is some steps old, or at the end. Collective.
     /// @param n_lost points of soil that this rank has lost so far
-    void look(const std::list<SoilBody<dim>> &bodies,
+    /// @return whether it has looked
+    bool look(const std::list<SoilBody<dim>> &bodies,
               const std::list<WaterPhase<dim>> &water,
               const double n_lost,
               const double time,
               const unsigned long long step,
               const bool is_end);
 
-    /// Logs the worst that was seen.
-    void summarise() const;
+    /// The worst that was seen. What does not apply is left out. To be asked on the rank that writes.
+    std::vector<CheckResult> results() const;
+
+    /// Saves or loads the worst so far (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &worst &is_told &has_looked &has_soil;
+    }
 
   private:
     static constexpr unsigned int n_checks = 5;
@@ -75,7 +87,7 @@ namespace scree
     template <class Name>
     void suspect(const Check check, const double value, const double found, const Name &name);
 
-    void look_at_soil(const std::list<SoilBody<dim>> &bodies);
+    void look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
     void look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
 
     /// What a thousandth of these speeds of all ranks exceeds, m/s, to .03 % of the largest. Collective.
@@ -95,6 +107,7 @@ namespace scree
     std::array<bool, n_checks> is_told{};
     unsigned long long last_step = 0;
     bool has_looked              = false;
+    bool has_soil                = false;
   };
 } // namespace scree
 

@@ -46,6 +46,12 @@ namespace scree
     /// The sums over ranks, on all of them. Collective.
     RunTotals sum_over_ranks(const MPI_Comm communicator) const;
 
+    /// What soil and water have been given, N s.
+    dealii::Tensor<1, dim> impulse() const;
+
+    /// Energy that known losses have taken, less work and energy that has come in, J.
+    double energy_taken() const;
+
     /// Saves or loads all members (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)

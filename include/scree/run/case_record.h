@@ -7,10 +7,11 @@
 
 namespace scree
 {
-  /// Keeps the case with its results and begins the log. Collective.
-  void record_case(Parameters &parameters, RunFolder &folder, const MPI_Comm communicator);
+  /// Keeps the case with its results.
+  void record_case(Parameters &parameters, RunFolder &folder);
 
-  /// Logs what has been made of the case: size, transfer, and what its ground, base and inflows are. Collective.
+  /// Begins the log with what has been made of the case: program, model, size, and what its ground, base and inflows
+  /// are. Collective.
   template <int dim>
   void log_case(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator);
 } // namespace scree

@@ -7,6 +7,7 @@
 #include <scree/postprocess/output_times.h>
 #include <scree/postprocess/probes.h>
 #include <scree/io/table_file.h>
+#include <scree/run/balance_checks.h>
 #include <scree/postprocess/run_checks.h>
 #include <scree/postprocess/statistics.h>
 #include <scree/model/scene.h>
@@ -62,10 +63,13 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive)
     {
-      archive &statistics &graphics &rows &probes &maps;
+      archive &statistics &graphics &rows &probes &maps &checks &balances;
     }
 
   private:
+    /// Where the results are.
+    std::string text_of_results() const;
+
     ProbedState<dim> probed_state(const RunState<dim> &state, const WaterView<dim> *view) const;
 
     const Parameters &parameters;
@@ -78,6 +82,7 @@ namespace scree
     Probes<dim> probes;
     Maps<dim> maps;
     RunChecks<dim> checks;
+    BalanceChecks<dim> balances;
   };
 } // namespace scree
 

@@ -8,10 +8,12 @@
 #include <scree/particles/partition.h>
 #include <scree/run/results.h>
 #include <scree/model/scene.h>
+#include <scree/run/shown_motion.h>
 #include <scree/step/timer_section.h>
 #include <scree/run/step_control.h>
 
 #include <limits>
+#include <memory>
 
 namespace scree
 {
@@ -150,8 +152,8 @@ namespace scree
     /// Writes what --resume and the eye need of a run that ends before its time.
     void write_last();
 
-    /// What is told when a run ends.
-    void summarise(Progress &progress, const double point_updates_before);
+    /// What is reported when a run ends.
+    void summarise(const End end, const double point_updates_before);
 
     template <class Archive>
     void serialize_state(Archive &archive);
@@ -171,6 +173,9 @@ namespace scree
     StepControl<dim> control;
     OutputTimes output_times;
     Results<dim> results;
+
+    std::unique_ptr<Progress> progress; // of run(); null before
+    bool progress_is_due = false;       // on some rank
 
     RunTotals<dim> totals;
     double point_updates = 0;                  // points times steps, of this rank

@@ -9,12 +9,7 @@ namespace scree
     template <int dim>
     double numerical_dissipation(const Snapshot<dim> &now)
     {
-      const RunTotals<dim> &totals = now.totals;
-      const Budget<dim> &balance   = totals.balance;
-      return now.before.start_energy - now.energy() - totals.plastic_dissipation - balance.wall_dissipation -
-             balance.bed_dissipation - balance.contact_dissipation - balance.drag_dissipation -
-             balance.viscous_dissipation - totals.lost_energy + balance.load_work + balance.correction_work +
-             balance.obstacle_energy() + totals.entered_energy;
+      return now.before.start_energy - now.energy() - now.totals.energy_taken();
     }
 
 

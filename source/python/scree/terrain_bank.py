@@ -26,13 +26,14 @@ BOUNDS = {"speed": 1.5, "depth": 0.1, "lost": 0, "mass": 5e-3, "energy": 1e-4}
 def numbers_of(folder, run, cell):
     """What the bounds are about, from log and statistics of a run."""
     log = (folder / run / "log.txt").read_text(encoding="utf-8")
-    found = re.search(r"Checks +fastest point (\S+) times.*?smallest V/V_0 ([^;]+);.*?largest p' (\S+) of.*?deepest point (\S+) m", log)
+    patterns = {"speed": r"fastest point (\S+) times", "V/V_0": r"smallest V/V_0 ([^\s;]+)", "p'": r"largest p' (\S+) of", "depth": r"deepest point (\S+) m"}
+    found = {name: re.findall(pattern, log[log.rindex("Checks "):])[0] for name, pattern in patterns.items()}
     table, release = results.read_statistics(folder / run), results.read_raster(folder / "release.asc")
     potential, dissipation = table["Potential energy (J)"], table["Numerical dissipation (J)"]
-    return {"speed": float(found[1]), "depth": float(found[4]) / cell, "lost": table["Points lost"][-1],
+    return {"speed": float(found["speed"]), "depth": float(found["depth"]) / cell, "lost": table["Points lost"][-1],
             "mass": abs(table["Mass (kg)"][0] / (BULK_DENSITY * release.values.clip(0).sum() * release.width**2) - 1),
             "energy": np.max(np.maximum.accumulate(dissipation) - dissipation) / (potential[0] - potential.min()),
-            "p'": float(found[3]), "V/V_0": float(found[2])}
+            "p'": float(found["p'"]), "V/V_0": float(found["V/V_0"])}
 
 
 def run_case(scree, folder, seed, mountain=None, cell=10., entries=None, n_ranks=1):

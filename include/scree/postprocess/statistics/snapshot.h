@@ -65,9 +65,7 @@ namespace scree
     /// What soil and water have been given since the start, N s.
     dealii::Tensor<1, dim> impulse() const
     {
-      const Budget<dim> &balance = totals.balance;
-      return balance.wall_impulse + balance.body_impulse + balance.pressure_impulse + balance.load_impulse +
-             balance.bed_impulse + balance.obstacle_impulse() + totals.entered_momentum - totals.lost_momentum;
+      return totals.impulse();
     }
 
     /// Mean of the steps since the last row of what grows with each; 0 without a step.

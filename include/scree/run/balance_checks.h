@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_run_balance_checks_h
+#define scree_run_balance_checks_h
+
+#include <scree/io/check_result.h>
+#include <scree/postprocess/run_totals.h>
+#include <scree/bodies/soil_body.h>
+#include <scree/bodies/water_phase.h>
+#include <scree/mesh/background_grid.h>
+
+#include <list>
+
+namespace scree
+{
+  /// Watches mass, momentum and energy of a run from its start. The energy gain is the largest fall of the numerical
+  /// dissipation, over the released energy: that of the start which the run has turned into motion or stored, and work
+  /// done on it.
+  template <int dim>
+  class BalanceChecks
+  {
+  public:
+    /// @param gravity m/s^2
+    /// @param energy_is_closed false: forces act whose work is not in the energy balance
+    BalanceChecks(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const bool energy_is_closed);
+
+    /// Compares the points with the start, which is the first look. Collective.
+    /// @param totals of this rank
+    void
+    look(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water, const RunTotals<dim> &totals);
+
+    /// The worst of all looks. What does not apply is left out.
+    std::vector<CheckResult> results() const;
+
+    /// Saves or loads start and worst values (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &has_start &soil_mass &water_mass &mass_error;
+      archive &start_momentum &momentum_residual &momentum_scale;
+      archive &start_energy &start_kinetic &start_potential &least_potential &largest_work;
+      archive &dissipation &largest_dissipation &gain;
+    }
+
+  private:
+    /// Energy that the run had to spend, J; 0 if too little of it for percentages.
+    double released_energy() const;
+
+    const BackgroundGrid<dim> &grid;
+    const dealii::Tensor<1, dim> gravity;
+    const bool energy_is_closed;
+
+    bool has_start    = false;
+    double soil_mass  = 0; // at the start, kg
+    double water_mass = 0;
+    double mass_error = 0; // largest, relative
+    dealii::Tensor<1, dim> start_momentum;
+    double momentum_residual   = 0; // largest, N s
+    double momentum_scale      = 0; // N s
+    double start_energy        = 0; // kinetic, potential and elastic, J
+    double start_kinetic       = 0;
+    double start_potential     = 0;
+    double least_potential     = 0; // with that of what has left, without that of what has entered
+    double largest_work        = 0; // of loads, obstacles and volume correction, J
+    double dissipation         = 0; // numerical, now, J
+    double largest_dissipation = 0; // so far
+    double gain                = 0; // largest fall from that
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/run/balance_checks.h>
+#include <scree/postprocess/point_sums.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Rounding stays far below the first two; doc/studies has the last.
+    constexpr double bound_of_mass = 1e-6, bound_of_momentum = 1e-6, bound_of_gain = 0.005;
+
+    /// Of all ranks, kg. Collective.
+    template <int dim>
+    double mass_of_water(const std::list<WaterPhase<dim>> &water, const MPI_Comm communicator)
+    {
+      double mass = 0.;
+      for (const auto &part : water)
+        for_each_point(part.points(), [&](const auto &point) { mass += point.properties[part.layout.mass]; });
+      return Utilities::MPI::sum(mass, communicator);
+    }
+
+    /// The larger one; what is no number is largest.
+    double worse(const double so_far, const double value)
+    {
+      return value <= so_far ? so_far : std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+    }
+  } // namespace
+
+
+  template <int dim>
+  BalanceChecks<dim>::BalanceChecks(const BackgroundGrid<dim> &grid,
+                                    const Tensor<1, dim> &gravity,
+                                    const bool energy_is_closed)
+      : grid(grid)
+      , gravity(gravity)
+      , energy_is_closed(energy_is_closed)
+  {
+  }
+
+
+  template <int dim>
+  void BalanceChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
+                                const std::list<WaterPhase<dim>> &water,
+                                const RunTotals<dim> &local)
+  {
+    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const RunTotals<dim> totals = local.sum_over_ranks(communicator);
+    const PointSums<dim> sums(bodies, water, gravity, communicator);
+    const double mass_now      = mass_of_water(water, communicator);
+    const double energy        = sums.kinetic + sums.potential + sums.elastic;
+    const double own_potential = sums.potential + totals.lost_energy - totals.entered_energy;
+    if (!has_start)
+      {
+        has_start       = true;
+        soil_mass       = sums.soil_mass + totals.lost_mass - totals.entered_mass;
+        water_mass      = mass_now + totals.lost_water_mass - totals.entered_water_mass;
+        start_momentum  = sums.momentum - totals.impulse();
+        start_energy    = energy + totals.energy_taken();
+        start_kinetic   = sums.kinetic;
+        start_potential = least_potential = own_potential;
+      }
+    const auto look_at_mass = [&](const double start, const double now, const double lost, const double entered) {
+      if (const double all = start + entered; all > 0.)
+        mass_error = worse(mass_error, std::abs(now + lost - entered - start) / all);
+    };
+    look_at_mass(soil_mass, sums.soil_mass, totals.lost_mass, totals.entered_mass);
+    look_at_mass(water_mass, mass_now, totals.lost_water_mass, totals.entered_water_mass);
+
+    momentum_residual = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
+    momentum_scale    = std::max({ momentum_scale,
+                                   totals.balance.body_impulse.norm(),
+                                   std::sqrt(2. * (sums.soil_mass + mass_now) * sums.kinetic) });
+
+    const Budget<dim> &balance = totals.balance;
+    least_potential            = std::min(least_potential, own_potential);
+    largest_work =
+        std::max(largest_work, std::abs(balance.load_work + balance.correction_work + balance.obstacle_energy()));
+    dissipation         = start_energy - energy - totals.energy_taken();
+    largest_dissipation = std::max(largest_dissipation, dissipation);
+    gain                = worse(gain, largest_dissipation - dissipation);
+  }
+
+
+  template <int dim>
+  double BalanceChecks<dim>::released_energy() const
+  {
+    // Motion and elasticity of the start, fall, work. Scenes at rest release next to nothing.
+    constexpr double of_a_cell = 1e-3;                                           // a fall of this part of the cell size
+    const double stored        = start_energy - start_kinetic - start_potential; // elastic
+    const double set_free      = start_kinetic + start_potential - least_potential + largest_work;
+    const double least         = of_a_cell * (soil_mass + water_mass) * gravity.norm() * grid.cell_size();
+    return set_free > least || gravity.norm() == 0. ? set_free + stored : 0.;
+  }
+
+
+  template <int dim>
+  std::vector<CheckResult> BalanceChecks<dim>::results() const
+  {
+    std::vector<CheckResult> list;
+    if (!has_start)
+      return list;
+    list.push_back(
+        { "mass balance " + short_text(mass_error), short_text(bound_of_mass), mass_error > bound_of_mass, "" });
+    if (momentum_scale > 0.)
+      {
+        const double error = momentum_residual / momentum_scale;
+        list.push_back(
+            { "momentum balance " + short_text(error), short_text(bound_of_momentum), error > bound_of_momentum, "" });
+      }
+    if (const double released = released_energy(); energy_is_closed && released > 0.)
+      {
+        list.push_back({ "largest energy gain " + short_text(100. * gain / released) + " %",
+                         short_text(100. * bound_of_gain) + " %",
+                         gain > bound_of_gain * released,
+                         "" });
+        list.push_back(
+            { "numerical dissipation " + short_text(100. * dissipation / released) + " % of the released energy",
+              "",
+              false,
+              "" });
+      }
+    return list;
+  }
+
+  template class BalanceChecks<2>;
+  template class BalanceChecks<3>;
+} // namespace scree

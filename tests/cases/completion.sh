@@ -1,0 +1,48 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# completion.sh SCREE LAUNCHER: what bash completes; the options are those of --help.
+set -e
+cases=$(dirname -- "$0")
+script=$cases/../../source/program/scree.bash
+scree=$1
+
+rm -rf files
+mkdir -p files/sub.d
+cd files
+touch my.prm mine.prm other.txt
+
+# completed WORD...: what bash offers for the last word, one reply a line.
+completed()
+{
+  # shellcheck disable=SC2016 # of the inner shell
+  bash --norc -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _scree; printf "%s\n" "${COMPREPLY[@]}" | sort' "$script" "$scree" "$@"
+}
+
+expect()
+{
+  wanted=$1
+  shift
+  got=$(completed "$@" | tr '\n' ' ')
+  echo "scree $*: $got"
+  [ "$got" = "$wanted " ] || { echo "wanted: $wanted"; exit 1; }
+}
+
+expect 'mine.prm my.prm' m
+expect '--resume' --re
+expect '--new' my.prm --n
+expect '--accuracy' my.prm --advise --
+expect '--json --sections' --print-parameters --
+expect 'slope' --new sl
+expect '' --accuracy ''
+expect 'Time\ step' --print-parameters Ti
+expect 'Time\ step' --print-parameters 'Time\ s'
+expect 'Time step' --print-parameters '"Time s'
+expect 'Soil/Initial\ state' --print-parameters Soil/I
+expect 'sub.d' sub
+
+options=$("$scree" --help | grep -o -e '--[a-z-]*' | sort -u)
+offered=$({ completed --; completed --advise --; completed --new --; completed --print-parameters --; } | sort -u)
+[ "$options" = "$offered" ] || { echo "--help: $options"; echo "completion: $offered"; exit 1; }
+
+# The file loads with the name of each command, as it is installed.
+bash --norc -c ". '$script'; complete -p scree scree-element"

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What the lines `Checks` of a run say of mass, momentum and energy, against hand calculation, and how they are laid
+// out.
+
+#include "soil_scene.h"
+
+#include <scree/postprocess/point_sums.h>
+#include <scree/run/balance_checks.h>
+
+#include <iostream>
+
+#include "../unit_test.h"
+
+namespace test_balance_checks
+{
+using namespace dealii;
+using namespace scree;
+
+template <int dim>
+void set_velocity(SoilScene<dim> &scene, const double along_last_axis)
+{
+  for (auto &body : scene.bodies)
+    for_each_point(body.points,
+                   [&](const auto &point) { point.properties[body.layout.velocity + dim - 1] = along_last_axis; });
+}
+
+
+/// A block of 160 kg, at rest, that a load of 100 J sets in motion, 80 J, and walls stop again.
+void run()
+{
+  SoilScene<2> scene(0., 0.8);
+  scene.add_soil("x < 0.4 && y < 0.4");
+  Tensor<1, 2> gravity;
+  gravity[1] = -10.;
+  BalanceChecks<2> checks(scene.grid, gravity, /* energy_is_closed */ true);
+  std::cout << "nothing known: " << checks.results().size() << " results\n";
+
+  RunTotals<2> totals;
+  checks.look(scene.bodies, scene.water, totals);
+  std::cout << "at rest\n" << verdict(checks.results()) << '\n';
+
+  set_velocity(scene, -1.);
+  totals.balance.body_impulse = PointSums<2>(scene.bodies, scene.water, gravity, MPI_COMM_WORLD).momentum;
+  totals.balance.load_work    = 100.;
+  checks.look(scene.bodies, scene.water, totals);
+  std::cout << "in motion: 20 J are missing\n" << verdict(checks.results()) << '\n';
+
+  set_velocity(scene, 0.);
+  totals.balance.wall_impulse = -totals.balance.body_impulse;
+  totals.plastic_dissipation  = 79.5;
+  checks.look(scene.bodies, scene.water, totals);
+  totals.plastic_dissipation = 81.5; // 2 J more than there were
+  checks.look(scene.bodies, scene.water, totals);
+  std::cout << "stopped, with a gain of 2 J\n" << verdict(checks.results()) << '\n';
+
+  totals.lost_mass = 1.6;
+  totals.balance.wall_impulse[0] += 0.16;
+  checks.look(scene.bodies, scene.water, totals);
+  std::cout << "1.6 kg and 0.16 N s too much\n" << verdict(checks.results()) << '\n';
+
+  std::cout << "layout\n"
+            << verdict({ { "first check of a long name 1", "", false, "" },
+                         { "second check of a long name 2", "1", true, "a point at (0, 0) m, t = 1 s: so it is" },
+                         { "third check of a long name 3", "2", false, "" },
+                         { "fourth check of a long name 4", "3", false, "" } })
+            << '\n';
+}
+
+const UnitTest balance_checks_test("balance_checks", run);
+} // namespace test_balance_checks
