@@ -22,7 +22,7 @@ namespace scree
   /// A command line, read.
   struct Arguments
   {
-    Task task = Task::run;
+    Task task = Task::run;          ///< what to do
     std::string case_file;          ///< to read; of Task::new_case to write; may be empty where the task needs none
     double accuracy = 0;            ///< of Task::advise, relative error
     std::string subsection;         ///< of Task::print_parameters; empty: all
