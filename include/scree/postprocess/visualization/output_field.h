@@ -32,31 +32,33 @@ namespace scree
   namespace fields
   {
     // Of points of soil and water; velocity and porosity also of the grid.
-    inline const OutputField velocity{ "velocity", "m/s", FieldKind::vector };
-    inline const OutputField mass{ "mass", "kg" };
-    inline const OutputField volume{ "volume", "m^3" };
-    inline const OutputField seepage_velocity{ "seepage_velocity", "m/s", FieldKind::vector };
-    inline const OutputField porosity{ "porosity", "-" };
+    inline const OutputField velocity{ "velocity", "m/s", FieldKind::vector }; ///< of points and grid
+    inline const OutputField mass{ "mass", "kg" };                             ///< of a point
+    inline const OutputField volume{ "volume", "m^3" };                        ///< of a point
+    inline const OutputField seepage_velocity{ "seepage_velocity",
+                                               "m/s",
+                                               FieldKind::vector }; ///< velocity of the water relative to the soil
+    inline const OutputField porosity{ "porosity", "-" };           ///< pores over volume
 
     // Of points of soil; the mean effective stress also of the grid.
-    inline const OutputField stress{ "stress", "Pa", FieldKind::tensor };
-    inline const OutputField mean_effective_stress{ "mean_effective_stress", "Pa" };
-    inline const OutputField deviatoric_stress{ "deviatoric_stress", "Pa" };
-    inline const OutputField stress_ratio{ "stress_ratio", "-" };
-    inline const OutputField body{ "body", "-" };
-    inline const OutputField pore_pressure{ "pore_pressure", "Pa" };
-    inline const OutputField id{ "id", "-" };
-    inline const OutputField displacement{ "displacement", "m", FieldKind::vector };
+    inline const OutputField stress{ "stress", "Pa", FieldKind::tensor };            ///< Cauchy, tension positive
+    inline const OutputField mean_effective_stress{ "mean_effective_stress", "Pa" }; ///< compression positive
+    inline const OutputField deviatoric_stress{ "deviatoric_stress", "Pa" };         ///< q
+    inline const OutputField stress_ratio{ "stress_ratio", "-" };                    ///< q over mean effective stress
+    inline const OutputField body{ "body", "-" };                                    ///< number of the body
+    inline const OutputField pore_pressure{ "pore_pressure", "Pa" };                 ///< of the water around the point
+    inline const OutputField id{ "id", "-" };                                        ///< number of the point
+    inline const OutputField displacement{ "displacement", "m", FieldKind::vector }; ///< since the start
 
     // Of points of water; the pressure also of the grid.
-    inline const OutputField pressure{ "pressure", "Pa" };
-    inline const OutputField inside_soil{ "inside_soil", "-" };
+    inline const OutputField pressure{ "pressure", "Pa" };      ///< of the water
+    inline const OutputField inside_soil{ "inside_soil", "-" }; ///< 1 where the water is in pores
 
     // Of the grid.
-    inline const OutputField density{ "density", "kg/m^3" };
-    inline const OutputField water_velocity{ "water_velocity", "m/s", FieldKind::vector };
-    inline const OutputField saturation{ "saturation", "-" };
-  } // namespace fields
+    inline const OutputField density{ "density", "kg/m^3" };                               ///< of the soil
+    inline const OutputField water_velocity{ "water_velocity", "m/s", FieldKind::vector }; ///< of the water
+    inline const OutputField saturation{ "saturation", "-" };                              ///< of the pores
+  }                                                                                        // namespace fields
 } // namespace scree
 
 #endif
