@@ -44,6 +44,7 @@ namespace scree
                                    { "", "Output directory", Change::free },
                                    { "", "Coordinate system", Change::free },
                                    { "Output", "", Change::free },
+                                   { "Output/Maps", "Format", Change::free },
                                    { "Time step", "", Change::noted },
                                    { "Transfer", "Method", Change::noted, methods_of_same_points },
                                    { "Transfer", "PIC rate", Change::noted },

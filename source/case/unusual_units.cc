@@ -88,7 +88,8 @@ namespace scree
                       2,
                       60,
                       unit_of_angle);
-        ask_of_base(parameters, "Boundaries", FaceEntries::names(3)[face], walls[face].friction_coefficient, questions);
+        if (FaceEntries::names(3)[face] == "Bottom")
+          ask_of_base(parameters, "Boundaries", "Bottom", walls[face].friction_coefficient, questions);
       }
     if (parameters.bed.type_kind() == BedType::friction && parameters.bed.friction_angles.empty())
       ask_of_base(parameters, "Bed", "Friction angle", parameters.bed.friction_coefficient(), questions);

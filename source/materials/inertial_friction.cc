@@ -10,7 +10,7 @@ namespace scree
     prm.add_parameter("Grain diameter",
                       grain_diameter,
                       "m; grain diameter d in the inertial number I of dry grains. 0: friction does not depend on the "
-                      "rate of shear.",
+                      "rate of shear. Element tests are slow and do not depend on it.",
                       Patterns::Double(0));
     prm.add_parameter("Reference inertial number",
                       reference_number,

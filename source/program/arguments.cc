@@ -196,9 +196,14 @@ namespace scree
         take_name_and_case_file(sorted.others, "subsections", arguments.subsection, arguments);
         if (arguments.as_json && !(arguments.subsection.empty() && arguments.case_file.empty()))
           throw fault("\"--json\" prints all entries with their defaults. Remove the subsection and the case file.");
+        if (arguments.as_json && arguments.names_of_sections)
+          throw fault("\"--json\" and \"--sections\" exclude each other. Write one of them.");
         break;
       case Task::new_case:
         take_name_and_case_file(sorted.others, "scenes", arguments.scene, arguments);
+        if (arguments.scene.empty() && (!arguments.case_file.empty() || arguments.overwrite))
+          throw fault("after \"--new\", a scene is missing. Write one, such as scree --new slope case.prm; scree --new "
+                      "lists them.");
         break;
       default:
         if (!sorted.others.empty())

@@ -63,8 +63,11 @@ namespace scree
     {
       for (const auto &[path, text] : files)
         if (!overwrite && fs::exists(path) && content_of(path) != text)
-          return path.string() + ": the file exists. Choose another name (scree --new SCENE other.prm), or replace it "
-                                 "with \"--overwrite\".";
+          return path.string() + ": the file exists. " +
+                 (path == files[0].first
+                      ? "Choose another name (scree --new SCENE other.prm)"
+                      : "The case needs it. Choose another folder (scree --new SCENE folder/case.prm)") +
+                 ", or replace it with \"--overwrite\".";
       for (const auto &[path, text] : files)
         {
           std::ofstream out(path, std::ios::binary);

@@ -51,6 +51,9 @@ QUESTIONED = {
     "a base with the angle of its soil": (
         INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\nend\n",
         ['Base stronger than the soil: subsection Boundaries, entry "Bottom" = 30 degrees: Soil shears on a plane at 26.565']),
+    "a base below cohesive soil": (
+        INSTANT + "subsection Boundaries\n  set Bottom = friction 40\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n"
+        "  subsection Mohr-Coulomb\n    set Cohesion = 1e3\n  end\nend\n", []),
     "a base with the angle of repose of its soil": (
         INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n"
         "  subsection Mohr-Coulomb\n    set Friction angle kind = direct shear or repose\n  end\nend\n", []),

@@ -128,7 +128,7 @@ namespace scree
     /// Porosity at the start if the law fixes it (Nor-Sand: 1 - 1/v_0), else 0.
     virtual double initial_porosity() const = 0;
 
-    /// tau/sigma on a plane that shears steadily; infinite if the law does not yield.
+    /// tau/sigma on a plane that shears steadily; infinite if the law does not yield or has cohesion.
     virtual double plane_friction() const
     {
       return std::numeric_limits<double>::infinity();

@@ -50,14 +50,14 @@ namespace scree
               const unsigned long long step,
               const bool is_end);
 
-    /// The worst that was seen. What does not apply is left out. To be asked on the rank that writes.
+    /// The worst that was seen. What does not apply is left out. Complete on the rank that writes alone.
     std::vector<CheckResult> results() const;
 
     /// Saves or loads the worst so far (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &worst &is_told &has_looked &has_soil;
+      archive &worst &is_told &last_step &has_looked &has_soil;
     }
 
   private:

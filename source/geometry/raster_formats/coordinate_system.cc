@@ -77,16 +77,15 @@ namespace scree
 
   bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
   {
-    if (letters_of_name(one) == letters_of_name(other))
-      return true;
 #ifdef SCREE_WITH_GDAL
+    // Names are no proof: projections of one's own are often called "unknown".
     const Quiet quiet;
-    const auto first = known_system(one), second = known_system(other);
-    return first && second && (first->IsSame(&*second) || has_same_coordinates(*first, *second, place[0], place[1]));
+    if (const auto first = known_system(one), second = known_system(other); first && second)
+      return first->IsSame(&*second) || has_same_coordinates(*first, *second, place[0], place[1]);
 #else
     (void)place;
-    return false;
 #endif
+    return letters_of_name(one) == letters_of_name(other);
   }
 
 

@@ -45,7 +45,17 @@ namespace scree
   std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
   {
     GDALAllRegister();
-    CPLPushErrorHandler(CPLQuietErrorHandler);
+    struct Quiet
+    {
+      Quiet()
+      {
+        CPLPushErrorHandler(CPLQuietErrorHandler);
+      }
+      ~Quiet()
+      {
+        CPLPopErrorHandler();
+      }
+    } const quiet;
     const char *const file = "/vsimem/scree_map.tif"; // in memory
     const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
     std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
@@ -90,10 +100,9 @@ namespace scree
     data.reset(); // completes the file
     vsi_l_offset size = 0;
     GByte *bytes      = VSIGetMemFileBuffer(file, &size, TRUE);
-    AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
-    const std::string content(reinterpret_cast<const char *>(bytes), size);
+    const std::string content(reinterpret_cast<const char *>(bytes), bytes ? size : 0);
     VSIFree(bytes);
-    CPLPopErrorHandler();
+    AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
     return content;
   }
 

@@ -68,12 +68,18 @@ namespace scree
                   dilation_angle,
                   "beyond the friction angle, here " + number_text(friction_angle) +
                       ", plastic flow would create energy; lower it.");
-    require_entry(sine() < std::sin(radians(89.)),
+    require_entry(sine() <= std::sin(radians(89.)),
                   subsection,
                   "Friction angle",
                   friction_angle,
                   "as an angle of direct shear it has no friction angle phi below 89 degrees; lower it, or change "
                   "\"Friction angle kind\".");
+    require_entry(inertial_friction.grain_diameter == 0 || sine() + inertial_friction.friction_increase < 1,
+                  subsection,
+                  "Friction increase",
+                  inertial_friction.friction_increase,
+                  "with sin(phi) = " + number_text(sine()) +
+                      " the grains would bear tension. Write less than 1 - sin(phi).");
     require_entry(friction_angle > 0 || cohesion > 0,
                   subsection,
                   "Cohesion",
@@ -215,7 +221,7 @@ namespace scree
 
   double MohrCoulomb::plane_friction() const
   {
-    return on_plane;
+    return cohesionless ? on_plane : std::numeric_limits<double>::infinity();
   }
 
 

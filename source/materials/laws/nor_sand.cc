@@ -85,7 +85,7 @@ namespace scree
                   compression_index,
                   "it must exceed the swelling index, here " + number_text(swelling_index) + '.');
     require_entry(reference_pressure > 0, subsection, "Reference pressure", reference_pressure, positive);
-    require_entry(critical_stress_ratio > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
+    require_entry(critical_ratio() > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
     require_entry(potential_constant <= yield_constant,
                   subsection,
                   "Potential constant N bar",
@@ -125,7 +125,7 @@ namespace scree
     std::vector<UsualRange> ranges{
       { "Shear modulus", shear_modulus, 1e4, 1e10, unit_of_pressure },
       { "Critical stress ratio M",
-        critical_stress_ratio,
+        critical_friction_angle > 0 ? 0. : critical_stress_ratio, // 0: no question
         0.4,
         2,
         "none: q/p' at critical state, 6 sin(phi)/(3 - sin(phi)) of a friction angle phi" },

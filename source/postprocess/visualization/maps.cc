@@ -213,10 +213,11 @@ namespace scree
     if (!parameters.writes_ascii_grid())
       return;
     folder.write(path + ".asc", ascii_grid(raster));
-    if (frame.system.empty()) // Nothing of an earlier run may tell another one.
+    const std::string system = frame.system.empty() ? "" : prj_text(frame.system);
+    if (system.empty()) // Nothing of an earlier run may tell another one.
       std::filesystem::remove(folder.file(path + ".prj"));
     else
-      folder.write(path + ".prj", prj_text(frame.system));
+      folder.write(path + ".prj", system);
   }
 
   template class Maps<2>;

@@ -221,7 +221,7 @@ def accuracy():
         row("[dry slope][dry], fixed base", "4", FIXED_SLOPE, minutes("dry_slope", 30, method=DEFAULTS, h=0.066667), at(FIXED_SLOPE, 20, 30), "limit by fit"),
         row("[saturated slope][wet], fixed base", "4", none, minutes("saturated_slope", 20, method=DEFAULTS, h=0.1),
             f"{percent(one('saturated_slope', method=DEFAULTS, h=0.1)['error'])} at 20", "finer FLIP run"),
-        row("[column of grains][grains], inertial", "3", columns_of_grains(), minutes("run_out_limits", 24, cells=24., a=1., friction=run_out_limits.WITH),
+        row("[column of grains][grains], inertial", "3", columns_of_grains(), minutes("run_out_limits", 24, cells=24., a=1., friction=run_out_limits.WITH, points=3., transfer="FLIP"),
             at(columns_of_grains(), 12, 24), "limit of 5 sizes"),
         row("[the same][grain_experiment], sand, beads", "3", none, "-", f"{span(grains_against_experiment(), True)} at h = 0", "experiment"),
         row("[aluminium bars][bars], inertial", "4", none, minutes("aluminium_bars", 40, base="fixed, mu(I)", h=0.0025), f"{span(bars(), True)} at 10 to 40", "experiment"),

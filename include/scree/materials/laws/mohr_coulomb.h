@@ -71,7 +71,7 @@ namespace scree
     /// Zero: the law knows no pores.
     double initial_porosity() const;
 
-    /// tau/sigma on a plane of shear without cohesion, sin(phi) cos(psi)/(1 - sin(phi) sin(psi)).
+    /// tau/sigma on a plane of shear, sin(phi) cos(psi)/(1 - sin(phi) sin(psi)); infinite with cohesion.
     double plane_friction() const;
 
     /// Half the sum of the largest and the smallest compression, Pa.

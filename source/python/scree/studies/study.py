@@ -130,8 +130,9 @@ class Run:
 
     @property
     def log(self):
-        """What the program wrote on the screen, errors included."""
-        return (self.folder / "screen.txt").read_text(encoding="utf-8", errors="replace")
+        """What the program wrote on the screen, errors included, and into log.txt, which has more."""
+        files = (self.folder / "screen.txt", self.folder / "log.txt")
+        return "\n".join(file.read_text(encoding="utf-8", errors="replace") for file in files if file.exists())
 
     @property
     def columns(self):

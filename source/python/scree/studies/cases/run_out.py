@@ -174,7 +174,7 @@ def draw(figure, rows):
 STUDY = Study(
     title="Run-out and mesh",
     question="Does the run-out converge with the cell size?",
-    advice="Give the base friction; use a PIC rate of 1 1/s; report the front of 90 % of the mass, for two cell sizes.",
+    advice="Without inertial friction, give the base friction; a PIC rate of 1 1/s; report the front of 90 % of the mass, for two cell sizes.",
     base="prm/slopes/slope_dense.prm",
     variants=[variant(scene, soil, treatment, n) for (scene, soil, treatment), sizes in CELLS_PER_METRE.items() for n in sizes],
     quick=lambda labels: labels["scene"] == COLUMN and labels["soil"] == "dense" and labels["treatment"] != FRICTION and labels["h"] > 0.06,

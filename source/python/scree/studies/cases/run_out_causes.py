@@ -95,7 +95,7 @@ def draw(figure, rows):
 STUDY = Study(
     title="Causes of the mesh dependence of the run-out",
     question="Which part of the method makes the front depend on the cell size?",
-    advice="Use a base with friction instead of a fixed one, and a low PIC rate. F-bar and points do not help.",
+    advice="Without inertial friction, use a base with friction instead of a fixed one, and a low PIC rate. F-bar and points do not help.",
     base="prm/columns/column_dense.prm", variants=VARIANTS,
     quick=lambda labels: labels["scene"] == run_out.COLUMN and labels["changed"] == "as it is" and labels["h"] > 0.06,
     measure=run_out.measure, verdict=verdict, chart=Curves(draw, 4.4))

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Plane columns of dry grains on a rough base: is there a limit of the run-out as the cells become smaller, and is it that of the experiment?
 
+a = H0/L0 is the aspect ratio of the column of height H0 and length L0.
+L and H are length and height of the deposit, d is the grain diameter, and mu(I) is inertial friction.
+
 Plan, fixed before the runs:
 
 - Experiment: sand in a channel (Lube et al. 2005), angle of repose 31 degrees, d/L0 = 0.011.
@@ -9,7 +12,7 @@ Plan, fixed before the runs:
 - Angle: 31 degrees of kind "direct shear or repose", which is 36.9 degrees of Mohr-Coulomb; "triaxial" for comparison.
 - Friction: that of the law alone, and with mu(I) of textbook values: I_0 = 0.3, increase 0.26, d = 0.011 L0.
 - Base fixed, L0 = 1 m, Young's modulus 1e6 Pa per metre of height, time 8 sqrt(H0/g).
-- Transfers: FLIP with a PIC rate of 1/s, AFLIP, TPIC. 3 x 3 points per cell; 2 x 2 and 4 x 4 and three jitters of 0.2 cell for FLIP.
+- Transfers: FLIP with a PIC rate of 1/s, AFLIP, TPIC. 3 x 3 points per cell; 2 x 2, 4 x 4 and jitters of 0.1, 0.2 and 0.3 of the spacing for FLIP.
 - Cells per L0: 12, 16, 24, 32, 48 at a = 1; 12, 16, 24, 32 at a = 0.6, 1.7, 3, 4.
 - Quantities: front where the deposit is 0.02 L0 deep (over a width of 0.05 L0), as an experiment sees it; fronts of 90 and 99 % of the mass;
   height at the axis (mean depth from 0 to 0.1 L0).
@@ -139,7 +142,23 @@ def table(rows):
     return found
 
 
+def rest(rows):
+    advance = max(row["99 % in the last sixth"] for row in rows)
+    return Claim(f"All columns are at rest at the end: in the last sixth of the time the front of 99 % advances by {advance:.4f} L0 at most.", advance < 0.01)
+
+
+def short_verdict(rows):
+    """Of one mesh: each cause lengthens the run-out."""
+    def tip(friction, angle):
+        return next(row[TIP] for row in rows if (row["transfer"], row["friction"], row["angle"], row["grains"]) == ("FLIP", friction, angle, SAND))
+    both, none = tip(WITHOUT, TRIAXIAL), tip(WITH, REPOSE)
+    return [rest(rows), Claim("Without mu(I), and with the angle read as a triaxial one, the front of 99 % goes farther.",
+                              none < tip(WITHOUT, REPOSE) < both and none < tip(WITH, TRIAXIAL) < both)]
+
+
 def verdict(rows):
+    if {row["cells"] for row in rows} == {SIZES[0]}:
+        return short_verdict(rows)
     groups = curves(rows)
 
     def of(a=1., transfer="FLIP", friction=WITH, angle=REPOSE, points=3, grains=SAND):
@@ -160,19 +179,18 @@ def verdict(rows):
         claims.append(Claim(f"Friction {friction}, a = 1: at h = 0 the front of 99 % is at {', '.join(f'{number(limit)} ({name})' for name, limit in limits.items())} L0. "
                             f"The transfers differ by {100 * apart:.1f} %. Bound: 3 %.", apart < 0.03, quick=False))
     worst = [deviation for aspect in ASPECTS for deviation in (compared_with_law(of(a=aspect), FRONT)[2], compared_with_law(of(a=aspect), HEIGHT)[2])]
-    claims.insert(0, Claim(f"Sand, with mu(I) and the angle of repose: the run-out at h = 0 deviates from the law of Lube et al. by {100 * min(worst[::2]):+.0f} to {100 * max(worst[::2]):+.0f} % "
-                           f"over a = {ASPECTS[0]} to {ASPECTS[-1]}, the height by {100 * min(worst[1::2]):+.0f} to {100 * max(worst[1::2]):+.0f} %. Bound: 10 %.",
+    claims.insert(0, Claim(f"Sand, with mu(I) and the angle of repose, a = {ASPECTS[0]} to {ASPECTS[-1]}: at h = 0 the height deviates from the law of Lube et al. by up to {100 * max(worst[1::2], key=abs):+.0f} %, "
+                           f"the run-out by {100 * min(worst[::2]):+.0f} to {100 * max(worst[::2]):+.0f} %. Bound: 10 %.",
                            max(map(abs, worst)) < 0.1, quick=False, worst=True))
     constant, triaxial = (Limit(of(friction=WITHOUT), FRONT).value - 1, Limit(of(angle=TRIAXIAL), FRONT).value - 1)
     claims.append(Claim(f"One cause at a time, a = 1: run-out at h = 0 {Limit(of(), FRONT).value - 1:.2f}; without mu(I) {constant:.2f}; with the angle read as a triaxial one "
-                        f"{triaxial:.2f}; without both {Limit(of(friction=WITHOUT, angle=TRIAXIAL), FRONT).value - 1:.2f}. Law: {law('Lube', 'run-out', 1):.2f}.",
+                        f"{triaxial:.2f}; triaxial and without mu(I) {Limit(of(friction=WITHOUT, angle=TRIAXIAL), FRONT).value - 1:.2f}. Law: {law('Lube', 'run-out', 1):.2f}.",
                         constant > 1.05 * law("Lube", "run-out", 1) and triaxial > 1.05 * law("Lube", "run-out", 1), quick=False))
     at_32 = {points: next(row for row in of(points=points) if row["cells"] == 32) for points in (2, 3, 4)}
     jitter = [row[TIP] for row in rows if row["jitter"] > 0 and row["cells"] == 32]
     claims.append(Claim("Points, 32 cells: the front of 99 % is at " + ", ".join(f"{row[TIP]:.3f} ({points} x {points})" for points, row in at_32.items()) +
                         f" L0; with jitter {min(jitter):.3f} to {max(jitter):.3f}.", abs(at_32[3][TIP] / at_32[4][TIP] - 1) < 0.02, quick=False))
-    rest = max(row["99 % in the last sixth"] for row in rows)
-    claims.append(Claim(f"All columns are at rest at the end: in the last sixth of the time the front of 99 % advances by {rest:.4f} L0 at most.", rest < 0.01))
+    claims.append(rest(rows))
     return claims
 
 
@@ -202,7 +220,7 @@ def draw(figure, rows):
 
 
 STUDY = Study(title="Limits of the run-out", question="Has the run-out a limit as the cells become smaller, and is it that of the experiment?",
-              advice="Use inertial friction on a fixed base, and give the angle its kind. 24 cells are within 2 % of the limit.",
+              advice="For grains of known diameter use inertial friction on a fixed base. With 24 cells the run-out is within 5 % of its limit.",
               base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(), table=table,
               quick=lambda labels: labels["a"] == 1 and labels["cells"] == 12 and labels["points"] == 3, measure=measure, verdict=verdict,
               chart=Curves(draw))
