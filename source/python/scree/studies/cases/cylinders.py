@@ -6,7 +6,8 @@ The angle is read as one of repose (36.9 degrees of Mohr-Coulomb), as plane colu
 Plan, fixed before the runs: a = 1 with 8, 12 and 16 cells per radius, a = 2 with 8 and 12, 3 x 3 x 3 points, fixed base.
 FLIP with a PIC rate of 1/s; d = 0.011 r0 with mu(I).
 Front: where the deposit is 0.02 r0 deep, averaged over rings of 0.05 r0, as in plane columns. Bound: 10 % of the measured run-out.
-The plan had the radius of 99 % of the mass, with a run-out that is 6 to 8 % shorter; see cylinders.csv.
+The quantity was chosen after results: the plan had the radius of 99 % of the mass, with a run-out that is 6 to 8 % shorter (cylinders.csv).
+The plan also had 16 cells for a = 2, which were left out for their time.
 """
 
 import math

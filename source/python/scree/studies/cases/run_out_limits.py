@@ -8,6 +8,7 @@ Plan, fixed before the runs:
 
 - Experiment: sand in a channel (Lube et al. 2005), angle of repose 31 degrees, d/L0 = 0.011.
   Run-out (L - L0)/L0 = 1.2 a up to a = 1.8, 1.9 a^(2/3) from 2.8; height H/L0 = a up to a = 1.15, then 1.1 a^(2/5).
+- Changed after results: the measure of depth, which was biased beside the wall.
 - Added after the runs with sand: glass beads (Lajeunesse et al. 2005), 22 degrees, run-out 1.8 a up to a = 3.
 - Angle: 31 degrees of kind "direct shear or repose", which is 36.9 degrees of Mohr-Coulomb; "triaxial" for comparison.
 - Friction: that of the law alone, and with mu(I) of textbook values: I_0 = 0.3, increase 0.26, d = 0.011 L0.
