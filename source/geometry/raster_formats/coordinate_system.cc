@@ -9,8 +9,9 @@
 #include <optional>
 
 #ifdef SCREE_WITH_GDAL
+#  include <scree/geometry/raster_formats/quiet_gdal.h>
+
 #  include <cpl_conv.h>
-#  include <cpl_error.h>
 #  include <ogr_spatialref.h>
 #endif
 
@@ -37,20 +38,6 @@ namespace scree
 
 
 #ifdef SCREE_WITH_GDAL
-    /// Keeps GDAL from writing on the screen what a message tells in any case.
-    struct Quiet
-    {
-      Quiet()
-      {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-      }
-      ~Quiet()
-      {
-        CPLPopErrorHandler();
-      }
-    };
-
-
     /// Nothing if GDAL does not know it. Files and the network are not asked.
     std::optional<OGRSpatialReference> known_system(const std::string &system)
     {
@@ -79,7 +66,7 @@ namespace scree
   {
 #ifdef SCREE_WITH_GDAL
     // Names are no proof: projections of one's own are often called "unknown".
-    const Quiet quiet;
+    const QuietGdal quiet;
     if (const auto first = known_system(one), second = known_system(other); first && second)
       return first->IsSame(&*second) || has_same_coordinates(*first, *second, place[0], place[1]);
 #else
@@ -92,7 +79,7 @@ namespace scree
 #ifdef SCREE_WITH_GDAL
   void require_system_in_metres(const std::string &text, const std::string &name)
   {
-    const Quiet quiet;
+    const QuietGdal quiet;
     const auto system = known_system(text);
     if (!system)
       throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
@@ -108,7 +95,7 @@ namespace scree
   {
     if (text.find('[') != std::string::npos)
       return text;
-    const Quiet quiet;
+    const QuietGdal quiet;
     const auto system     = known_system(text);
     char *result          = nullptr;
     const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };

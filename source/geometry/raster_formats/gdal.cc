@@ -7,7 +7,8 @@
 #include <memory>
 
 #ifdef SCREE_WITH_GDAL
-#  include <cpl_error.h>
+#  include <scree/geometry/raster_formats/quiet_gdal.h>
+
 #  include <gdal_priv.h>
 #  include <ogr_spatialref.h>
 #endif
@@ -17,20 +18,6 @@ namespace scree
   namespace
   {
 #ifdef SCREE_WITH_GDAL
-    /// Keeps GDAL from writing on the screen what a message tells in any case.
-    struct Quiet
-    {
-      Quiet()
-      {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-      }
-      ~Quiet()
-      {
-        CPLPopErrorHandler();
-      }
-    };
-
-
     void require_metres(const GDALDataset &data, const std::string &name)
     {
       const OGRSpatialReference *system = data.GetSpatialRef();
@@ -61,7 +48,7 @@ namespace scree
     /// The code of the EPSG if the file has it, else the text of a .prj file.
     std::string system_of_gdal_raster(const std::string &file, const std::string &name)
     {
-      const Quiet quiet;
+      const QuietGdal quiet;
       const auto data                   = open(file, name);
       const OGRSpatialReference *system = data->GetSpatialRef();
       if (system == nullptr)
@@ -82,7 +69,7 @@ namespace scree
     /// none, or if it is not in m along the axes of a projected system of coordinates.
     Raster read_gdal_raster(std::istream &, const std::string &file, const std::string &name)
     {
-      const Quiet quiet;
+      const QuietGdal quiet;
       const auto data = open(file, name);
       require_metres(*data, name);
       double map[6]; // x = map[0] + map[1] column + map[2] row, y = map[3] + map[4] column + map[5] row

@@ -7,6 +7,8 @@
 #include <memory>
 
 #ifdef SCREE_WITH_GDAL
+#  include <scree/geometry/raster_formats/quiet_gdal.h>
+
 #  include <cpl_vsi.h>
 #  include <gdal_priv.h>
 #  include <ogr_spatialref.h>
@@ -45,17 +47,7 @@ namespace scree
   std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
   {
     GDALAllRegister();
-    struct Quiet
-    {
-      Quiet()
-      {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-      }
-      ~Quiet()
-      {
-        CPLPopErrorHandler();
-      }
-    } const quiet;
+    const QuietGdal quiet;
     const char *const file = "/vsimem/scree_map.tif"; // in memory
     const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
     std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(

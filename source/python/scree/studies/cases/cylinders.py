@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from scree.studies.cases.run_out_limits import DIAMETER, REPOSE, TRIAXIAL, WITH, WITHOUT, WIDTH, Limit
+from scree.studies.cases.run_out_limits import DIAMETER, REPOSE, TRIAXIAL, WITH, WITHOUT, WIDTH, Limit, volume_below
 from scree.studies.charts import Curves, name_lines
 from scree.studies.study import Claim, Study, Variant
 
@@ -44,10 +44,7 @@ def measure(run):
     radius, volume = np.hypot(points.positions[:, 0], points.positions[:, 1]), points.arrays["volume"].ravel()
     order = np.argsort(radius)
     mass = np.cumsum(points.arrays["mass"].ravel()[order])
-    sides = np.cbrt(volume)
-
-    def within(place):
-        return np.sum(volume * np.clip((place - radius) / sides + 0.5, 0., 1.))
+    within = volume_below(radius, volume, 3)
     places = np.arange(1., radius.max() + WIDTH, 0.01)
     depths = [(within(place + WIDTH) - within(place)) / (math.pi / 4 * ((place + WIDTH) ** 2 - place ** 2)) for place in places]
     front = places[np.flatnonzero(np.array(depths) > 0.02)[-1]] + WIDTH / 2 - 1

@@ -84,13 +84,15 @@ def variants():
     return found + [variant(1, cells, jitter=jitter) for jitter in (0.1, 0.2, 0.3) for cells in (24, 32)]
 
 
-def depth(points, low, high):
-    """Of the deposit between places, averaged, L0; each point is a square of its volume."""
-    x, volume = points.positions[:, 0], points.arrays["volume"].ravel()
-    sides = np.sqrt(volume)
+def volume_below(coordinate, volume, dim):
+    """A function place -> volume of the points below a place; each point is a square, or cube, of its volume."""
+    sides = volume ** (1 / dim)
+    return lambda place: np.sum(volume * np.clip((place - coordinate) / sides + 0.5, 0., 1.))
 
-    def left_of(place):
-        return np.sum(volume * np.clip((place - x) / sides + 0.5, 0., 1.))
+
+def depth(points, low, high):
+    """Of the deposit between places, averaged, L0."""
+    left_of = volume_below(points.positions[:, 0], points.arrays["volume"].ravel(), 2)
     return np.array([(left_of(end) - left_of(start)) / (end - start) for start, end in zip(np.atleast_1d(low), np.atleast_1d(high))])
 
 
