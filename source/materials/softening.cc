@@ -25,11 +25,12 @@ namespace scree
                       dilation_angle,
                       "degrees; dilation angle after much shear. -1: as \"Dilation angle\".",
                       Patterns::Double(-1, 89));
-    prm.add_parameter("Nonlocal length",
-                      nonlocal_length,
-                      "m; length l over which the strain that softens the soil is averaged. Shear bands are about 1.6 "
-                      "l wide if the cells are not wider than l/2. 0: shear bands are as thin as a cell.",
-                      Patterns::Double(0));
+    prm.add_parameter(
+        "Nonlocal length",
+        nonlocal_length,
+        "m; length l over which the strain that softens the soil is averaged. Shear bands are then about two l "
+        "wide; cells must not be wider than l/2. 0: shear bands are one to two cells wide.",
+        Patterns::Double(0));
   }
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""softening_scenes.py SCREE SCENE: soil whose strength falls with strain, as scenes.py."""
+"""softening_scenes.py SCREE SCENE: clay with and without a strength that falls with strain, as scenes.py."""
 
 import numpy as np
 
@@ -29,6 +29,15 @@ def biaxial(scree):
             check(name + ": unresolved returns", table["Unresolved"][-1], 0, 0)
     check("load at 1 % with a length, small over large cells", loads[0.2, 0.05] / loads[0.2, 0.1], 0.98, 1.02)
     check("load at 1 % without, small over large cells", loads[0, 0.05] / loads[0, 0.1], 0, 0.9)
+
+
+def vertical_cut(scree):
+    """A vertical cut in clay of strength s_u whose weight grows slowly falls at gamma H = 3.776 s_u, where the bounds of limit analysis meet."""
+    table = run(scree, "slopes/vertical_cut", "cut", {})
+    time = table["Time (s)"]
+    falls = np.min(time[(time > 2.3) & (table["Kinetic energy (J)"] > 2)], initial=np.inf)
+    check("gamma H/s_u as it falls, over 3.776", 2000 * (8 + 0.5 * (falls - 2)) * 2 / 1e4 / 3.776, 0.96, 1.04)
+    check("unresolved returns", table["Unresolved"][-1], 0, 0)
 
 
 main(globals())

@@ -9,13 +9,13 @@
 namespace scree
 {
   /// Sets the over-non-local variable of a law (@source{vermeer1994}; @source{galavi2010}) at the points of a body:
-  ///   averaged = (1 - m) own + m <own>,  m = 2.
+  ///   averaged = (1 - m) own + m mean,  m = 2.
   ///
-  /// The mean <own> is weighted with mass and, about, with a Gaussian whose variance is l^2 along each axis. It is made
-  /// on the corners of the cells: points to corners by linear functions, passes from corners to the mean of each cell
-  /// that holds points of the body and back, corners to points. The two transfers have a variance of h^2/3, a pass has
-  /// h^2/2: (1/4, 1/2, 1/4) along each axis. Of each pass the same part is taken, such that the sum is l^2. Only cells
-  /// of the body are coupled, so that no strain goes to another one or across a gap.
+  /// The mean of the own values is weighted with mass and, about, with a Gaussian whose variance is l^2 along each
+  /// axis. It is made on the corners of the cells: points to corners by linear functions, passes from corners to the
+  /// mean of each cell that holds points of the body and back, corners to points. The two transfers have a variance of
+  /// h^2/3, a pass has h^2/2: (1/4, 1/2, 1/4) along each axis. Of each pass the same part is taken, such that the sum
+  /// is l^2. Only cells of the body are coupled, so that no strain goes to another one or across a gap.
   template <int dim>
   class NonlocalAverage
   {

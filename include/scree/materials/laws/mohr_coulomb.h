@@ -141,13 +141,13 @@ namespace scree
     /// Counts a point in the report.
     Response count(const PrincipalResponse<double> &response, UpdateReport &report) const;
 
-    const LinearElastic elastic;
-    const double shear;    // Pa
-    const double bulk;     // Pa
-    const double vertex;   // tau of the vertex, Pa
-    const double on_plane; // tau/sigma
-    const bool cohesionless;
-    const double largest_principal_stress; // of the cut-off, Pa
+    const LinearElastic elastic;           ///< the law without plastic strain
+    const double shear;                    ///< modulus, Pa
+    const double bulk;                     ///< modulus, Pa
+    const double vertex;                   ///< tau of the vertex, Pa
+    const double on_plane;                 ///< tau/sigma on a plane of shear, without cohesion
+    const bool cohesionless;               ///< whether the vertex of friction and cohesion is at 0
+    const double largest_principal_stress; ///< of the cut-off, Pa
 
   private:
     /// A plane of the yield surface, normal . tau <= limit, and its flow direction.
