@@ -100,11 +100,14 @@ def table(rows):
 
 
 def draw(figure, rows):
-    for axes, scene, quantity in zip(figure.subplots(1, 2), (BIAXIAL, BANK), (LOAD, FRONT)):
+    scenes = [scene for scene in (BIAXIAL, BANK) if group(rows, scene, True)]
+    for axes, scene in zip(np.atleast_1d(figure.subplots(1, len(scenes))), scenes):
+        quantity = LOAD if scene == BIAXIAL else FRONT
         for with_length, name in ((False, "without a length"), (True, f"l = {LENGTHS[scene]:g} m")):
             of = group(rows, scene, with_length)
             axes.plot([row["h"] for row in of], [row[quantity] for row in of], f"C{int(with_length)}o-", markersize=4, label=name)
-        axes.set(xlabel="h (m)", ylabel=quantity.replace(", ", " (") + ")", title=scene, xscale="log", ylim=(0, None))
+        axes.set(xlabel="h (m)", ylabel=quantity.replace(", ", " (") + ")", title=scene, xlim=(0, None),
+                 ylim=(0, 1.25 * max(row[quantity] for row in rows if row["scene"] == scene)))
         axes.legend()
 
 
