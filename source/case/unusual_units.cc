@@ -55,6 +55,21 @@ namespace scree
     }
 
 
+    /// Shear bands of a length that the cells do not resolve.
+    void ask_of_length(const BodyParameters &body, const double cell_size, Questions &questions)
+    {
+      const double length = make_material<2>(body.material)->nonlocal_variable().length;
+      if (constexpr double rounding = 1e-9; length > 0 && cell_size > length / 2 * (1 + rounding))
+        questions.list.push_back("Unusual value: " +
+                                 entry_message(body.material.path(body.name),
+                                               "Nonlocal length",
+                                               number_text(length),
+                                               "shear bands depend on cells wider than half of it, here " +
+                                                   number_text(cell_size) + " m. Use cells of at most " +
+                                                   number_text(length / 2) + " m."));
+    }
+
+
     constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
     constexpr char diameter_unit[]     = "m (1 mm = 1e-3 m)";
 
@@ -76,6 +91,7 @@ namespace scree
             body.name, "Grain density", body.seeding.grain_density, 500, 2e4, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
         questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, unit_of_pressure);
         ask_of_law(body.material, body.name, questions);
+        ask_of_length(body, parameters.grid.cell_size, questions);
         questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
         questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
       }

@@ -5,6 +5,16 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    template <int dim>
+    bool is_averaged(const SoilBody<dim> &body)
+    {
+      return body.material->nonlocal_variable().length > 0;
+    }
+  } // namespace
+
+
   template <int dim>
   SolidPhase<dim>::SolidPhase(const BackgroundGrid<dim> &grid,
                               const TransferParameters &transfer,
@@ -19,6 +29,9 @@ namespace scree
   {
     for (auto &load : loads)
       this->loads.emplace_back(grid, load);
+    for (const auto &body : bodies)
+      if (moves(body) && is_averaged(body) && !nonlocal)
+        nonlocal = std::make_unique<NonlocalAverage<dim>>(grid);
   }
 
 
@@ -28,6 +41,20 @@ namespace scree
     field.reinit();
     for (auto &one : loads)
       one.reinit();
+    if (nonlocal)
+      nonlocal->reinit();
+  }
+
+
+  template <int dim>
+  void SolidPhase<dim>::average(TimerOutput &timer)
+  {
+    if (!nonlocal)
+      return;
+    const TimedPart part(timer, TimerSection::nonlocal);
+    for (auto &body : bodies)
+      if (moves(body) && is_averaged(body))
+        nonlocal->update(body);
   }
 
 

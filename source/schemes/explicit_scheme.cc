@@ -87,6 +87,8 @@ namespace scree
   template <int dim>
   void ExplicitScheme<dim>::to_grid(const double time)
   {
+    for (Group &group : groups)
+      group.soil.average(timer);
     const TimedPart part(timer, TimerSection::points_to_grid);
     for (Group &group : groups)
       group.soil.to_grid(time);

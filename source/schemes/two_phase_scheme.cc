@@ -162,6 +162,7 @@ namespace scree
   template <int dim>
   void TwoPhaseScheme<dim>::to_grid(const double time)
   {
+    soil.average(timer);
     const TimedPart part(timer, TimerSection::points_to_grid);
     soil.to_grid(time);
     gather();

@@ -9,6 +9,8 @@ namespace scree
   {
     switch (part)
       {
+      case TimerSection::nonlocal:
+        return "non-local strain";
       case TimerSection::points_to_grid:
         return "points to grid";
       case TimerSection::nodes:

@@ -45,6 +45,10 @@ QUESTIONED = {
         "  subsection Mohr-Coulomb\n    set Young's modulus = 20\n    set Friction angle = 0.52\n  end\nend\n",
         ['entry "Grain density" = 2.65: the unit is kg/m^3', 'entry "Young\'s modulus" = 20: the unit is Pa',
          'entry "Friction angle" = 0.52: the unit is degrees']),
+    "cells wider than half of the length": (
+        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  subsection Mohr-Coulomb\n    set Softening strain = 0.1\n"
+        "    set Residual friction angle = 20\n    set Nonlocal length = 0.15\n  end\nend\n",
+        ['entry "Nonlocal length" = 0.15: shear bands depend on cells wider than half of it, here 0.1 m. Use cells of at most 0.075 m.']),
     "an angle for M": (
         INSTANT + "subsection Soil\n  set Region = y < 0.5\n  subsection Nor-Sand\n    set Critical stress ratio M = 24\n  end\nend\n",
         ['entry "Critical stress ratio M" = 24: the unit is none']),

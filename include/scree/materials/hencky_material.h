@@ -36,6 +36,7 @@ namespace scree
     bool is_elastic() const override;
     double plane_friction() const override;
     double grain_diameter() const override;
+    NonlocalVariable nonlocal_variable() const override;
     std::vector<Quantity> internal_quantities() const override;
     std::vector<Quantity> output_quantities() const override;
     void output(const double *left_cauchy_green,
@@ -352,6 +353,16 @@ namespace scree
       return law.inertial_friction.is_active() ? law.inertial_friction.diameter() : 0;
     else
       return 0;
+  }
+
+
+  template <int dim, typename Law>
+  NonlocalVariable HenckyMaterial<dim, Law>::nonlocal_variable() const
+  {
+    if constexpr (HasNonlocalVariable<Law>())
+      return law.nonlocal_variable();
+    else
+      return {};
   }
 
 

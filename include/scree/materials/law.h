@@ -33,6 +33,8 @@ namespace scree
   ///   friction_pressure(stress)                                     p of that friction, Pa, of a principal stress
   ///   stress_of(strain)                                             elastic principal stress, Pa
   ///   mean_stress_of(volume strain)                                 of laws in invariants
+  ///
+  /// A law with a member nonlocal_variable() may have an internal variable that is averaged over space.
   enum class Response
   {
     elastic, ///< The trial strain stands
@@ -48,6 +50,19 @@ namespace scree
   /// It has the member.
   template <typename Law>
   struct HasInertialFriction<Law, std::void_t<decltype(std::declval<const Law &>().inertial_friction)>> : std::true_type
+  {
+  };
+
+  /// Whether a law may have a variable that is averaged over space.
+  template <typename Law, typename = void>
+  struct HasNonlocalVariable : std::false_type
+  {
+  };
+
+  /// It has the member.
+  template <typename Law>
+  struct HasNonlocalVariable<Law, std::void_t<decltype(std::declval<const Law &>().nonlocal_variable())>>
+      : std::true_type
   {
   };
 

@@ -83,6 +83,14 @@ namespace scree
     void add(const UpdateReport &other);
   };
 
+  /// An internal variable that is averaged over space between two steps, see NonlocalAverage.
+  struct NonlocalVariable
+  {
+    double length         = 0; ///< m; 0: there is none
+    unsigned int own      = 0; ///< number of the variable that each point has made by itself
+    unsigned int averaged = 0; ///< number of the one that is set
+  };
+
   /// A constitutive law of a point in finite strain: logarithmic elastic strain, Kirchhoff stress tau = J sigma.
   ///
   /// One virtual call serves the points of several cells. A law holds no state of points, so threads may share it.
@@ -138,6 +146,12 @@ namespace scree
     virtual double grain_diameter() const
     {
       return 0;
+    }
+
+    /// What is averaged over space; its length is 0 if nothing is.
+    virtual NonlocalVariable nonlocal_variable() const
+    {
+      return {};
     }
 
     /// Whether the law has no plastic strain.

@@ -5,9 +5,11 @@
 #include <scree/step/timer_section.h>
 #include <scree/step/step_report.h>
 #include <scree/transfer/load_transfer.h>
+#include <scree/transfer/nonlocal_average.h>
 #include <scree/transfer/transfer.h>
 
 #include <list>
+#include <memory>
 
 namespace scree
 {
@@ -27,6 +29,9 @@ namespace scree
 
     /// Fits the nodes to the grid's current partition. Collective.
     void reinit();
+
+    /// Averages over space what the laws of the bodies ask for, between two steps. Collective.
+    void average(dealii::TimerOutput &timer);
 
     /// Sums mass, momentum and force of this rank's points at the nodes, at the time, s, of the step's start.
     /// Collective.
@@ -73,6 +78,7 @@ namespace scree
     Transfer<dim> transfer;
     std::list<SoilBody<dim>> &bodies;
     std::list<LoadTransfer<dim>> loads;
+    std::unique_ptr<NonlocalAverage<dim>> nonlocal; // null if no body's law needs it
     const unsigned int group;
     double load_time = 0;        // s; the step's start until add_loads()
     dealii::Tensor<1, dim> load; // sum of the loads of this rank, N

@@ -12,6 +12,7 @@ namespace scree
   /// The parts of a step whose time is told.
   enum class TimerSection
   {
+    nonlocal, ///< averages over space
     points_to_grid,
     nodes,
     bed,      ///< contact with it
@@ -27,7 +28,8 @@ namespace scree
   };
 
   /// All of them, in the order in which they are told.
-  constexpr std::array<TimerSection, 12> step_parts{ { TimerSection::points_to_grid,
+  constexpr std::array<TimerSection, 13> step_parts{ { TimerSection::nonlocal,
+                                                       TimerSection::points_to_grid,
                                                        TimerSection::nodes,
                                                        TimerSection::bed,
                                                        TimerSection::contacts,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
-#include <scree/materials/laws/mohr_coulomb_return.h>
+#include <scree/materials/laws/softening_mohr_coulomb.h>
 #include <scree/materials/principal_batch_material.h>
 
 #include <deal.II/base/numbers.h>
@@ -49,6 +49,7 @@ namespace scree
     prm.add_parameter("Cohesion", cohesion, "Pa; cohesion c.", Patterns::Double(0));
     prm.add_parameter(
         "Tension cut-off", tension_cut_off, "Pa; largest principal stress, at most c cot(phi).", Patterns::Double(0));
+    softening.add_parameters(prm);
     inertial_friction.add_parameters(prm);
   }
 
@@ -56,6 +57,52 @@ namespace scree
   double MohrCoulombParameters::sine() const
   {
     return sine_of_mohr_coulomb(friction_angle, dilation_angle, friction_angle_kind(angle_kind));
+  }
+
+
+  MohrCoulombParameters MohrCoulombParameters::residual() const
+  {
+    MohrCoulombParameters parameters = *this;
+    parameters.softening             = {};
+    parameters.cohesion              = softening.residual(softening.cohesion, cohesion);
+    parameters.friction_angle        = softening.residual(softening.friction_angle, friction_angle);
+    parameters.dilation_angle        = softening.residual(softening.dilation_angle, dilation_angle);
+    return parameters;
+  }
+
+
+  void MohrCoulombParameters::check_softening(const std::string &subsection) const
+  {
+    softening.check(subsection);
+    const MohrCoulombParameters last = residual();
+    const auto require = [&](const bool is_met, const std::string &entry, const double value, const std::string &text) {
+      require_entry(is_met, subsection, entry, value, text);
+    };
+    require(last.cohesion <= cohesion,
+            "Residual cohesion",
+            last.cohesion,
+            "strength falls from its peak, here " + number_text(cohesion) + " Pa; lower the value.");
+    require(last.friction_angle <= friction_angle,
+            "Residual friction angle",
+            last.friction_angle,
+            "strength falls from its peak, here " + number_text(friction_angle) + " degrees; lower the value.");
+    require(last.dilation_angle <= dilation_angle,
+            "Residual dilation angle",
+            last.dilation_angle,
+            "dilation falls from its peak, here " + number_text(dilation_angle) + " degrees; lower the value.");
+    require(last.dilation_angle <= last.friction_angle,
+            "Residual dilation angle",
+            last.dilation_angle,
+            "beyond the residual friction angle, here " + number_text(last.friction_angle) +
+                ", plastic flow would create energy; lower it.");
+    require(last.friction_angle > 0 || last.cohesion > 0,
+            "Residual cohesion",
+            last.cohesion,
+            "without residual friction the soil needs some residual cohesion to have any strength.");
+    require(tension_cut_off <= apex(last),
+            "Tension cut-off",
+            tension_cut_off,
+            "residual cohesion and friction allow at most " + number_text(apex(last)) + " Pa; lower it.");
   }
 
 
@@ -90,6 +137,7 @@ namespace scree
                   "Tension cut-off",
                   tension_cut_off,
                   "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex(*this)) + " Pa; lower it.");
+    check_softening(subsection);
   }
 
 
@@ -106,16 +154,41 @@ namespace scree
                                     { "Dilation angle", dilation_angle, 0.8, 40, unit_of_angle },
                                     { "Cohesion", cohesion, 50, 1e8, unit_of_pressure } };
     inertial_friction.append_usual_ranges(ranges);
+    softening.append_usual_ranges(ranges);
     return ranges;
   }
 
 
   namespace
   {
-    const RegisterLaw registered_mohr_coulomb(
-        "Mohr-Coulomb",
-        "Mohr-Coulomb",
-        std::make_unique<EntriesOf<MohrCoulombParameters, PrincipalBatchMaterial, MohrCoulomb>>());
+    /// The law without softening is another one: it knows its yield surfaces before the first step.
+    class MohrCoulombEntries : public EntriesWith<MohrCoulombParameters>
+    {
+    public:
+      std::unique_ptr<LawEntries> clone() const override
+      {
+        return std::make_unique<MohrCoulombEntries>(*this);
+      }
+      std::unique_ptr<Material<2>> make_2d() const override
+      {
+        return make<2>();
+      }
+      std::unique_ptr<Material<3>> make_3d() const override
+      {
+        return make<3>();
+      }
+
+    private:
+      template <int dim>
+      std::unique_ptr<Material<dim>> make() const
+      {
+        if (parameters.softening.is_active())
+          return std::make_unique<PrincipalBatchMaterial<dim, SofteningMohrCoulomb>>(SofteningMohrCoulomb(parameters));
+        return std::make_unique<PrincipalBatchMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters));
+      }
+    };
+
+    const RegisterLaw registered_mohr_coulomb("Mohr-Coulomb", "Mohr-Coulomb", std::make_unique<MohrCoulombEntries>());
   } // namespace
 
 
@@ -231,8 +304,13 @@ namespace scree
                                    PrincipalValues &stress,
                                    UpdateReport &report) const
   {
-    const PrincipalResponse<double> response = respond<double>(strain, internal_variables, stress);
-    report.largest_bulk_modulus              = bulk;
+    return count(respond<double>(strain, internal_variables, stress), report);
+  }
+
+
+  Response MohrCoulomb::count(const PrincipalResponse<double> &response, UpdateReport &report) const
+  {
+    report.largest_bulk_modulus = bulk;
     report.n_vertices += response.is_vertex;
     report.n_separated += response.is_separated;
     report.n_unresolved += response.is_unresolved;

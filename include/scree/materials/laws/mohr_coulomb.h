@@ -6,6 +6,7 @@
 #include <scree/materials/friction_angle.h>
 #include <scree/materials/inertial_friction.h>
 #include <scree/materials/laws/linear_elastic.h>
+#include <scree/materials/softening.h>
 
 namespace scree
 {
@@ -20,9 +21,13 @@ namespace scree
     double tension_cut_off = 0;                   ///< largest principal stress, Pa; at most c cot(phi)
     std::string angle_kind = "triaxial";          ///< what phi was measured in
     InertialFrictionParameters inertial_friction; ///< of grains that flow
+    SofteningParameters softening;                ///< strength that falls with plastic shear
 
     /// sin(phi) of the law.
     double sine() const;
+
+    /// The same soil with residual strength from the start.
+    MohrCoulombParameters residual() const;
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -35,6 +40,9 @@ namespace scree
 
     /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
+
+  private:
+    void check_softening(const std::string &subsection) const;
   };
 
 
@@ -118,6 +126,29 @@ namespace scree
 
     const InertialFriction inertial_friction; ///< friction that grows with the rate of shear
 
+  protected:
+    /// Sorts the stress of the points that yield, returns it by `return_sorted(stress, todo)`, which leaves in `todo`
+    /// those that go to the vertex, and sets strain and stress. Returns the deviator of the plastic strain, 0 at the
+    /// vertex.
+    /// @param cohesionless points whose grains do not dilate while they are apart
+    template <typename Number, typename ReturnSorted>
+    PrincipalNumbers<Number> plastic_return(PrincipalNumbers<Number> &strain,
+                                            PrincipalNumbers<Number> &stress,
+                                            PrincipalResponse<Number> &response,
+                                            const simd::Mask<Number> &cohesionless,
+                                            const ReturnSorted &return_sorted) const;
+
+    /// Counts a point in the report.
+    Response count(const PrincipalResponse<double> &response, UpdateReport &report) const;
+
+    const LinearElastic elastic;           ///< the law without plastic strain
+    const double shear;                    ///< modulus, Pa
+    const double bulk;                     ///< modulus, Pa
+    const double vertex;                   ///< tau of the vertex, Pa
+    const double on_plane;                 ///< tau/sigma on a plane of shear, without cohesion
+    const bool cohesionless;               ///< whether the vertex of friction and cohesion is at 0
+    const double largest_principal_stress; ///< of the cut-off, Pa
+
   private:
     /// A plane of the yield surface, normal . tau <= limit, and its flow direction.
     struct Surface
@@ -158,14 +189,7 @@ namespace scree
                         PrincipalNumbers<Number> &stress,
                         PrincipalResponse<Number> &response) const;
 
-    const LinearElastic elastic;
-    const double shear;    // Pa
-    const double bulk;     // Pa
-    const double vertex;   // tau of the vertex, Pa
-    const double on_plane; // tau/sigma
-    const bool cohesionless;
-    double largest_principal_stress; // of the cut-off, Pa
-    std::vector<Surface> surfaces;   // of sorted stresses: 13, 12, 23, then cut-off 1, 2, 3
+    std::vector<Surface> surfaces; // of sorted stresses: 13, 12, 23, then cut-off 1, 2, 3
     std::vector<ActiveSet> active_sets;
   };
 

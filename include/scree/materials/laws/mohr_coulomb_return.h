@@ -103,16 +103,17 @@ namespace scree
   }
 
 
-  template <typename Number>
-  __attribute__((noinline)) void MohrCoulomb::plastic_return(PrincipalNumbers<Number> &strain,
-                                                             Number *internal_variables,
-                                                             PrincipalNumbers<Number> &stress,
-                                                             PrincipalResponse<Number> &response) const
+  template <typename Number, typename ReturnSorted>
+  DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number>
+  MohrCoulomb::plastic_return(PrincipalNumbers<Number> &strain,
+                              PrincipalNumbers<Number> &stress,
+                              PrincipalResponse<Number> &response,
+                              const simd::Mask<Number> &cohesionless,
+                              const ReturnSorted &return_sorted) const
   {
-    const Number volume_strain    = strain[0] + strain[1] + strain[2];
-    const simd::Mask<Number> todo = response.is_plastic;
-    const simd::Mask<Number> is_kept_apart =
-        cohesionless ? todo & (volume_strain >= 0.) : simd::Mask<Number>{}; // grains with a gap do not dilate
+    const Number volume_strain             = strain[0] + strain[1] + strain[2];
+    const simd::Mask<Number> todo          = response.is_plastic;
+    const simd::Mask<Number> is_kept_apart = todo & cohesionless & (volume_strain >= 0.);
 
     Sorted<Number> sorted(stress);
     simd::Mask<Number> left = todo & !is_kept_apart;
@@ -120,28 +121,53 @@ namespace scree
     const PrincipalNumbers<Number> returned = sorted.unsorted(sorted.numbers);
     const simd::Mask<Number> at_vertex      = left | is_kept_apart;
 
-    PrincipalNumbers<Number> change;
+    PrincipalNumbers<Number> change, plastic_deviator;
     for (unsigned int i = 0; i < 3; ++i)
       change[i] = stress[i] - returned[i];
     const Number mean        = (change[0] + change[1] + change[2]) * (1. / 3.);
     const Number corner      = simd::max<Number>(volume_strain, simd::broadcast<Number>(vertex / bulk)) * (1. / 3.);
-    Number shear_square      = simd::broadcast<Number>(0.);
     const Number volume_part = mean * (1. / (3 * bulk));
     for (unsigned int i = 0; i < 3; ++i)
       {
-        const Number plastic_deviator = (change[i] - mean) * (1. / (2 * shear));
-        shear_square += plastic_deviator * plastic_deviator;
-        const Number on_surface = strain[i] - (volume_part + plastic_deviator);
+        plastic_deviator[i]     = (change[i] - mean) * (1. / (2 * shear));
+        const Number on_surface = strain[i] - (volume_part + plastic_deviator[i]);
         strain[i]               = simd::select<Number>(todo, on_surface, strain[i]);
         strain[i]               = simd::select<Number>(at_vertex, corner, strain[i]);
         stress[i]               = simd::select<Number>(todo, returned[i], stress[i]);
         stress[i]               = simd::select<Number>(at_vertex, simd::broadcast<Number>(vertex), stress[i]);
+        plastic_deviator[i] = simd::select<Number>(todo & !at_vertex, plastic_deviator[i], simd::broadcast<Number>(0.));
       }
-    internal_variables[0] += simd::select<Number>(
-        todo & !at_vertex, simd::sqrt<Number>(2. / 3. * shear_square), simd::broadcast<Number>(0.));
 
     response.is_unresolved = at_vertex & (volume_strain < vertex / bulk * (1 - 1e-10));
     (vertex > 0 ? response.is_vertex : response.is_separated) = at_vertex & !response.is_unresolved;
+    return plastic_deviator;
+  }
+
+
+  /// Plastic shear strain sqrt(2/3 e:e) of a deviator e.
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number shear_strain_of(const PrincipalNumbers<Number> &deviator)
+  {
+    Number square = simd::broadcast<Number>(0.);
+    for (const Number &value : deviator)
+      square += value * value;
+    return simd::sqrt<Number>(2. / 3. * square);
+  }
+
+
+  template <typename Number>
+  __attribute__((noinline)) void MohrCoulomb::plastic_return(PrincipalNumbers<Number> &strain,
+                                                             Number *internal_variables,
+                                                             PrincipalNumbers<Number> &stress,
+                                                             PrincipalResponse<Number> &response) const
+  {
+    // Grains with a gap do not dilate.
+    const simd::Mask<Number> cohesionless_points = cohesionless ? response.is_plastic : simd::Mask<Number>{};
+    const PrincipalNumbers<Number> deviator      = plastic_return(
+        strain, stress, response, cohesionless_points, [&](PrincipalNumbers<Number> &sorted, simd::Mask<Number> &todo) {
+          return_sorted(sorted, todo);
+        });
+    internal_variables[0] += shear_strain_of<Number>(deviator);
   }
 } // namespace scree
 

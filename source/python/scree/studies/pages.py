@@ -31,7 +31,7 @@ TOPICS = {
     "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
-    "soil_models": Topic("Soil models and quality of the stress", ("contours", "triaxial", "nor_sand_density", "low_stress", "bulk_to_shear")),
+    "soil_models": Topic("Soil models and quality of the stress", ("contours", "triaxial", "nor_sand_density", "low_stress", "bulk_to_shear", "shear_bands")),
     "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
     "cost": Topic("Cost", ("advice", "scaling", "nothing_costs", "peers")),
 }

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef scree_materials_laws_point_strength_return_h
+#define scree_materials_laws_point_strength_return_h
+
+#include <scree/materials/law.h>
+
+namespace scree
+{
+  /// Mohr-Coulomb's strength of a point or of a Batch of them.
+  template <typename Number>
+  struct PointStrength
+  {
+    Number sine;          ///< sin(phi)
+    Number dilation_sine; ///< sin(psi)
+    Number limit;         ///< 2 c cos(phi), Pa
+  };
+
+
+  /// The return of MohrCoulomb where each point has a strength of its own: the same surfaces and the same sets of them,
+  /// whose linear systems are solved for each point.
+  template <typename Number>
+  class PointStrengthReturn
+  {
+  public:
+    /// @param strength of the points
+    /// @param cut_off largest principal stress, Pa, at most that of the apex of each point
+    /// @param bulk modulus, Pa
+    /// @param shear modulus, Pa
+    PointStrengthReturn(const PointStrength<Number> &strength,
+                        const double cut_off,
+                        const double bulk,
+                        const double shear);
+
+    /// Returns a sorted stress of the points `todo`; those that meet no set of surfaces stay in it.
+    void return_sorted(PrincipalNumbers<Number> &stress, simd::Mask<Number> &todo) const;
+
+  private:
+    static constexpr unsigned int f13 = 0, f12 = 1, f23 = 2, cut_1 = 3, cut_2 = 4, cut_3 = 5, n_surfaces = 6;
+
+    /// A plane normal . tau <= limit; relaxation: elastic stiffness times flow direction, Pa.
+    struct Surface
+    {
+      PrincipalNumbers<Number> normal, relaxation;
+      Number limit;
+    };
+
+    static Number product(const PrincipalNumbers<Number> &a, const PrincipalNumbers<Number> &b)
+    {
+      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+    /// With normal n_i - n_j of this sine.
+    static PrincipalNumbers<Number>
+    direction(const unsigned int largest, const unsigned int smallest, const Number &sine)
+    {
+      PrincipalNumbers<Number> result;
+      for (Number &component : result)
+        component = simd::broadcast<Number>(0.);
+      result[largest]  = 1. + sine;
+      result[smallest] = sine - 1.;
+      return result;
+    }
+
+    void set_surface(const unsigned int s,
+                     const PrincipalNumbers<Number> &normal,
+                     const PrincipalNumbers<Number> &flow,
+                     const Number &limit,
+                     const double bulk,
+                     const double shear);
+
+    /// Returns those of the points `todo` that meet the `n` surfaces of the set, and takes them out.
+    template <unsigned int n>
+    void try_set(const unsigned int (&&set)[n],
+                 const PrincipalNumbers<Number> &trial,
+                 const Number &tolerance,
+                 PrincipalNumbers<Number> &stress,
+                 simd::Mask<Number> &todo) const;
+
+    const double shear;
+    Surface surfaces[n_surfaces];
+  };
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline PointStrengthReturn<Number>::PointStrengthReturn(const PointStrength<Number> &strength,
+                                                                                const double cut_off,
+                                                                                const double bulk,
+                                                                                const double shear)
+      : shear(shear)
+  {
+    constexpr unsigned int largest[3]  = { 0, 0, 1 };
+    constexpr unsigned int smallest[3] = { 2, 1, 2 };
+    for (unsigned int s = 0; s < 3; ++s)
+      set_surface(s,
+                  direction(largest[s], smallest[s], strength.sine),
+                  direction(largest[s], smallest[s], strength.dilation_sine),
+                  strength.limit,
+                  bulk,
+                  shear);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        PrincipalNumbers<Number> axis;
+        for (unsigned int j = 0; j < 3; ++j)
+          axis[j] = simd::broadcast<Number>(i == j ? 1. : 0.);
+        set_surface(cut_1 + i, axis, axis, simd::broadcast<Number>(cut_off), bulk, shear);
+      }
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline void PointStrengthReturn<Number>::set_surface(const unsigned int s,
+                                                                             const PrincipalNumbers<Number> &normal,
+                                                                             const PrincipalNumbers<Number> &flow,
+                                                                             const Number &limit,
+                                                                             const double bulk,
+                                                                             const double shear)
+  {
+    const Number volume_part = (bulk - 2. / 3. * shear) * (flow[0] + flow[1] + flow[2]);
+    surfaces[s].normal       = normal;
+    surfaces[s].limit        = limit;
+    for (unsigned int i = 0; i < 3; ++i)
+      surfaces[s].relaxation[i] = volume_part + 2 * shear * flow[i];
+  }
+
+
+  template <typename Number>
+  template <unsigned int n>
+  DEAL_II_ALWAYS_INLINE inline void PointStrengthReturn<Number>::try_set(const unsigned int (&&set)[n],
+                                                                         const PrincipalNumbers<Number> &trial,
+                                                                         const Number &tolerance,
+                                                                         PrincipalNumbers<Number> &stress,
+                                                                         simd::Mask<Number> &todo) const
+  {
+    if (!simd::any(todo))
+      return;
+    // Elimination needs no pivots: principal minors are positive for sin(psi) <= sin(phi) < 1.
+    Number matrix[n][n], multiplier[n];
+    for (unsigned int a = 0; a < n; ++a)
+      {
+        const Surface &row = surfaces[set[a]];
+        multiplier[a]      = product(row.normal, trial) - row.limit;
+        for (unsigned int b = 0; b < n; ++b)
+          matrix[a][b] = product(row.normal, surfaces[set[b]].relaxation);
+      }
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int b = a + 1; b < n; ++b)
+        {
+          const Number factor = matrix[b][a] / matrix[a][a];
+          for (unsigned int c = a + 1; c < n; ++c)
+            matrix[b][c] -= factor * matrix[a][c];
+          multiplier[b] -= factor * multiplier[a];
+        }
+    for (unsigned int a = n; a-- > 0;)
+      {
+        for (unsigned int b = a + 1; b < n; ++b)
+          multiplier[a] -= matrix[a][b] * multiplier[b];
+        multiplier[a] = multiplier[a] / matrix[a][a];
+      }
+
+    simd::Mask<Number> is_found        = todo;
+    PrincipalNumbers<Number> candidate = trial;
+    for (unsigned int a = 0; a < n; ++a)
+      {
+        is_found = is_found & (multiplier[a] * shear >= -tolerance);
+        for (unsigned int i = 0; i < 3; ++i)
+          candidate[i] -= multiplier[a] * surfaces[set[a]].relaxation[i];
+      }
+    for (const Surface &surface : surfaces)
+      is_found = is_found & (product(surface.normal, candidate) - surface.limit <= tolerance);
+    for (unsigned int i = 0; i < 3; ++i)
+      stress[i] = simd::select<Number>(is_found, candidate[i], stress[i]);
+    todo = todo & !is_found;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline void PointStrengthReturn<Number>::return_sorted(PrincipalNumbers<Number> &stress,
+                                                                               simd::Mask<Number> &todo) const
+  {
+    const PrincipalNumbers<Number> trial = stress;
+    const Number tolerance =
+        1e-12 * simd::max<Number>(surfaces[f13].limit,
+                                  simd::max<Number>(simd::abs<Number>(trial[0]), simd::abs<Number>(trial[2])));
+    try_set({ f13 }, trial, tolerance, stress, todo);
+    try_set({ f13, f12 }, trial, tolerance, stress, todo);
+    try_set({ f13, f23 }, trial, tolerance, stress, todo);
+    try_set({ cut_1 }, trial, tolerance, stress, todo);
+    try_set({ cut_1, cut_2 }, trial, tolerance, stress, todo);
+    try_set({ f13, cut_1 }, trial, tolerance, stress, todo);
+    try_set({ f13, f12, cut_1 }, trial, tolerance, stress, todo);
+    // The edge where four surfaces meet, as two cones.
+    try_set({ f13, cut_1, cut_2 }, trial, tolerance, stress, todo);
+    try_set({ f13, f23, cut_1 }, trial, tolerance, stress, todo);
+    // The three cut-offs meet at the vertex, which needs no system.
+  }
+} // namespace scree
+
+#endif
