@@ -25,7 +25,7 @@ def draw_probabilities(run, probabilities, source, word, n_runs, output):
         text = threshold_text(quantity, threshold)
         kind = maps.Kind(text, "%", 100., "YlOrRd", (0.05, 1.))
         sheet.append(maps.Map(quantity, text[0].upper() + text[1:], kind, raster._replace(values=np.where(raster.values > 0, 100 * raster.values, np.nan))))
-    notes = [f"{word} of {n_runs} runs; no colour: in no run"] + (["dashed: outline of the release in all runs together"] if source else [])
+    notes = [f"{word}, from {n_runs} runs; no colour: in no run"] + (["dashed: outline of the release in all runs together"] if source else [])
     maps.render_sheet(run, sheet, source, notes, output)
 
 
@@ -42,7 +42,7 @@ def draw_profiles(probabilities, word, n_runs, output):
         axes.legend(fontsize=8)
         axes.grid(alpha=0.3)
     panels[-1, 0].set_xlabel("x (m)")
-    panels[0, 0].set_title(f"{word} of {n_runs} runs", fontsize=9, loc="left")
+    panels[0, 0].set_title(f"from {n_runs} runs", fontsize=9, loc="left")
     maps.save(figure, output)
 
 
@@ -126,7 +126,7 @@ def draw_influences(charts, output):
 
 def draw_values(parameters, rows, result, values, output):
     """The result of each run against each parameter."""
-    columns = min(3, len(parameters))
+    columns = 2 if len(parameters) == 4 else min(3, len(parameters))
     lines = -(-len(parameters) // columns)
     figure, panels = plt.subplots(lines, columns, figsize=(0.6 + 3 * columns, 2.8 * lines), squeeze=False, sharey=True, layout="constrained")
     for place, axes in enumerate(panels.flat):

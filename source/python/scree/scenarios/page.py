@@ -28,7 +28,7 @@ def evaluate(study):
             try:
                 numbers[number] = evaluation.numbers_of(study, study.run(number))
             except (OSError, ValueError) as error:
-                verdicts[number] = runs.Verdict("failed", "", f"its results cannot be read: {error}")
+                verdicts[number] = runs.Verdict("failed", (), f"its results cannot be read: {error}")
     return Evaluated(verdicts, numbers, list(dict.fromkeys(one for row in numbers.values() for one in row)))
 
 
@@ -53,7 +53,13 @@ def write_table(study, done):
         table.writerow(["run", *(one.label for one in study.parameters), "verdict", "checks", "wall_time_s", *map(column, done.results), "message"])
         for number, row in zip(study.numbers, study.rows):
             one, found = done.verdicts[number], done.numbers.get(number, {})
-            table.writerow([number, *row, one.word, one.checks, _cell(one.seconds), *(_cell(found.get(result, np.nan)) for result in done.results), one.message])
+            table.writerow([number, *row, one.word, _checks(one), _cell(one.seconds), *(_cell(found.get(result, np.nan)) for result in done.results), one.message])
+
+
+def _checks(verdict):
+    if verdict.word != "finished":
+        return ""
+    return "out of bounds: " + ", ".join(verdict.violated) if verdict.violated else "within bounds"
 
 
 def column(result):
@@ -140,7 +146,7 @@ def draw(study, done, probabilities):
     bars = {one: chart for one, chart in bars.items() if chart}
     if bars:
         charts.draw_influences(bars, folder / "correlation.png")
-        drawn["correlation"] = "Rank correlation (Spearman) with each parameter; grey: not distinguishable from none with this number of runs (95 %)"
+        drawn["correlation"] = "Rank correlation (Spearman) with each parameter; within the grey band (pale bars) it cannot be told from none with this number of runs (95 %)"
     return drawn
 
 
@@ -150,15 +156,17 @@ def draw(study, done, probabilities):
 def summary(study, done):
     """[(is good, label, text)]: how many runs there are, what is missing, what their checks say."""
     n_runs, n_done = len(study.rows), len(done.numbers)
-    n_missing, n_bad = n_runs - n_done, sum(one.checks == "out of bounds" for number, one in done.verdicts.items() if number in done.numbers)
+    n_missing, violated = n_runs - n_done, [done.verdicts[number].violated for number in done.numbers if done.verdicts[number].violated]
     words = [one.word for one in done.verdicts.values()]
     missing = "".join(f", {words.count(word)} {word}" for word in ("failed", "stopped", "not run") if word in words)
     lines = [(not n_missing, "Runs", f"{n_done} of {n_runs} evaluated{missing}")]
     if n_missing and study.sampling != "one at a time":
         lines.append((False, "Missing", f"probabilities and quantiles hold for the {n_done} runs; over all {n_runs} runs, a probability may differ by up to "
                       f"{100 * n_missing / n_runs:.2g} %"))
-    lines.append((not n_bad, "Checks", f"{n_bad} of {n_done} runs violate a check of the program; the table of runs names them"
-                  if n_bad else f"all {n_done} runs are within the bounds of the program's checks"))
+    names = [name for names in violated for name in names]
+    which = ", ".join(f"{name} in {names.count(name)}" for name in sorted(set(names), key=lambda name: -names.count(name)))
+    lines.append((not violated, "Checks", f"{len(violated)} of {n_done} runs violate a check of the program: {which}" if violated
+                  else f"all {n_done} runs are within the bounds of the program's checks"))
     n_lost = sum(row.get(evaluation.Result("mass_lost", "Mass lost", "kg"), 0.) > 0 for row in done.numbers.values())
     if n_lost:
         lines.append((False, "Box", f"in {n_lost} of {n_done} runs soil has left through open walls: their run-out is a lower bound. Enlarge the box"))
@@ -202,7 +210,7 @@ def _run_table(study, done):
     rows = []
     for number, row in zip(study.numbers, study.rows):
         verdict, found = done.verdicts[number], done.numbers.get(number, {})
-        rows.append((number, *map(_short, row), verdict.word, verdict.checks, *(f"{found[one]:.5g}" if one in found else "" for one in shown)))
+        rows.append((number, *map(_short, row), verdict.word, _checks(verdict), *(f"{found[one]:.5g}" if one in found else "" for one in shown)))
     head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.name + (f" ({one.unit})" if one.unit != "-" else "") for one in shown))
     return f'<div style="overflow-x: auto">{report.table(rows, head)}</div>'
 

@@ -8,7 +8,6 @@ import re
 import shlex
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 from typing import NamedTuple
@@ -35,9 +34,9 @@ MISSING = "Install Debian's package snakemake: apt-get install --no-install-reco
 
 
 class Verdict(NamedTuple):
-    """How a run has ended: "finished", "failed", "stopped" or "not run"; what its checks say ("" without); message of a failure; wall time, s."""
+    """How a run has ended: "finished", "failed", "stopped" or "not run"; what violates a check of the program; message of a failure; wall time, s."""
     word: str
-    checks: str = ""
+    violated: tuple = ()
     message: str = ""
     seconds: float = float("nan")
 
@@ -50,11 +49,16 @@ def verdict(study, number):
         code = (run / "failed").read_text(encoding="utf-8").strip()
         lines = (run / "screen.txt").read_text(encoding="utf-8", errors="replace").strip().splitlines() if (run / "screen.txt").exists() else []
         told = [line for line in lines if line.startswith("scree: ")] or lines or [""]
-        return Verdict("stopped" if code == "3" else "failed", "", f"exit code {code}: {told[-1].removeprefix('scree: ')}")
+        return Verdict("stopped" if code == "3" else "failed", (), f"exit code {code}: {told[-1].removeprefix('scree: ')}")
     parts = report.read_log(run).parts
     seconds = re.match(r"wall time (\S+) s", parts.get("Finished", ""))
-    is_bad = "out of bounds" in parts.get("Checks", "out of bounds")
-    return Verdict("finished", "out of bounds" if is_bad else "within bounds", "", float(seconds.group(1)) if seconds else float("nan"))
+    return Verdict("finished", violated(parts.get("Checks", "")), "", float(seconds.group(1)) if seconds else float("nan"))
+
+
+def violated(checks):
+    """The names of what is out of bounds in the lines Checks of a log: "smallest V/V_0"."""
+    found = re.match(r"out of bounds: (.*?)(\nworst: |\nwithin bounds: |$)", checks, re.DOTALL)
+    return tuple(re.sub(r" [-+]?[\d.].*", "", part.strip(), flags=re.DOTALL) for part in found.group(1).replace("\n", " ").split(";") if part.strip()) if found else ()
 
 
 def verdicts(study):
