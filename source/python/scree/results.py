@@ -266,6 +266,7 @@ def write_map(path, raster, like):
 
 
 def _write_geo_tiff(path, raster, values, like):
+    """`values`: those of the raster, -9999 where there is none."""
     from PIL import Image, TiffImagePlugin  # pylint: disable=import-outside-toplevel
     with Image.open(like) as image:
         tags, kinds = dict(image.tag_v2), dict(image.tag_v2.tagtype)

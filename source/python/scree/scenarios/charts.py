@@ -113,7 +113,8 @@ def draw_influences(charts, output):
         for place, label in enumerate(labels):
             if label in by_label:
                 one = by_label[label]
-                axes.barh(place, one.correlation, height=0.6, color=HIGH if one.correlation > 0 else LOW, alpha=0.85 if abs(one.correlation) > one.bound else 0.35)
+                axes.barh(place, one.correlation, height=0.6, color=HIGH if one.correlation > 0 else LOW,
+                          alpha=0.85 if abs(one.correlation) > one.bound else 0.35)
         axes.axvspan(-bars[0].bound, bars[0].bound, color="0.9", zorder=0)
         axes.axvline(0, color="black", lw=0.8)
         axes.set(xlim=(-1.05, 1.05), xlabel="rank correlation")

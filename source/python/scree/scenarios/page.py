@@ -53,7 +53,8 @@ def write_table(study, done):
         table.writerow(["run", *(one.label for one in study.parameters), "verdict", "checks", "wall_time_s", *map(column, done.results), "message"])
         for number, row in zip(study.numbers, study.rows):
             one, found = done.verdicts[number], done.numbers.get(number, {})
-            table.writerow([number, *row, one.word, _checks(one), _cell(one.seconds), *(_cell(found.get(result, np.nan)) for result in done.results), one.message])
+            values = [_cell(found.get(result, np.nan)) for result in done.results]
+            table.writerow([number, *row, one.word, _checks(one), _cell(one.seconds), *values, one.message])
 
 
 def _checks(verdict):
@@ -146,7 +147,8 @@ def draw(study, done, probabilities):
     bars = {one: chart for one, chart in bars.items() if chart}
     if bars:
         charts.draw_influences(bars, folder / "correlation.png")
-        drawn["correlation"] = "Rank correlation (Spearman) with each parameter; within the grey band (pale bars) it cannot be told from none with this number of runs (95 %)"
+        drawn["correlation"] = ("Rank correlation (Spearman) with each parameter; within the grey band (pale bars) it cannot be told from none "
+                                "with this number of runs (95 %)")
     return drawn
 
 

@@ -3,6 +3,7 @@
 
 import contextlib
 import fcntl
+import json
 import pathlib
 import re
 import shlex
@@ -58,11 +59,23 @@ def verdict(study, number):
 def violated(checks):
     """The names of what is out of bounds in the lines Checks of a log: "smallest V/V_0"."""
     found = re.match(r"out of bounds: (.*?)(\nworst: |\nwithin bounds: |$)", checks, re.DOTALL)
-    return tuple(re.sub(r" [-+]?[\d.].*", "", part.strip(), flags=re.DOTALL) for part in found.group(1).replace("\n", " ").split(";") if part.strip()) if found else ()
+    parts = found.group(1).replace("\n", " ").split(";") if found else []
+    return tuple(re.sub(r" [-+]?[\d.].*", "", part.strip()) for part in parts if part.strip())
 
 
 def verdicts(study):
-    return {number: verdict(study, number) for number in study.numbers}
+    """By numbers. A run of other values, from before a change of the study or the case, counts as not run."""
+    file = study.folder / "values.json"
+    known = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+    wanted = _values(study)
+    return {number: verdict(study, number) if known.get(number) == wanted[number] else Verdict("not run") for number in study.numbers}
+
+
+def _values(study):
+    """{number: all entries of the run, before factors, and its parameters}."""
+    entries = {**study.base, **study.fixed}
+    return {number: {"case": entries, "parameters": {one.label: value for one, value in zip(study.parameters, row)}}
+            for number, row in zip(study.numbers, study.rows)}
 
 
 # Before the runs ------------------------------------------------------------------------------------------------------
@@ -97,6 +110,7 @@ def prepare(study, n_ranks):
         if study.run(number).exists() and _is_stale(study, number):
             shutil.rmtree(study.run(number))
     shutil.rmtree(study.folder / "new")
+    (study.folder / "values.json").write_text(json.dumps(_values(study)), encoding="utf-8")
     program = command.program("scree")
     if program is None:
         raise ValueError("no program scree is there. Build it (sh doc/quickstart.sh), or add its folder to PATH")
@@ -163,7 +177,8 @@ def start(study, n_cores, n_ranks, profile, sleep=0.5):
         (study.run(number) / "failed").unlink(missing_ok=True)
     # One scree-scenarios at a time has the folder: Snakemake's own lock would outlive a killed one.
     call = [snakemake, "--directory", str(study.folder), "--snakefile", str(study.folder / "Snakefile"), "--keep-going", "--nolock", "--nocolor",
-            "--rerun-incomplete", "--rerun-triggers", "mtime", "--scheduler", "greedy", *(["--profile", str(pathlib.Path(profile).resolve())] if profile else []),
+            "--rerun-incomplete", "--rerun-triggers", "mtime", "--scheduler", "greedy",
+            *(["--profile", str(pathlib.Path(profile).resolve())] if profile else []),
             *(["--cores", str(max(n_cores, n_ranks))] if n_cores else [])]
     print(f"{study.folder}: {len(study.rows)} runs, {len(waiting)} to do" + (f", {max(1, n_cores // n_ranks)} at a time" if n_cores else ""), flush=True)
     with open(study.folder / "snakemake.log", "w", encoding="utf-8") as log, \

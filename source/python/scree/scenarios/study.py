@@ -141,12 +141,14 @@ def _rows(file, given, kind, parameters):
     distributions = [one.distribution for one in parameters]
     if kind not in sampling.SAMPLINGS:
         raise _fault(file, "sampling", kind, f"there is no such sampling{_nearest(str(kind), sampling.SAMPLINGS)}")
-    for key, kinds in (("runs", ("Latin hypercube", "Sobol")), ("seed", ("Latin hypercube", "Sobol")), ("quantiles", ("one at a time",)), ("levels", ("grid",))):
+    random = ("Latin hypercube", "Sobol")
+    for key, kinds in (("runs", random), ("seed", random), ("quantiles", ("one at a time",)), ("levels", ("grid",))):
         if key in given and kind not in kinds:
             raise _fault(file, key, given[key], f'this entry has no effect with sampling = "{kind}". Remove it')
     if kind == "one at a time":
         quantiles = given.get("quantiles", [0.05, 0.95])
-        if not isinstance(quantiles, list) or len(quantiles) != 2 or not all(isinstance(one, float) for one in quantiles) or not 0 < quantiles[0] < quantiles[1] < 1:
+        is_pair = isinstance(quantiles, list) and len(quantiles) == 2 and all(isinstance(one, float) for one in quantiles)
+        if not is_pair or not 0 < quantiles[0] < quantiles[1] < 1:
             raise _fault(file, "quantiles", quantiles, "write two numbers between 0 and 1, the lower one first, such as [0.05, 0.95]")
         return sampling.one_at_a_time(distributions, quantiles)
     if kind == "grid":
