@@ -14,7 +14,7 @@ fi
 
 # For the tests alone: the layout of sources and scripts, docstrings, rasters of other formats, and the site of the documentation.
 # shellcheck disable=SC2034  # read in setup.sh
-test_packages="clang-format shellcheck pyflakes3 doxygen libgdal-dev python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-pandas"
+test_packages="clang-format shellcheck pyflakes3 doxygen libgdal-dev python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-pandas python3-scipy snakemake"
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/../doc/setup.sh"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Completion of the command lines of scree and scree-element, for bash, and for zsh after `autoload -U bashcompinit; bashcompinit`:
+# Completion of the command lines of scree, scree-element and scree-scenarios, for bash, and for zsh after `autoload -U bashcompinit; bashcompinit`:
 # options, case files, scenes of --new, subsections of --print-parameters. The program itself lists scenes and subsections.
 
 # The replies that begin with the word before the cursor, from lines of standard input; blanks are quoted.
@@ -21,7 +21,7 @@ _scree_reply()
   done
 }
 
-# Case files, and folders on the way to them.
+# Case files, or files with another ending, and folders on the way to them.
 _scree_case_files()
 {
   local file word=${COMP_WORDS[COMP_CWORD]}
@@ -30,7 +30,7 @@ _scree_case_files()
   fi
   while IFS= read -r file; do
     COMPREPLY+=("$file")
-  done < <(compgen -f -X '!*.prm' -- "$word"; compgen -d -- "$word")
+  done < <(compgen -f -X "!*.${1:-prm}" -- "$word"; compgen -d -- "$word")
 }
 
 _scree()
@@ -78,5 +78,17 @@ _scree_element()
   fi
 }
 
+_scree_scenarios()
+{
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}
+  COMPREPLY=()
+  if [[ $word == -* ]]; then
+    _scree_reply <<<$'--dry-run\n--evaluate\n--cores\n--ranks\n--profile\n--help'
+  elif [[ $before != --cores && $before != --ranks ]]; then
+    _scree_case_files toml
+  fi
+}
+
 complete -F _scree scree
 complete -F _scree_element scree-element
+complete -F _scree_scenarios scree-scenarios

@@ -44,5 +44,10 @@ options=$("$scree" --help | grep -o -e '--[a-z-]*' | sort -u)
 offered=$({ completed --; completed --advise --; completed --new --; completed --print-parameters --; } | sort -u)
 [ "$options" = "$offered" ] || { echo "--help: $options"; echo "completion: $offered"; exit 1; }
 
+# shellcheck disable=SC2016 # of the inner shell
+touch study.toml
+studies=$(bash --norc -c '. "$0"; COMP_WORDS=(scree-scenarios "$1"); COMP_CWORD=1; _scree_scenarios; printf "%s " "${COMPREPLY[@]}"' "$script" s)
+[ "$studies" = 'study.toml sub.d ' ] || { echo "scree-scenarios s: $studies"; exit 1; }
+
 # The file loads with the name of each command, as it is installed.
-bash --norc -c ". '$script'; complete -p scree scree-element"
+bash --norc -c ". '$script'; complete -p scree scree-element scree-scenarios"

@@ -33,16 +33,17 @@ NOT_RUN = {
     "spack install dealii@9.5 +mpi +p4est +trilinos +muparser": "compiles for hours; the page says that it is not tested",
     "spack load dealii": "needs the package of the line before",
 }
-SHORTENED = {"README.md": 2, "doc/installation.md": 20, "doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4,
+SHORTENED = {"README.md": 2, "doc/installation.md": 20, "doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4, "doc/tutorials/scenarios.md": 20,
              "doc/tutorials/bore.md": 2, "doc/tutorials/dry_slope.md": 2}
-LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report)|gdal|mpirun -np 4")
+LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report|scenarios)|gdal|mpirun -np 4")
 LONG_PAGES = {"doc/tutorials/bore.md"}  # 50 pictures of 51 200 points
 # What a reader replaces by something of his own.
 PLACES = {"FOLDER": "installed", "XMIN YMIN XMAX YMAX": "100 100 500 800"}
 # What a page takes for granted: files and runs of the reader.
 POLYGON = '{"type": "Polygon", "coordinates": [[[200, 600], [300, 600], [300, 700], [200, 700], [200, 600]]]}'
 PREPARED = {"doc/tutorials/own_terrain.md": ["gdal_translate -q -a_srs EPSG:31254 prm/terrain/mountain.asc dtm.tif",
-                                             f"echo '{POLYGON}' > release.geojson"]}
+                                             f"echo '{POLYGON}' > release.geojson"],
+            "doc/tutorials/scenarios.md": ["sed -i 's/^runs  *= 64/runs = 8/' prm/terrain/mountain_scenarios.toml"]}
 TIMES = ("End time", "Output/Interval", "Output/Statistics interval", "Output/Checkpoint interval", "Settling/Maximum time")
 BLOCK = re.compile(r"^ *```(\S*)\n(.*?)^ *```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"(sudo |sh |mpirun |build/|cmake |apt-get |gdal)")
@@ -140,7 +141,9 @@ class Page:
             self.left_out.add(command)
             return
         is_long = LONG.match(command) or self.name in LONG_PAGES
-        if (is_long and self.version == "quick") or (command.startswith("gdal") and shutil.which("gdalwarp") is None):
+        is_without_program = any(command.startswith(start) and shutil.which(program) is None
+                                 for start, program in (("gdal", "gdalwarp"), ("build/scree-scenarios", "snakemake")))
+        if (is_long and self.version == "quick") or is_without_program:
             self.n_skipped += 1
             return
         called = self.checked(shortened_words(command, self.factor))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Scree's Python tools: results and pictures of runs, variants of cases, closed forms, mountains, studies."""
+"""Scree's Python tools: results and pictures of runs, variants and scenarios of cases, closed forms, mountains, studies."""
 
 import os
 

@@ -288,10 +288,13 @@ def _finish(axes, window, is_outer):
 def render_maps(run, names, output):
     """The maps of a run in 3D in one PNG. Throws OSError or ValueError."""
     maps, source, least = [read_map(run, name) for name in names], release(run), max(least_thickness(run), 1e-9)
-    window = window_of(run, maps, source)
-    notes = [f"soil of at least {least:g} m"] if least > 1e-9 else []
-    if source:
-        notes.insert(0, "dashed: outline of the release")
+    notes = ["dashed: outline of the release"] if source else []
+    render_sheet(run, maps, source, notes + ([f"soil of at least {least:g} m"] if least > 1e-9 else []), output)
+
+
+def render_sheet(run, maps, source, notes, output):
+    """Maps over the terrain of a run in one PNG; `source`: thickness of the release or None, `notes`: what stands below them."""
+    least, window = max(least_thickness(run), 1e-9), window_of(run, maps, source)
     try:
         ground = terrain.ground(run, window)
     except (OSError, ValueError) as error:
@@ -315,9 +318,9 @@ def render_maps(run, names, output):
         if has_north:
             draw_north(panel)
     if ground:
-        notes.append(f"contours every {terrain.contour_step(ground):g} m")
+        notes = notes + [f"contours every {terrain.contour_step(ground):g} m"]
     if coordinate_system(run):
-        notes.append(f"coordinates: {coordinate_system(run)}")
+        notes = notes + [f"coordinates: {coordinate_system(run)}"]
     text = textwrap.fill("; ".join(notes), int(15 * (sheet.size[0] - 0.1)))
     figure.text(0.1 / sheet.size[0], 0.08 / sheet.size[1], text, fontsize=8, color="0.3", va="bottom")
     save(figure, output)
@@ -355,12 +358,12 @@ def reduced(colours, count, size=256):
 def render_profiles(run, names, output):
     """The maps of a run in 2D, which are columns of a table, against x in one PNG."""
     times = map_times(run)
-    table = _read_profile(find_map(run, "profile"))
-    first = _read_profile(find_map(run, times[min(times)])) if times else {}
+    table = read_profile(find_map(run, "profile"))
+    first = read_profile(find_map(run, times[min(times)])) if times else {}
     figure, panels = plt.subplots(len(names), 1, figsize=(8, 0.6 + 1.8 * len(names)), squeeze=False, sharex=True, layout="constrained")
     for axes, name in zip(panels[:, 0], names):
         match, kind = TIME.fullmatch(name), kind_of(name)
-        shown = _read_profile(find_map(run, f"profile_{match['time']}s")) if match else table
+        shown = read_profile(find_map(run, f"profile_{match['time']}s")) if match else table
         column = match["map"] if match else name
         if column not in shown:
             raise ValueError(f"{run} has no map {name}; there are: {', '.join(key for key in table if key != 'x')}, thickness_TIMEs")
@@ -376,7 +379,7 @@ def render_profiles(run, names, output):
     save(figure, output)
 
 
-def _read_profile(path):
+def read_profile(path):
     """{"x": values, "largest_thickness": values, ...} of a table of columns such as "largest thickness (m)" or "largest_thickness_m"; SI units."""
     head, *lines = path.read_text(encoding="utf-8").splitlines()
     words = [word.strip().replace(" ", "_") for word in head.split(",")]
@@ -394,7 +397,7 @@ def _ends(x, inside):
 def default_maps(run):
     """The names of the maps that are drawn if none are asked for."""
     if results.read_box(run).dim == 2:
-        there = _read_profile(find_map(run, "profile"))
+        there = read_profile(find_map(run, "profile"))
         return [name for name in DEFAULT if name in there]
     return [name for name in DEFAULT if name in map_files(run)]
 

@@ -111,7 +111,8 @@ def identity(run, log):
 # Sections -------------------------------------------------------------------------------------------------------------
 
 
-def _table(rows, head=()):
+def table(rows, head=()):
+    """A table of HTML; numbers are right-aligned."""
     is_number = [isinstance(cell, float) for cell in rows[0]] if rows else []
     cells = "".join(f'<th{" class=number" if is_right else ""}>{html.escape(word)}</th>' for word, is_right in zip(head, is_number))
     lines = [f"<tr>{cells}</tr>"] if head else []
@@ -162,7 +163,7 @@ def final_statistics(run):
         if len(values):
             rows.append((re.sub(r"\s*\([^()]*\)\s*$", "", name), unit.group(1) if unit else "-", float(values[0]), float(values[-1]),
                          *((float(numbers.min()), float(numbers.max())) if len(numbers) else ("-", "-"))))
-    return _table(rows, ("quantity", "unit", "first row", "last row", "smallest", "largest")) if rows else "<p>The statistics have no row.</p>"
+    return table(rows, ("quantity", "unit", "first row", "last row", "smallest", "largest")) if rows else "<p>The statistics have no row.</p>"
 
 
 def case_text(run):
@@ -182,7 +183,7 @@ def files(run):
         if path.name != "report.html":
             parts = [part for part in path.rglob("*") if part.is_file()] if path.is_dir() else [path]
             rows.append((path.name + (f"/ ({len(parts)} files)" if path.is_dir() else ""), sum(part.stat().st_size for part in parts) / 1000))
-    return _table(rows, ("file", "size (kB)"))
+    return table(rows, ("file", "size (kB)"))
 
 
 # Pictures -------------------------------------------------------------------------------------------------------------
@@ -253,9 +254,9 @@ def _figures(run, commands, folder, charts):
 # The page -------------------------------------------------------------------------------------------------------------
 
 
-def description(run):
-    """The comment at the head of the case."""
-    file, lines = pathlib.Path(run) / "original.prm", []
+def description(file):
+    """The comment at the head of a case or a study."""
+    file, lines = pathlib.Path(file), []
     for line in file.read_text(encoding="utf-8-sig", errors="replace").splitlines() if file.exists() else []:
         if not line.startswith("#"):
             break
@@ -273,7 +274,7 @@ def page(run, field=None, times=None):
     sections = [
         ("verdict", "Verdict", verdict(run, log)),
         ("warnings", "Warnings", warnings(log)),
-        ("run", "Run", _table(identity(run, log))),
+        ("run", "Run", table(identity(run, log))),
         ("maps", "Maps", drawn["maps"]),
         ("pictures", "Pictures", drawn["points"]),
         ("charts", "Charts", "\n".join(charts) + drawn["charts"]),
@@ -282,13 +283,18 @@ def page(run, field=None, times=None):
         ("log", "Log", f"<details><summary>log.txt</summary><pre>{html.escape(log.text.strip())}</pre></details>"),
         ("files", "Files", files(run)),
     ]
+    return document(run.resolve().name, "report of a run of Scree", description(run / "original.prm"), sections)
+
+
+def document(title, kind, text, sections):
+    """A page of HTML; `sections`: [(anchor, heading, content)], of which those without content are left out."""
     sections = [section for section in sections if section[2].strip()]
-    title, now = run.resolve().name, datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
     links = "".join(f'<a href="#{anchor}">{heading}</a>' for anchor, heading, _ in sections)
-    body = "\n".join(f'<section id="{anchor}">\n<h2>{heading}</h2>\n{text}\n</section>' for anchor, heading, text in sections)
+    body = "\n".join(f'<section id="{anchor}">\n<h2>{heading}</h2>\n{content}\n</section>' for anchor, heading, content in sections)
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{html.escape(title)}: report of a run of Scree</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{html.escape(title)}</h1>\n"
-            f'<p>{html.escape(description(run))}</p>\n<p class="note">Report of {now}</p>\n<nav>{links}</nav>\n{body}\n</body>\n</html>\n')
+            f"<title>{html.escape(title)}: {kind}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{html.escape(title)}</h1>\n"
+            f'<p>{html.escape(text)}</p>\n<p class="note">Report of {now}</p>\n<nav>{links}</nav>\n{body}\n</body>\n</html>\n')
 
 
 def _write(arguments):

@@ -231,21 +231,51 @@ def read_raster(path):
     return Raster(np.where(values == head.get("nodata_value", -9999), np.nan, values), *corner, width)
 
 
+PIXEL_SCALE, TIE_POINT, NO_DATA, GEO_KEYS = 33550, 33922, 42113, (34735, 34736, 34737)  # numbers of a GeoTIFF's tags
+
+
 def _read_geo_tiff(path):
     """The first band of a GeoTIFF with square cells along the axes."""
     # Only maps need Pillow.
     from PIL import Image, UnidentifiedImageError  # pylint: disable=import-outside-toplevel
-    pixel_scale, tie_point, no_data = 33550, 33922, 42113  # numbers of the tags
     try:
         with Image.open(path) as image:
             tags = dict(image.tag_v2)
             values = np.array(image, dtype=float)
-        width = tags[pixel_scale][0]
-        column, row, _, x, y, _ = tags[tie_point]
+        width = tags[PIXEL_SCALE][0]
+        column, row, _, x, y, _ = tags[TIE_POINT]
     except (AttributeError, KeyError, UnidentifiedImageError) as error:
         raise ValueError(f"{path} is no GeoTIFF ({error})") from error
-    missing = float(str(tags.get(no_data, "nan")).strip("\0 "))
+    missing = float(str(tags.get(NO_DATA, "nan")).strip("\0 "))
     return Raster(np.where(values == missing, np.nan, values), x - column * width, y + (row - values.shape[0]) * width, width)
+
+
+def write_map(path, raster, like):
+    """Writes a raster in the format and the system of coordinates of the file `like`, and with its .prj file; -9999 where there is no value."""
+    path, like = pathlib.Path(path), pathlib.Path(like)
+    values = np.where(np.isfinite(raster.values), raster.values, -9999.)
+    if like.suffix == ".tif":
+        _write_geo_tiff(path, raster, values, like)
+    else:
+        rows, columns = values.shape
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(f"ncols {columns}\nnrows {rows}\nxllcorner {raster.x:.12g}\nyllcorner {raster.y:.12g}\ncellsize {raster.width:.12g}\nNODATA_value -9999\n")
+            np.savetxt(file, values, fmt="%.6g")
+    if like.with_suffix(".prj").exists():
+        path.with_suffix(".prj").write_bytes(like.with_suffix(".prj").read_bytes())
+
+
+def _write_geo_tiff(path, raster, values, like):
+    """`values`: those of the raster, -9999 where there is none."""
+    from PIL import Image, TiffImagePlugin  # pylint: disable=import-outside-toplevel
+    with Image.open(like) as image:
+        tags, kinds = dict(image.tag_v2), dict(image.tag_v2.tagtype)
+    directory = TiffImagePlugin.ImageFileDirectory_v2()
+    for tag, value in {**{tag: tags[tag] for tag in GEO_KEYS if tag in tags}, PIXEL_SCALE: (raster.width, raster.width, 0.), NO_DATA: "-9999",
+                       TIE_POINT: (0., 0., 0., raster.x, raster.y + values.shape[0] * raster.width, 0.)}.items():
+        directory.tagtype[tag] = kinds.get(tag, TiffImagePlugin.TiffTags.ASCII)
+        directory[tag] = value
+    Image.fromarray(values.astype(np.float32)).save(path, tiffinfo=directory)
 
 
 def write_raster(path, values, spacing):

@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The file of a study, in TOML: base case, parameters with distributions, sampling, thresholds."""
+
+import difflib
+import os
+import pathlib
+import subprocess
+import tempfile
+import tomllib
+from typing import NamedTuple
+
+import numpy as np
+
+from scree import command, results, variants
+from scree.scenarios import sampling
+
+TABLES = ("set", "parameters", "factors", "thresholds")
+KEYS = ("case", "results", "sampling", "runs", "seed", "quantiles", "levels", "run_out", "run_out_thickness", *TABLES)
+QUANTITIES = {"thickness": "m", "speed": "m/s", "pressure": "Pa"}
+
+
+class Parameter(NamedTuple):
+    """An entry of the case that differs between runs: its value or, if `is_factor`, what multiplies its value or its raster."""
+    entry: str
+    distribution: sampling.Distribution
+    is_factor: bool
+
+    @property
+    def label(self):
+        return self.entry + (", factor" if self.is_factor else "")
+
+
+class Study(NamedTuple):
+    """A study whose entries have been checked; `rows` has the values of the parameters for each run."""
+    file: pathlib.Path
+    case: pathlib.Path
+    folder: pathlib.Path
+    sampling: str
+    fixed: dict
+    parameters: list
+    rows: list
+    thresholds: dict
+    run_out: str
+    run_out_thickness: float
+
+    @property
+    def numbers(self):
+        """The numbers of the runs, as in the names of their files."""
+        digits = max(4, len(str(len(self.rows))))
+        return [f"{number:0{digits}d}" for number in range(1, 1 + len(self.rows))]
+
+    def run(self, number):
+        """The run folder."""
+        return self.folder / "runs" / number
+
+    @property
+    def base(self):
+        return variants.read_entries(self.case)
+
+
+def read(file):
+    """Reads and checks a study. Throws a ValueError with file, entry, value and remedy."""
+    file = pathlib.Path(file)
+    try:
+        given = tomllib.loads(file.read_text(encoding="utf-8"))
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"{file}: {error}. Strings and names with blanks or slashes stand in quotes") from error
+    for key in given:
+        if key not in KEYS:
+            raise _fault(file, key, given[key], f"there is no such entry{_nearest(key, KEYS)}")
+    for key in TABLES:
+        if not isinstance(given.get(key, {}), dict):
+            raise _fault(file, key, given[key], f"write a table, [{key}]")
+    if "case" not in given:
+        raise ValueError(f'{file}: the base case is missing. Write for instance case = "slope.prm"; its path counts from this file')
+    case = file.parent / str(given["case"])
+    if not case.is_file():
+        raise _fault(file, "case", given["case"], f"there is no file {case}. Its path counts from {file.name}")
+    base = variants.read_entries(case)
+    fixed = {key: _text(value) for key, value in given.get("set", {}).items()}
+    parameters = [_parameter(file, table, entry, value) for table in ("parameters", "factors") for entry, value in given.get(table, {}).items()]
+    if not parameters:
+        raise ValueError(f"{file}: no entry differs between the runs. Write one into [parameters] or [factors]")
+    _check_entries(file, base, fixed, parameters)
+    for key, value in fixed.items():
+        _check_file(file, case, base, "set", key, value)
+    fixed = {key: _moved(file, value) for key, value in fixed.items()}
+    fixed = {"Output/Maps/Write": "true", "Output/Graphics": "none", **fixed}
+    kind = given.get("sampling", "Sobol")
+    study = Study(file, case, pathlib.Path(given.get("results", f"results/{file.stem}")), kind, fixed, parameters, _rows(file, given, kind, parameters),
+                  _thresholds(file, given), given.get("run_out", "distance"), _run_out_thickness(file, given, {**base, **fixed}))
+    _check_values(study, base)
+    return study
+
+
+# What is in the file --------------------------------------------------------------------------------------------------
+
+
+def _fault(file, entry, value, text, table=None):
+    place = f"[{table}], " if table else ""
+    return ValueError(f'{file}: {place}entry "{entry}" = {_text(value)}: {text}')
+
+
+def _nearest(name, names):
+    close = difflib.get_close_matches(name, names, 1)
+    return f'. Did you mean "{close[0]}"?' if close else f". Write one of: {', '.join(names)}"
+
+
+def _text(value):
+    """As it stands in a case."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return f"{value:.12g}"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{name} = {_text(one)}" for name, one in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_text, value)) + "]"
+    return str(value)
+
+
+def _parameter(file, table, entry, value):
+    try:
+        distribution = sampling.distribution_of(value)
+    except ValueError as error:
+        raise _fault(file, entry, value, error, table) from error
+    if table == "factors" and distribution.is_list and not all(isinstance(one, (int, float)) for one in distribution.numbers["values"]):
+        raise _fault(file, entry, value, "factors are numbers", table)
+    return Parameter(entry, distribution, table == "factors")
+
+
+def _number(file, given, key, default, least):
+    """A whole number."""
+    value = given.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise _fault(file, key, value, f"write a whole number of at least {least}")
+    return value
+
+
+def _rows(file, given, kind, parameters):
+    distributions = [one.distribution for one in parameters]
+    if kind not in sampling.SAMPLINGS:
+        raise _fault(file, "sampling", kind, f"there is no such sampling{_nearest(str(kind), sampling.SAMPLINGS)}")
+    random = ("Latin hypercube", "Sobol")
+    for key, kinds in (("runs", random), ("seed", random), ("quantiles", ("one at a time",)), ("levels", ("grid",))):
+        if key in given and kind not in kinds:
+            raise _fault(file, key, given[key], f'this entry has no effect with sampling = "{kind}". Remove it')
+    if kind == "one at a time":
+        quantiles = given.get("quantiles", [0.05, 0.95])
+        is_pair = isinstance(quantiles, list) and len(quantiles) == 2 and all(isinstance(one, float) for one in quantiles)
+        if not is_pair or not 0 < quantiles[0] < quantiles[1] < 1:
+            raise _fault(file, "quantiles", quantiles, "write two numbers between 0 and 1, the lower one first, such as [0.05, 0.95]")
+        return sampling.one_at_a_time(distributions, quantiles)
+    if kind == "grid":
+        return sampling.grid(distributions, _number(file, given, "levels", 3, 2))
+    if "runs" not in given:
+        raise ValueError(f'{file}: entry "runs" is missing. Write their number, for instance runs = 64')
+    least, n_runs = len(parameters) + 2, _number(file, given, "runs", 0, 1)
+    if n_runs < least:
+        raise _fault(file, "runs", n_runs, f"too few for {len(parameters)} parameters. Write at least {least}; for probabilities 50 or more")
+    power = 2**int(np.log2(n_runs))
+    if kind == "Sobol" and power != n_runs:
+        raise _fault(file, "runs", n_runs, f'Sobol\'s sequence is balanced for powers of 2. Write {power} or {2 * power}, or sampling = "Latin hypercube"')
+    return sampling.sampled(kind, distributions, n_runs, _number(file, given, "seed", 1, 0))
+
+
+def _thresholds(file, given):
+    found = {}
+    for name, values in given.get("thresholds", {}).items():
+        if name not in QUANTITIES:
+            raise _fault(file, name, values, f"there is no map of it{_nearest(name, list(QUANTITIES))}", "thresholds")
+        values = values if isinstance(values, list) else [values]
+        for value in values:
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < np.inf:
+                raise _fault(file, name, value, f"write a number above 0, in {QUANTITIES[name]}", "thresholds")
+        found[name] = sorted(set(values))
+    return found
+
+
+def _run_out_thickness(file, given, entries):
+    value = given.get("run_out_thickness", float(entries.get("Output/Maps/Least thickness", 0.)))
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < np.inf:
+        raise _fault(file, "run_out_thickness", value, "write a number of at least 0, in m")
+    return value
+
+
+# Entries and values, as the program knows them ------------------------------------------------------------------------
+
+
+def _check_entries(file, base, fixed, parameters):
+    """That the case may have these entries, and none of them twice."""
+    for table, entries in (("set", fixed), ("parameters", [one.entry for one in parameters if not one.is_factor]),
+                           ("factors", [one.entry for one in parameters if one.is_factor])):
+        try:
+            variants.check_entries(base, dict.fromkeys(entries, ""))
+        except ValueError as error:
+            raise ValueError(f"{file}: [{table}]: {error}") from error
+        for entry in entries:
+            if entry == "Output directory":
+                raise ValueError(f'{file}: [{table}], entry "{entry}": the runs have folders of their own. Name that of the study by the entry "results"')
+            if table == "parameters" and entry in fixed:
+                raise ValueError(f'{file}: [{table}], entry "{entry}": it is in [set] as well. Remove one of them')
+
+
+def _moved(file, value):
+    """A value of an entry; the absolute path if it names a file, which counts from the study."""
+    path = file.parent / value
+    return str(path.resolve()) if value and path.is_file() else value
+
+
+def _check_file(file, case, base, table, entry, value):
+    """Throws a ValueError if the case names a file here, and the study one that is not there."""
+    if variants.file_named(case, base.get(entry, "")) and not (file.parent / value).is_file():
+        raise _fault(file, entry, value, f"there is no such file. Its path counts from {file.name}", table)
+
+
+def _check_values(study, base):
+    """That files are there, and that the program reads the case with the extreme values of each parameter, beside medians of the others."""
+    for one in study.parameters:
+        for value in one.distribution.numbers["values"] if one.distribution.is_list and not one.is_factor else ():
+            _check_file(study.file, study.case, base, "parameters", one.entry, _text(value))
+        if one.is_factor:
+            _check_factor(study, one, {**base, **study.fixed}.get(one.entry, ""))
+    middle = sampling.medians([one.distribution for one in study.parameters])
+    for place, one in enumerate(study.parameters):
+        values = [row[place] for row in study.rows]
+        for value in dict.fromkeys(values if one.distribution.is_list else (min(values), max(values))):
+            _ask_program(study, one, value, middle[:place] + [value] + middle[place + 1:])
+
+
+def _check_factor(study, one, value):
+    is_listed = any(other.entry == one.entry and not other.is_factor for other in study.parameters)
+    raster = variants.file_named(study.case, value)
+    try:
+        if raster:
+            results.read_raster(raster)
+        elif not is_listed:
+            float(value)
+    except ValueError as error:
+        raise _fault(study.file, one.entry, one.distribution.text(), f'a factor needs a number or a raster, and the value of the case is "{value}"',
+                     "factors") from error
+    if min(one.distribution.numbers["values"] if one.distribution.is_list else [one.distribution.quantile(0)]) < 0:
+        raise _fault(study.file, one.entry, one.distribution.text(), "a factor below 0 may occur. Set low = 0 or more", "factors")
+
+
+def _ask_program(study, one, value, row):
+    """Throws a ValueError with what the program says of the entries of a run, if it is there to be asked."""
+    program = command.program("scree")
+    if program is None:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        case = pathlib.Path(folder, "case.prm")
+        write_case(study, row, case)
+        done = subprocess.run([program, str(case), "--print-parameters", "Output"], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        table = "factors" if one.is_factor else "parameters"
+        raise _fault(study.file, one.entry, value, "the program refuses the case: "
+                     + " ".join(done.stderr.split()).replace(f"scree: {case}, ", ""), table)
+
+
+# Cases ----------------------------------------------------------------------------------------------------------------
+
+
+def write_case(study, row, target, entries=None):
+    """Writes the case of a run, and the rasters that are multiplied by factors beside it. `entries`: further ones of this run."""
+    target = pathlib.Path(target)
+    base, changed = study.base, {**study.fixed, **(entries or {})}
+    for one, value in sorted(zip(study.parameters, row), key=lambda pair: pair[0].is_factor):
+        before = changed.get(one.entry, base.get(one.entry, ""))
+        if not one.is_factor:
+            changed[one.entry] = _moved(study.file, _text(value))
+            continue
+        raster = variants.file_named(study.case, before)
+        if raster is None:
+            changed[one.entry] = f"{float(before) * value:.9g}"
+        else:
+            scaled = target.with_name(f"{target.stem}_{raster.name}")
+            given = results.read_raster(raster)
+            results.write_map(scaled, given._replace(values=value * given.values), raster)
+            changed[one.entry] = scaled.name
+    variants.write_variant(study.case, target, {entry: os.path.relpath(value, target.parent.resolve()) if os.path.isabs(value) else value
+                                                for entry, value in changed.items()})
