@@ -165,8 +165,9 @@ namespace scree
       if (!law.gap.empty())
         writer.line("error",
                     "not known: " + law.gap +
-                        (law.refinement_helps ? ". Halve the cells and the step, and compare"
-                                              : ". Compare three cell sizes, and report their range"));
+                        (law.remedy.empty() ? ". Halve the cells and the step, and compare" : ""));
+      if (!law.remedy.empty())
+        writer.line("do not refine", law.remedy);
       if (!law.range.empty())
         writer.line("measured in such scenes", law.range);
       const SceneNumbers wanted = with_cell_size(scene, size);

@@ -15,12 +15,12 @@ namespace scree
   /// the smallest error that was measured. Of the run-out it is the largest error that was measured.
   struct ErrorLaw
   {
-    std::string measure;          ///< what the error is of
-    double factor;                ///< relative error at h = H
-    double order;                 ///< order of convergence
-    std::string range     = "";   ///< errors that were measured, and against what
-    std::string gap       = "";   ///< why the law does not decide this scene's error; empty: it does
-    bool refinement_helps = true; ///< false where the error was seen to grow with finer cells
+    std::string measure;     ///< what the error is of
+    double factor;           ///< relative error at h = H
+    double order;            ///< order of convergence
+    std::string range  = ""; ///< errors that were measured, and against what
+    std::string gap    = ""; ///< why the law does not decide this scene's error; empty: it does
+    std::string remedy = ""; ///< why finer cells make it worse, and what to do; empty: they help
 
     static constexpr double smallest = 2e-4; ///< smallest relative error that was measured
 
