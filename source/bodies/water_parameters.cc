@@ -37,11 +37,6 @@ namespace scree
     prm.add_parameter("Viscosity", viscosity, "Pa s; dynamic viscosity of the water; 0: none.", Patterns::Double(0));
     prm.add_parameter(
         "Bulk modulus", bulk_modulus, "Pa; bulk modulus of the water; 0: incompressible.", Patterns::Double(0));
-    prm.add_parameter("Air entry suction",
-                      air_entry_suction,
-                      "Pa; suction up to which capillary menisci at the face of soil keep air out. 0: none, the "
-                      "pressure is 0 at the face.",
-                      Patterns::Double(0));
     prm.add_parameter("Fluidisation porosity",
                       fluidisation_porosity,
                       "Porosity above which soil has no effective stress; 1: never.",

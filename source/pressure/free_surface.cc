@@ -23,14 +23,12 @@ namespace scree
                                 const NodeNumbering<dim> &vertices,
                                 const WaterBoundaryConditions<dim> &walls,
                                 const Tensor<1, dim> &gravity,
-                                const CutCells<dim> *cut_cells,
-                                const bool has_suction)
+                                const CutCells<dim> *cut_cells)
       : grid(grid)
       , vertices(vertices)
       , walls(walls)
       , down(gravity.norm() > 0. ? gravity / gravity.norm() : gravity)
       , cut_cells(cut_cells)
-      , has_suction(has_suction)
       , filling(vertices)
       , neighbours(vertices)
       , sides(vertices)
@@ -228,8 +226,6 @@ namespace scree
     };
     for_all_wet_vertices(mixture, classify);
     close_gaps(mixture, pressure);
-    if (has_suction)
-      hold_suction(mixture, pressure);
 
     // Kinds beside the surface: those with unknown neighbours, then those that have only those.
     neighbours.clear();
@@ -249,60 +245,8 @@ namespace scree
       });
     };
     spread(PressureDofType::unknown, PressureDofType::surface);
-    if (has_suction)
-      seal_faces(mixture);
     neighbours.clear_ghosts();
     spread(PressureDofType::surface, PressureDofType::beyond);
-  }
-
-
-  template <int dim>
-  void FreeSurface<dim>::hold_suction(const Mixture<dim> &mixture, VertexVector &pressure)
-  {
-    sealed.assign(kinds.size(), false);
-    for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
-      if (kinds[vertex] != PressureDofType::dry || distances[vertex] < -1e-9 || !is_in_soil(vertex) ||
-          pressure_of_points(vertex) >= 0.)
-        return;
-      kinds[vertex]                  = PressureDofType::unknown;
-      distances[vertex]              = closures::least_vertex_depth;
-      sealed[vertex]                 = true;
-      pressure.local_element(vertex) = pressure_of_points(vertex);
-    });
-  }
-
-
-  template <int dim>
-  void FreeSurface<dim>::seal_faces(const Mixture<dim> &mixture)
-  {
-    const auto pulls = [&](const unsigned int vertex) { return is_in_soil(vertex) && pressure_of_points(vertex) < 0.; };
-    sides.clear();
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0)
-        {
-          const unsigned int *nodes = vertices.nodes(cell.cell);
-          const auto is_of_kind     = [&](const PressureDofType kind) {
-            return std::any_of(nodes, nodes + cell.n_vertices, [&](const unsigned int v) { return kinds[v] == kind; });
-          };
-          if (!is_of_kind(PressureDofType::surface) || !is_of_kind(PressureDofType::unknown))
-            continue;
-          sides.activate_cell(cell.cell);
-          for (unsigned int v = 0; v < cell.n_vertices; ++v)
-            for (unsigned int w = 0; w < cell.n_vertices; ++w)
-              if (kinds[nodes[v]] == PressureDofType::surface && kinds[nodes[w]] == PressureDofType::unknown)
-                {
-                  sides[nodes[v]][pulls(nodes[w]) ? 0 : 1] += 1.; // neighbours that pull, and others
-                  sides[nodes[w]][0] += pulls(nodes[w]);
-                }
-        }
-    sides.add_contributions();
-    sides.update_ghosts();
-    for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
-      if (kinds[vertex] == PressureDofType::surface)
-        sealed[vertex] = sides[vertex][0] > sides[vertex][1];
-      else if (kinds[vertex] == PressureDofType::unknown && sides[vertex][0] > 0.)
-        sealed[vertex] = true;
-    });
   }
 
 
@@ -310,7 +254,9 @@ namespace scree
   void FreeSurface<dim>::close_gaps(const Mixture<dim> &mixture, VertexVector &pressure)
   {
     const auto may_be_in_gap = [&](const unsigned int vertex) {
-      return kinds[vertex] == PressureDofType::dry && distances[vertex] >= -1e-9 && is_in_soil(vertex);
+      const double *sums = filling[vertex];
+      return kinds[vertex] == PressureDofType::dry && distances[vertex] >= -1e-9 && sums[water] > 0. &&
+             sums[filled] - sums[water] >= closures::least_solid_fraction * sums[filled];
     };
     const auto presses = [&](const unsigned int vertex) { // Across a gap nothing pulls.
       return kinds[vertex] == PressureDofType::unknown && pressure_of_points(vertex) >= 0.;
@@ -383,9 +329,7 @@ namespace scree
         if (kinds[vertex] != target)
           return;
         const double *sums             = neighbours[vertex];
-        pressure.local_element(vertex) = holds_suction(vertex)
-                                             ? sums[sum_of_pressures] / sums[number]
-                                             : distances[vertex] * sums[sum_of_pressures] / sums[sum_of_distances];
+        pressure.local_element(vertex) = distances[vertex] * sums[sum_of_pressures] / sums[sum_of_distances];
       });
     };
     spread(PressureDofType::unknown, PressureDofType::surface);

@@ -85,10 +85,9 @@ namespace scree
       , projection(parameters.projection)
       , bulk_modulus(water.bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
-      , air_entry_suction(water.air_entry_suction)
       , timer(timer)
       , vertices(numbered(grid))
-      , surface(grid, vertices, walls, gravity, cut_cells, water.air_entry_suction > 0.)
+      , surface(grid, vertices, walls, gravity, cut_cells)
       , gaps(grid, vertices, surface)
       , divergence(grid, vertices, surface, gravity.norm(), cut_cells, ground_gaps)
       , solver(grid, vertices, parameters)
@@ -209,10 +208,7 @@ namespace scree
     const SolveReport report = solver.solve(source, pressure, relative_tolerance, change);
     solver.update_preconditioner_age(report);
     count(report, balance);
-    const auto least = [this](const unsigned int vertex) {
-      return surface.holds_suction(vertex) ? std::max(-air_entry_suction, cavitation_pressure) : cavitation_pressure;
-    };
-    const auto [more, n_cavitating] = solver.enforce_lower_bound(least, pressure, change);
+    const auto [more, n_cavitating] = solver.enforce_cavitation_bound(cavitation_pressure, pressure, change);
     count(more, balance);
     balance.n_cavitating += n_cavitating;
     change.update_ghost_values();

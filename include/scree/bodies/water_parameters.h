@@ -46,7 +46,6 @@ namespace scree
     double grain_diameter         = 0;             ///< m; 0: the conductivity says what the drag is
     double viscosity              = 0;             ///< Pa s
     double bulk_modulus           = 0;             ///< Pa; 0: incompressible
-    double air_entry_suction      = 0;             ///< Pa, at the face of soil
     double fluidisation_porosity  = 1;             ///< soil looser than this bears no stress
     double volume_correction_rate = 0;             ///< of free water, 1/s
     std::string initial_pressure  = "hydrostatic"; ///< hydrostatic | none

@@ -33,9 +33,6 @@ namespace scree
   /// is linear and vanishes at the surface, wherever that is in the cell. At the face of soil, vertices no less than
   /// half full between two unknown ones where p is not negative are unknown, too: what closes there, a gap between two
   /// bodies, has the pressure of both.
-  ///
-  /// With suction, the face of soil whose pressure is negative is sealed: nothing flows through it, and those beside it
-  /// hold the mean of their unknown neighbours. The pressure there is bounded by the suction at which air enters.
   template <int dim>
   class FreeSurface
   {
@@ -43,13 +40,11 @@ namespace scree
     /// @param vertices the numbering of linear functions on the grid
     /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
-    /// @param has_suction whether the face of soil holds a negative pressure
     FreeSurface(const BackgroundGrid<dim> &grid,
                 const NodeNumbering<dim> &vertices,
                 const WaterBoundaryConditions<dim> &walls,
                 const dealii::Tensor<1, dim> &gravity,
-                const CutCells<dim> *cut_cells,
-                const bool has_suction);
+                const CutCells<dim> *cut_cells);
 
     /// Fits the surface to the grid's current vertices. Collective.
     void reinit();
@@ -76,13 +71,7 @@ namespace scree
     /// Pressure at `surface_vertex` over that at an unknown vertex of the same cell, as the matrix sees it.
     double ratio(const unsigned int surface_vertex, const unsigned int unknown_vertex) const
     {
-      return holds_suction(surface_vertex) ? 1. : distances[surface_vertex] / depth(unknown_vertex, surface_vertex);
-    }
-
-    /// Whether a vertex lies at a face of soil where the pressure is negative, as no air enters.
-    bool holds_suction(const unsigned int vertex) const
-    {
-      return has_suction && sealed[vertex];
+      return distances[surface_vertex] / depth(unknown_vertex, surface_vertex);
     }
 
     /// Volume of water under the linear function of an owned vertex, m^3.
@@ -203,19 +192,6 @@ namespace scree
       return filling[vertex][weighted_pressure] / filling[vertex][water];
     }
 
-    /// Makes the vertices unknown that are at least half full of soil in which the pressure is negative.
-    void hold_suction(const Mixture<dim> &mixture, VertexVector &pressure);
-
-    /// Marks those beside the surface whose unknown neighbours hold a suction, and these. Collective.
-    void seal_faces(const Mixture<dim> &mixture);
-
-    /// Whether grains fill enough around a vertex of a wet cell to count as soil.
-    bool is_in_soil(const unsigned int vertex) const
-    {
-      const double *sums = filling[vertex];
-      return sums[water] > 0. && sums[filled] - sums[water] >= closures::least_solid_fraction * sums[filled];
-    }
-
     /// Makes the vertices in gaps unknown. Collective.
     void close_gaps(const Mixture<dim> &mixture, VertexVector &pressure);
 
@@ -238,13 +214,11 @@ namespace scree
     const WaterBoundaryConditions<dim> &walls;
     const dealii::Tensor<1, dim> down; // unit, or 0
     const CutCells<dim> *cut_cells;    // may be null
-    const bool has_suction;
-    NodeValues<dim, 6> filling;     // Filling
-    NodeValues<dim, 3> neighbours;  // Neighbours
-    NodeValues<dim, 2 * dim> sides; // number of neighbours that press, on each side along each axis
+    NodeValues<dim, 6> filling;        // Filling
+    NodeValues<dim, 3> neighbours;     // Neighbours
+    NodeValues<dim, 2 * dim> sides;    // number of neighbours that press, on each side along each axis
     std::vector<PressureDofType> kinds;
     std::vector<double> distances; // cells; positive in the water
-    std::vector<char> sealed;      // of vertices at a face that holds a suction; empty without
 
     // Without ground they are empty.
     std::vector<double> closed_volume; // under a vertex's linear function, m^3

@@ -139,7 +139,7 @@ namespace scree
     void count(const SolveReport &report, Budget<dim> &balance) const;
 
     const BackgroundGrid<dim> &grid;
-    const double relative_tolerance, projection, bulk_modulus, cavitation_pressure, air_entry_suction;
+    const double relative_tolerance, projection, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
     NodeNumbering<dim> vertices;

@@ -59,9 +59,8 @@ namespace scree
     /// A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is below. To be
     /// called right after solve(). Collective; throws as solve().
     /// @return what the solves took; the owned vertices that are held at `least`
-    std::pair<SolveReport, unsigned int> enforce_lower_bound(const std::function<double(unsigned int vertex)> &least,
-                                                             const VertexVector &pressure,
-                                                             VertexVector &change);
+    std::pair<SolveReport, unsigned int>
+    enforce_cavitation_bound(const double least, const VertexVector &pressure, VertexVector &change);
 
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void update_preconditioner_age(const SolveReport &report);

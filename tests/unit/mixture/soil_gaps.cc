@@ -62,7 +62,7 @@ unsigned int n_beside(const std::string &basis, const unsigned int axis, std::st
   WaterBoundaryParameters wall_parameters;
   wall_parameters.top = "impermeable";
   const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
-  FreeSurface<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr, false);
+  FreeSurface<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr);
   VertexVector pressure(corners.partitioner());
   surface.locate(mixture, pressure);
   SoilGaps<dim> gaps(grid, corners, surface);

@@ -163,7 +163,7 @@ void test(const std::string &basis, std::ostream &out)
   WaterBoundaryParameters wall_parameters;
   wall_parameters.top = "impermeable";
   const WaterBoundaryConditions<dim> walls(grid, wall_parameters);
-  FreeSurface<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr, false);
+  FreeSurface<dim> surface(grid, corners, walls, Tensor<1, dim>(), nullptr);
   VertexVector pressure(corners.partitioner());
   surface.locate(mixture, pressure);
   double error = 0, unknowns = 0;
