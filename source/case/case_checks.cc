@@ -211,6 +211,11 @@ namespace scree
       body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);
     check_contacts(parameters);
     check_points_of_water(parameters);
+    require_entry(parameters.bed.turbulent_friction == 0. || !parameters.has_water,
+                  "Bed",
+                  "Turbulent friction",
+                  parameters.bed.turbulent_friction,
+                  "it acts on dry soil only. Remove it, or subsection Water.");
     if (parameters.has_water)
       check_water(parameters);
     if (parameters.bodies.empty())

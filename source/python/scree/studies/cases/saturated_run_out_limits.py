@@ -3,10 +3,11 @@
 
 Plan, fixed before the runs:
 
-- Column: 1 m x 1 m of saturated Mohr-Coulomb soil (30 degrees, k = 5e-3 m/s) in air, 3 s, on a fixed base and on one with the friction of the soil,
+- Column: 1 m x 1 m of saturated Mohr-Coulomb soil (30 degrees, k = 5e-3 m/s) in air, 4 s, on a fixed base and on one with the friction of the soil,
   26.6 degrees (tan = sin 30). 10, 14, 20, 28 and 40 cells over the height.
 - Slope: loose Nor-Sand, crest 2 m, height 2 m, 45 degrees, k = 5e-3 m/s, 5 s, on a base of 22.3 degrees. 14, 20, 28 and 40 cells over the height.
-- Transfers: TPIC, AFLIP, FLIP with a PIC rate of 1/s. 3 x 3 points of soil and of water per cell. Boxes of 6 m and 14 m: no point reaches the far wall.
+- Transfers: TPIC, AFLIP, FLIP with a PIC rate of 1/s. 3 x 3 points of soil and of water per cell. Boxes of 12 m and 14 m: no point reaches the far wall.
+- Changed after the first results: the columns' box and time, which were 6 m and 3 s; the front reached the far wall.
 - Quantities: fronts of 90 and 99 % of the mass of the soil; front where the soil is 0.02 H deep (over a width of 0.05 H); height at the axis.
 
 Bounds:
@@ -28,7 +29,7 @@ from scree.studies.study import Claim, Study, Variant
 COLUMN, SLOPE = "column", "slope"
 FIXED, FRICTION = "fixed", "friction"
 FILES = {COLUMN: "prm/columns/column_saturated.prm", SLOPE: "prm/slopes/slope_saturated_loose_friction.prm"}
-BOXES = {COLUMN: (6, 1.5), SLOPE: (14, 2.5)}  # m
+BOXES = {COLUMN: (12, 1.5), SLOPE: (14, 2.5)}  # m
 HEIGHTS = {COLUMN: 1., SLOPE: 2.}  # m
 SIZES = {COLUMN: (10, 14, 20, 28, 40), SLOPE: (14, 20, 28, 40)}  # cells over the height
 BASES = {(COLUMN, FIXED): "fixed", (COLUMN, FRICTION): "friction 26.6", (SLOPE, FRICTION): "friction 22.3"}
@@ -41,7 +42,7 @@ def variant(scene, base, transfer, cells):
     return Variant({"scene": scene, "base": base, "transfer": transfer, "cells": cells},
                    {**TRANSFERS[transfer], "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": corner, "Boundaries/Bottom": BASES[scene, base],
                     "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Graphics": "points", "Output/Interval": 0.5,
-                    "End time": 3 if scene == COLUMN else 5}, FILES[scene])
+                    "End time": 4 if scene == COLUMN else 5}, FILES[scene])
 
 
 def variants():
