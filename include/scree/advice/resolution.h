@@ -37,9 +37,9 @@ namespace scree
     }
   };
 
-  /// The law of a scene's kind: run-out of dry plastic soil, elastic soil under a constant load, free water that falls.
-  /// The run-out of soil with water has no law: its fronts have not converged, and undrained ones diverge. Other scenes
-  /// have lengths of their own. Where there is no law, `gap` says why.
+  /// The law of a scene's kind: run-out of plastic soil, elastic soil under a constant load, free water that falls. The
+  /// run-out of undrained soil, and of soil with water on a base that holds it, has not converged. Other scenes have
+  /// lengths of their own. Where there is no law, `gap` says why.
   ErrorLaw error_law_of(const SceneNumbers &scene);
 
   /// Largest cell size, m, that divides the box and gives at least `cells` (and ten, which the motion needs) over
