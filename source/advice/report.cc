@@ -154,19 +154,21 @@ namespace scree
           writer.line("water points",
                       (choice.sets == PointSets::double_point ? "double: " : "single: ") + choice.reason);
         }
-      const double size = law.gap.empty()
-                              ? cell_size_for(advice.grid, scene.height, law.cells_over_height(advice.accuracy))
-                              : scene.cell_size;
+      const double size       = law.gap.empty() && law.remedy.empty()
+                                    ? cell_size_for(advice.grid, scene.height, law.cells_over_height(advice.accuracy))
+                                    : scene.cell_size;
+      const std::string error = "error up to about " + rounded(law.error(scene.height / scene.cell_size));
       writer.line("cell size",
                   rounded(size) + " m, H/h = " + rounded(scene.height / size) +
-                      (law.gap.empty() ? " (now " + rounded(scene.cell_size) + " m: error up to about " +
-                                             rounded(law.error(scene.height / scene.cell_size)) + ")"
-                                       : " as now: the error is not known"));
+                      (!law.gap.empty()     ? " as now: the error is not known"
+                       : law.remedy.empty() ? " (now " + rounded(scene.cell_size) + " m: " + error + ")"
+                                            : " as now: " + error));
       if (!law.gap.empty())
         writer.line("error",
                     "not known: " + law.gap +
-                        (law.refinement_helps ? ". Halve the cells and the step, and compare"
-                                              : ". Compare three cell sizes, and report their range"));
+                        (law.remedy.empty() ? ". Halve the cells and the step, and compare" : ""));
+      if (!law.remedy.empty())
+        writer.line("do not refine", law.remedy);
       if (!law.range.empty())
         writer.line("measured in such scenes", law.range);
       const SceneNumbers wanted = with_cell_size(scene, size);

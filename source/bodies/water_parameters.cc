@@ -180,7 +180,6 @@ namespace scree
     const std::string remedy =
         "this entry has no effect, as the soil points carry single-point water. Remove it, or write "
         "\"Point sets = double\".";
-    require_entry(points_per_cell == defaults.points_per_cell, "Water", "Points per cell", points_per_cell, remedy);
     require_entry(jitter == defaults.jitter, "Water", "Jitter", jitter, remedy);
     require_entry(volume_correction_rate == defaults.volume_correction_rate,
                   "Water",

@@ -63,6 +63,26 @@ namespace scree
     }
 
 
+    /// Points of single-point water are those of the soil: the entry has no effect.
+    void check_points_of_water(const Parameters &parameters)
+    {
+      const WaterParameters &water = parameters.water;
+      if (!parameters.has_water || water.point_sets_kind() == PointSets::double_point)
+        return;
+      const bool are_those_of_soil =
+          std::any_of(parameters.bodies.begin(), parameters.bodies.end(), [&](const BodyParameters &body) {
+            return body.seeding.points_per_cell == water.points_per_cell;
+          });
+      require_entry(
+          are_those_of_soil || water.points_per_cell == WaterParameters().points_per_cell,
+          "Water",
+          "Points per cell",
+          water.points_per_cell,
+          "this entry has no effect, as the soil points carry single-point water. Remove it, or write \"Point "
+          "sets = double\".");
+    }
+
+
     void check_contacts(const Parameters &parameters)
     {
       parameters.contact_groups();
@@ -190,6 +210,12 @@ namespace scree
     for (const auto &body : parameters.bodies)
       body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);
     check_contacts(parameters);
+    check_points_of_water(parameters);
+    require_entry(parameters.bed.turbulent_friction == 0. || !parameters.has_water,
+                  "Bed",
+                  "Turbulent friction",
+                  parameters.bed.turbulent_friction,
+                  "it acts on dry soil only. Remove it, or subsection Water.");
     if (parameters.has_water)
       check_water(parameters);
     if (parameters.bodies.empty())

@@ -21,6 +21,12 @@ namespace scree
                    friction_angles,
                    "degrees; 3D. Raster (ESRI ASCII grid or GeoTIFF) of the angles, which covers the box; alternative "
                    "to \"Friction angle\".");
+    prm.add_parameter(
+        "Turbulent friction",
+        turbulent_friction,
+        "m/s^2; coefficient xi of the friction of Voellmy, rho g v^2/xi beside that of the angle. 0: none. "
+        "Dry scenes.",
+        Patterns::Double(0));
     prm.leave_subsection();
   }
 
@@ -133,6 +139,9 @@ namespace scree
     require(!is_rough || friction_angle > 0. || !friction_angles.empty(),
             std::make_pair(std::string("Friction angle"), friction_angle),
             "write an angle above 0, in degrees, or \"Type = free slip\".");
+    require(is_rough || turbulent_friction == 0.,
+            std::make_pair(std::string("Turbulent friction"), turbulent_friction),
+            "this entry has no effect. Remove it, or write \"Type = friction\".");
     require(is_set() || n_given == 0,
             given,
             "\"Type = none\" does not take this entry. Choose another type, or remove the entry.");

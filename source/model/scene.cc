@@ -220,10 +220,13 @@ namespace scree
   {
     std::vector<RigidSurface<dim>> surfaces;
     if (bed)
-      surfaces.push_back({ bed.get(),
-                           parameters.bed.friction_coefficient(),
-                           bed_friction ? &*bed_friction : nullptr,
-                           parameters.bed.no_slip() });
+      {
+        surfaces.push_back({ bed.get(),
+                             parameters.bed.friction_coefficient(),
+                             bed_friction ? &*bed_friction : nullptr,
+                             parameters.bed.no_slip() });
+        surfaces.back().turbulent_friction = parameters.bed.turbulent_friction;
+      }
     for (const Obstacle<dim> &obstacle : obstacles)
       surfaces.push_back({ &obstacle.surface, obstacle.friction_coefficient, nullptr, obstacle.no_slip, &obstacle });
     return surfaces;

@@ -42,6 +42,10 @@ namespace scree
         Group &group                  = groups.emplace_back(model, number, gaps_of(model.grid, constraints), timer);
         at_nodes.push_back({ number, &group.soil.field, &constraints });
       }
+    for (const RigidSurface<dim> &surface : model.surfaces)
+      if (surface.turbulent_friction > 0.)
+        turbulent_frictions.emplace_back(
+            model.grid, *surface.samples, surface.turbulent_friction, forces.gravity().norm());
     for (const ContactPair &pair : model.contacts)
       contacts.emplace_back(model.grid, at_nodes[pair.first], at_nodes[pair.second], pair, bodies);
     if (groups.size() > 1)
@@ -101,13 +105,16 @@ namespace scree
 
 
   template <int dim>
-  void ExplicitScheme<dim>::sum_at_nodes(const double time_step)
+  void ExplicitScheme<dim>::sum_at_nodes(const double time_step, Budget<dim> &budget)
   {
     {
       const TimedPart part(timer, TimerSection::points_to_grid);
-      for (Group &group : groups)
+      for (unsigned int number = 0; number < groups.size(); ++number)
         {
+          Group &group = *std::next(groups.begin(), number);
           group.soil.add_loads(0.); // Leapfrog: loads are those of the start of the step.
+          for (const auto &friction : turbulent_frictions)
+            friction.add_to(group.soil.field, bodies, number, time_step, budget);
           group.soil.field.add_contributions();
         }
     }
@@ -122,7 +129,7 @@ namespace scree
   {
     Budget<dim> &budget = report.balance;
 
-    sum_at_nodes(time_step);
+    sum_at_nodes(time_step, budget);
     for (Group &group : groups)
       {
         const TimedPart part(timer, TimerSection::nodes);

@@ -106,6 +106,24 @@ def bed_sliding(scree):
     check("sliding block: largest error of acceleration over g", worst, 0, 3.3e-4)
 
 
+def bed_turbulent(scree):
+    """Voellmy's block: m dv/dt = weight (sin - mu cos) - rho g v^2/xi times its base, from rest to near its terminal velocity."""
+    worst, xi, height = 0, 20., 0.3
+    for theta in ANGLES:
+        for cells in (20, 40):
+            plane = plane_2d(theta, max(theta, 27), OFFSETS[0])
+            table = run_block(scree, "turbulent", plane, 0.1, {"End time": "0.8", "Bed/Turbulent friction": "%g" % xi, "Mesh/Cell size": "%g" % (1 / cells),
+                                                                  "Soil/Points per cell": "3"})
+            speed = plane.column(table, "Momentum", plane.down) / table["Mass (kg)"][0]
+            exact, step = 0., 1e-4
+            for n in range(8000):
+                pull = GRAVITY * min(n * step / 0.1, 1.) * (math.sin(plane.slope) - 0.1 * math.cos(plane.slope))
+                exact = (exact + step * pull) / (1 + step * GRAVITY * exact / (xi * height))
+            worst = max(worst, abs(speed[-1] / exact - 1))
+        check_bed("turbulent friction, %d degrees" % theta, table)
+    check("turbulent friction: largest relative error of the block's speed", worst, 0, 0.01)
+
+
 def bed_rest(scree):
     """Below the angle of friction a block stays where it is."""
     worst = 0

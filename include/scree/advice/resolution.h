@@ -15,12 +15,12 @@ namespace scree
   /// the smallest error that was measured. Of the run-out it is the largest error that was measured.
   struct ErrorLaw
   {
-    std::string measure;          ///< what the error is of
-    double factor;                ///< relative error at h = H
-    double order;                 ///< order of convergence
-    std::string range     = "";   ///< errors that were measured, and against what
-    std::string gap       = "";   ///< why the law does not decide this scene's error; empty: it does
-    bool refinement_helps = true; ///< false where the error was seen to grow with finer cells
+    std::string measure;     ///< what the error is of
+    double factor;           ///< relative error at h = H
+    double order;            ///< order of convergence
+    std::string range  = ""; ///< errors that were measured, and against what
+    std::string gap    = ""; ///< why the law does not decide this scene's error; empty: it does
+    std::string remedy = ""; ///< why finer cells make it worse, and what to do; empty: they help
 
     static constexpr double smallest = 2e-4; ///< smallest relative error that was measured
 
@@ -37,9 +37,9 @@ namespace scree
     }
   };
 
-  /// The law of a scene's kind: run-out of dry plastic soil, elastic soil under a constant load, free water that falls.
-  /// The run-out of soil with water has no law: its fronts have not converged, and undrained ones diverge. Other scenes
-  /// have lengths of their own. Where there is no law, `gap` says why.
+  /// The law of a scene's kind: run-out of plastic soil, elastic soil under a constant load, free water that falls. The
+  /// run-out of undrained soil, and of soil with water on a base that holds it, has not converged. Other scenes have
+  /// lengths of their own. Where there is no law, `gap` says why.
   ErrorLaw error_law_of(const SceneNumbers &scene);
 
   /// Largest cell size, m, that divides the box and gives at least `cells` (and ten, which the motion needs) over

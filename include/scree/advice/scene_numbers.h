@@ -35,6 +35,7 @@ namespace scree
     bool has_changing_forces = false; ///< a load that depends on time, or a body force
 
     bool has_soil   = false;   ///< whether any body can move
+    bool sticks     = false;   ///< on a floor or bed that holds the soil
     bool is_elastic = false;   ///< all bodies are linear elastic
     WaveMedium mean;           ///< means over the volume of the soil
     WaveMedium fastest;        ///< the point with the fastest pressure wave

@@ -37,7 +37,7 @@ namespace scree
   {
     std::string region            = "same";        ///< as the soil, or an expression
     std::string point_sets        = "double";      ///< double | single, see PointSets
-    unsigned int points_per_cell  = 4;             ///< along each axis
+    unsigned int points_per_cell  = 3;             ///< along each axis
     double jitter                 = 0;             ///< over the points' spacing
     double density                = 1000;          ///< kg/m^3
     double conductivity           = 1e-3;          ///< m/s, at the initial porosity; NaN: the entry is no number

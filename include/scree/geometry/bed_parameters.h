@@ -34,6 +34,7 @@ namespace scree
     double friction_angle = 0;                 ///< degrees
     std::map<std::string, std::string> shapes; ///< values by entries, see rigid_shapes(); empty: not given
     std::string friction_angles;               ///< file; of the bed only
+    double turbulent_friction = 0;             ///< xi of Voellmy's law, m/s^2; 0: none; of the bed only
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);

@@ -3,6 +3,7 @@
 #define scree_schemes_explicit_scheme_h
 
 #include <scree/contact/points/point_contact.h>
+#include <scree/contact/points/turbulent_friction.h>
 #include <scree/contact/bodies/body_contact.h>
 #include <scree/momentum/explicit_update.h>
 #include <scree/schemes/model.h>
@@ -46,7 +47,7 @@ namespace scree
     WallGaps<dim> &gaps_of(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
 
     /// Sums of all ranks, with the loads, and walls that act. Collective.
-    void sum_at_nodes(const double time_step);
+    void sum_at_nodes(const double time_step, Budget<dim> &budget);
 
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, Budget<dim> &budget);
@@ -57,7 +58,8 @@ namespace scree
     std::list<WallGaps<dim>> wall_gaps;
     std::list<Group> groups;
     std::list<BodyContact<dim>> contacts;
-    std::unique_ptr<NodalField<dim>> mean_field; // of all groups; null if there is one
+    std::vector<TurbulentFriction<dim>> turbulent_frictions; // of the bed
+    std::unique_ptr<NodalField<dim>> mean_field;             // of all groups; null if there is one
     dealii::TimerOutput &timer;
   };
 } // namespace scree

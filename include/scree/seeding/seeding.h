@@ -21,7 +21,7 @@ namespace scree
     std::string region = "0";             ///< expression; true where the body is
     SourceMapParameters source;           ///< maps that bound the region, too
     std::shared_ptr<const SourceMap> map; ///< of them, once they are read; null without
-    unsigned int points_per_cell = 4;     ///< along each axis
+    unsigned int points_per_cell = 3;     ///< along each axis
     double jitter                = 0;     ///< over the points' spacing
     double grain_density         = 2500;  ///< kg/m^3
     double initial_porosity      = -1;    ///< below 0: as the law says

@@ -23,6 +23,7 @@ namespace scree
     bool no_slip                    = false;   ///< whether free water does not slip
     const Obstacle<dim> *obstacle   = nullptr; ///< whose surface it is; null: the bed
     dealii::Tensor<1, dim> velocity = {};      ///< in the current step, m/s
+    double turbulent_friction       = 0;       ///< xi of TurbulentFriction, m/s^2; 0: none
 
     /// Coefficient of friction at a place, m.
     double friction_at(const dealii::Point<dim> &x) const

@@ -24,7 +24,7 @@ class Topic(NamedTuple):
 # Pages in the order of the list.
 TOPICS = {
     "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "run_out_causes", "dry_slope", "transfer_rate", "granular_dam_break")),
-    "saturated_slopes": Topic("Saturated slopes", ("saturated_slope", "submerged_slope", "pressure_options_slope")),
+    "saturated_slopes": Topic("Saturated slopes", ("saturated_run_out_limits", "saturated_slope", "submerged_slope", "pressure_options_slope")),
     "drained_or_coupled": Topic("Drained, coupled or undrained", ("regimes", "point_sets", "single_point")),
     "consolidation": Topic("Consolidation", ("terzaghi", "large_strain", "pressure_options")),
     "free_water": Topic("Free water", ("dam_break", "surface_position", "points_jitter")),
@@ -32,7 +32,7 @@ TOPICS = {
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
     "soil_models": Topic("Soil models and quality of the stress", ("contours", "triaxial", "nor_sand_density", "low_stress", "bulk_to_shear", "shear_bands")),
-    "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
+    "experiments": Topic("Experiments", ("aluminium_bars", "submerged_beads", "martin_moyce")),
     "cost": Topic("Cost", ("advice", "scaling", "nothing_costs", "peers")),
 }
 

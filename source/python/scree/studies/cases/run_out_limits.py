@@ -116,10 +116,10 @@ def curves(rows):
     return found
 
 
-def halving(group, name):
-    """Relative change from 24 to 48 cells."""
+def halving_of(group, name, cells):
+    """Relative change from this number of cells to twice as many."""
     at = {row["cells"]: row[name] for row in group}
-    return at[48] / at[24] - 1
+    return at[2 * cells] / at[cells] - 1
 
 
 def number(limit):
@@ -170,7 +170,7 @@ def verdict(rows):
     beads = [compared_with_law(of(a=aspect, grains=BEADS), FRONT)[2] for aspect in (0.6, 1, 1.7, 3)]
     claims = [Claim(f"Beads of 22 degrees: the run-out at h = 0 deviates from the law of Lajeunesse et al. by {100 * min(beads):+.0f} to {100 * max(beads):+.0f} %. Bound: 10 %.",
                     max(map(abs, beads)) < 0.1, quick=False)]
-    changes = {(transfer, friction): halving(of(transfer=transfer, friction=friction), TIP) for transfer in TRANSFERS for friction in (WITH, WITHOUT)}
+    changes = {(transfer, friction): halving_of(of(transfer=transfer, friction=friction), TIP, 24) for transfer in TRANSFERS for friction in (WITH, WITHOUT)}
     for friction in (WITH, WITHOUT):
         told = ", ".join(f"{transfer} {100 * changes[transfer, friction]:+.1f} %" for transfer in TRANSFERS)
         worst = max(abs(changes[transfer, friction]) for transfer in TRANSFERS)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Does the run-out of saturated soil have a limit as the cells become smaller, and is it the same for all transfers and bases?
+
+Plan, fixed before the runs:
+
+- Column: 1 m x 1 m of saturated Mohr-Coulomb soil (30 degrees, k = 5e-3 m/s) in air, 4 s, on a fixed base and on one with the friction of the soil,
+  26.6 degrees (tan = sin 30). 10, 14, 20, 28 and 40 cells over the height.
+- Slope: loose Nor-Sand, crest 2 m, height 2 m, 45 degrees, k = 5e-3 m/s, 5 s, on a base of 22.3 degrees. 14, 20, 28 and 40 cells over the height.
+- Transfers: TPIC, AFLIP, FLIP with a PIC rate of 1/s. 3 x 3 points of soil and of water per cell. Boxes of 12 m and 14 m: no point reaches the far wall.
+- Changed after the first results: the columns' box and time, which were 6 m and 3 s; the front reached the far wall.
+- Added after the results: the limits of the front of 90 %.
+- Quantities: fronts of 90 and 99 % of the mass of the soil; front where the soil is 0.02 H deep (over a width of 0.05 H); height at the axis.
+
+Bounds:
+
+- From 20 to 40 cells over the height the front of 99 % changes by less than 3 %, with the transfer of the cases (TPIC).
+- The limits of the three transfers (front of 99 %) are within 3 % of each other.
+
+Value at h = 0: the mean of the least-squares fits with errors in proportion to h and to h^2.
+Its uncertainty is half their distance and the RMS deviation of the worse one.
+"""
+
+import numpy as np
+
+from scree.studies.cases.run_out import Limit
+from scree.studies.cases.run_out_limits import HEIGHT, MASS, TIP, TRANSFERS, depth, halving_of
+from scree.studies.charts import Curves, name_lines
+from scree.studies.study import Claim, Study, Variant
+
+COLUMN, SLOPE = "column", "slope"
+FIXED, FRICTION = "fixed", "friction"
+FILES = {COLUMN: "prm/columns/column_saturated.prm", SLOPE: "prm/slopes/slope_saturated_loose_friction.prm"}
+BOXES = {COLUMN: (12, 1.5), SLOPE: (14, 2.5)}  # m
+HEIGHTS = {COLUMN: 1., SLOPE: 2.}  # m
+SIZES = {COLUMN: (10, 14, 20, 28, 40), SLOPE: (14, 20, 28, 40)}  # cells over the height
+BASES = {(COLUMN, FIXED): "fixed", (COLUMN, FRICTION): "friction 26.6", (SLOPE, FRICTION): "friction 22.3"}
+FRONT = "front 0.02 H"
+
+
+def variant(scene, base, transfer, cells):
+    size = HEIGHTS[scene] / cells
+    corner = ", ".join(f"{np.ceil(round(length / size, 6)) * size:.12g}" for length in BOXES[scene])
+    return Variant({"scene": scene, "base": base, "transfer": transfer, "cells": cells},
+                   {**TRANSFERS[transfer], "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": corner, "Boundaries/Bottom": BASES[scene, base],
+                    "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Graphics": "points", "Output/Interval": 0.5,
+                    "End time": 4 if scene == COLUMN else 5}, FILES[scene])
+
+
+def variants():
+    return [variant(scene, base, transfer, cells) for scene, base in BASES for transfer in TRANSFERS for cells in SIZES[scene]]
+
+
+def measure(run):
+    points, height = run.points(), HEIGHTS[run.labels["scene"]]
+    places = np.arange(0.5 * height, points.positions[:, 0].max() + 0.05 * height, 0.0025 * height)
+    depths = depth(points, places, places + 0.05 * height)
+    potential = run.statistics("Potential energy (J)")
+    return {FRONT: places[np.flatnonzero(depths > 0.02 * height)[-1]] + 0.025 * height, MASS: run.statistics("Front 90 % (m)")[-1],
+            TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, 0., 0.1 * height)[0],
+            "last point (m)": points.positions[:, 0].max(), "p oscillation": np.median(run.statistics("p oscillation (-)")[1:]),
+            "energy lost numerically": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}
+
+
+def curves(rows):
+    """{(scene, base, transfer): rows from the largest cells to the smallest}."""
+    found = {}
+    for row in sorted(rows, key=lambda row: row["cells"]):
+        found.setdefault((row["scene"], row["base"], row["transfer"]), []).append({**row, "h": 1 / row["cells"]})
+    return found
+
+
+def number(limit):
+    return f"{limit.value:.2f} +- {limit.uncertainty:.2f}"
+
+
+def table(rows):
+    found = [["scene", "base", "transfer", "99 %, 20 to 40 cells", "99 %, h = 0 (m)", "90 %, h = 0 (m)", "depth 0.02 H, h = 0 (m)", "height, h = 0 (m)"]]
+    for (scene, base, transfer), group in curves(rows).items():
+        if len(group) == len(SIZES[scene]):
+            found.append([scene, base, transfer, f"{100 * halving_of(group, TIP, 20):+.1f} %", *(number(Limit(group, name)) for name in (TIP, MASS, FRONT, HEIGHT))])
+    return found
+
+
+def apart(limits):
+    """Relative difference of the limits of the transfers."""
+    values = [limit.value for limit in limits.values()]
+    return (max(values) - min(values)) / np.mean(values)
+
+
+def verdict(rows):
+    groups, claims = curves(rows), []
+    for scene, base in BASES:
+        of = {transfer: groups.get((scene, base, transfer), []) for transfer in TRANSFERS}
+        if any(len(group) < len(SIZES[scene]) for group in of.values()):
+            continue
+        changes = {transfer: halving_of(group, TIP, 20) for transfer, group in of.items()}
+        told = ", ".join(f"{transfer} {100 * change:+.1f} %" for transfer, change in changes.items())
+        claims.append(Claim(f"{scene.capitalize()}, base {base}: from 20 to 40 cells the front of 99 % changes by {told}. Bound: 3 % with TPIC.",
+                            abs(changes["TPIC"]) < 0.03, quick=False))
+        for name, percent in ((TIP, 99), (MASS, 90)):
+            limits = {transfer: Limit(group, name) for transfer, group in of.items()}
+            claims.append(Claim(f"{scene.capitalize()}, base {base}: at h = 0 the front of {percent} % is at {', '.join(f'{number(limit)} m ({name})' for name, limit in limits.items())}. "
+                                f"The transfers differ by {100 * apart(limits):.1f} %. Bound: 3 %.", apart(limits) < 0.03, quick=False))
+    farthest = max(row["last point (m)"] / BOXES[row["scene"]][0] for row in rows)
+    claims.append(Claim(f"The farthest point is at {farthest:.2f} of the length of the box. Bound: 0.95.", farthest < 0.95))
+    return claims
+
+
+def draw(figure, rows):
+    groups = curves(rows)
+    for axes, (scene, base) in zip(figure.subplots(1, len(BASES)), BASES):
+        for transfer, style in zip(TRANSFERS, ("C0-", "C1-", "C2-")):
+            group = groups.get((scene, base, transfer), [])
+            axes.plot([row["cells"] for row in group], [row[TIP] for row in group], style, marker="o", markersize=4, label=transfer)
+            axes.plot([row["cells"] for row in group], [row[MASS] for row in group], style.replace("-", "--"))
+        axes.set(xlabel=f"cells over the height ({scene}, base {base})", ylabel="front of 99 % and (dashed) 90 % (m)")
+        name_lines(axes)
+
+
+STUDY = Study(title="Limits of the saturated run-out", question="Does the run-out of saturated soil have a limit, the same for all transfers?",
+              advice="Report the front of 90 % of the mass on a base with friction, and its range of transfers. The front of 99 % is a film that has no limit.",
+              base=FILES[COLUMN], variants=variants(), table=table, measure=measure, verdict=verdict,
+              quick=lambda labels: labels["scene"] == COLUMN and labels["cells"] == 10, chart=Curves(draw))
