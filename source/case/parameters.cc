@@ -4,6 +4,7 @@
 #include <scree/case/map_system.h>
 #include <scree/case/removed_entries.h>
 #include <scree/case/parameters.h>
+#include <scree/seeding/unit_weights.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -67,9 +68,12 @@ namespace scree
               body.seeding.is_fed = body.seeding.is_fed || inflow.body == body.name;
           }
         take_box_from_raster();
+        take_unit_weights();
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();
+        if (has_water)
+          water.read_table(dimension, bed.map_origin);
         time_step.choose_maximum(has_water, size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
@@ -286,13 +290,37 @@ namespace scree
   }
 
 
+  void Parameters::take_unit_weights()
+  {
+    for (const BodyParameters &body : bodies)
+      {
+        const SeedingParameters &seeding = body.seeding;
+        if (!seeding.has_unit_weights())
+          continue;
+        UnitWeights given{ seeding.dry_unit_weight,
+                           seeding.saturated_unit_weight,
+                           seeding.grain_density,
+                           file.sets(body.name, "Grain density"),
+                           {} };
+        if (const double porosity = body.initial_porosity(); porosity > 0 || seeding.initial_porosity >= 0)
+          given.porosity = porosity;
+        const GrainsAndPores result = grains_and_pores(body.name, given, size_of_gravity(), water.density);
+        handler.enter_subsection(body.name);
+        handler.set("Grain density", exact_text({ result.grain_density }));
+        handler.set("Initial porosity", exact_text({ result.porosity }));
+        handler.leave_subsection();
+      }
+  }
+
+
   void Parameters::read_maps()
   {
     std::shared_ptr<const LevelSet<3>> ground; // read once for all bodies
     for (BodyParameters &body : bodies)
       {
         SeedingParameters &seeding = body.seeding;
-        seeding.source.check(body.name, dimension, has_water, bed.is_set());
+        seeding.source.check(
+            body.name, dimension, has_water && !(water.has_levels() && water.reservoir_level.empty()), bed.is_set());
         if (!seeding.source.is_set())
           continue;
         try

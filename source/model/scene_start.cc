@@ -50,6 +50,8 @@ namespace scree
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water);
+    if (parameters.has_water)
+      require_phreatic_surface(parameters.water, bodies, grid);
     for (auto &part : water)
       seed_water(part,
                  parameters.water,
@@ -168,6 +170,7 @@ namespace scree
       {
         const InitialStateParameters &state = entries->initial_state;
         const std::string modulus           = entries->material.modulus_text(body.name);
+        const double k0                     = entries->k0();
         ++entries;
         if (state.stress_kind() != InitialStress::k0)
           {
@@ -181,7 +184,7 @@ namespace scree
               effective_weight_layers<dim>(soil, parameters.has_water ? &parameters.water : nullptr),
               forcing.gravity(),
               grid.cell_size() / 4);
-        set_k0_stress(body, *overburden, state.k0, modulus);
+        set_k0_stress(body, *overburden, k0, modulus);
       }
     if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
         forcing.gravity().norm() > 0)
@@ -189,7 +192,7 @@ namespace scree
         Overburden<dim> water_above(
             grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);
         for (auto &part : water)
-          set_hydrostatic_pressure(part, water_above);
+          set_hydrostatic_pressure(part, water_above, parameters.water.has_levels() ? 1e-2 * grid.cell_size() : 0.);
       }
   }
 

@@ -12,20 +12,55 @@ namespace scree
 {
   using namespace dealii;
 
-  std::vector<WaterPart> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil)
+  template <int dim>
+  std::vector<WaterPart<dim>> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil)
   {
-    const bool as_soil = parameters.is_where_soil_is();
-    std::vector<WaterPart> parts;
-    std::string outside = "(" + parameters.region + ")";
+    const std::string where = entry_name("Water", parameters.place().first);
+    const bool as_soil      = parameters.is_where_soil_is();
+    std::vector<WaterPart<dim>> parts;
+    std::string outside = "(" + parameters.region_outside(dim) + ")";
     for (const SoilRegion &body : soil)
       {
-        parts.push_back(
-            { as_soil ? body.region : "(" + parameters.region + ") && (" + body.region + ")", body.porosity, &body });
+        const std::string inside =
+            as_soil ? body.region : "(" + parameters.region_in_soil(dim) + ") && (" + body.region + ")";
+        parts.push_back({ Region<dim>(where, inside, body.map, parameters.table<dim>()), body.porosity, &body });
         outside += " && (" + body.region + ") == 0";
       }
-    if (!as_soil)
-      parts.push_back({ outside, 1., nullptr });
+    if (!parameters.region_outside(dim).empty())
+      parts.push_back({ Region<dim>(where, outside), 1., nullptr });
     return parts;
+  }
+
+
+  template <int dim>
+  void require_phreatic_surface(const WaterParameters &parameters,
+                                const std::list<SoilBody<dim>> &bodies,
+                                const BackgroundGrid<dim> &grid)
+  {
+    const auto [entry, value] = parameters.place();
+    if (entry.rfind("Phreatic", 0) != 0)
+      return;
+    const Region<dim> wet(entry_name("Water", entry), parameters.region_in_soil(dim), nullptr, parameters.table<dim>());
+    const double top = grid.upper_corner()[dim - 1], bottom = grid.lower_corner()[dim - 1];
+    const double rounding = 1e-6 * grid.cell_size();
+    on_all_ranks(grid.triangulation().get_communicator(), [&] {
+      for (const SoilBody<dim> &body : bodies)
+        for_each_point(body.points, [&](const auto &point) {
+          Point<dim> above = point.location, below = point.location;
+          above[dim - 1]     = top + rounding;
+          below[dim - 1]     = bottom - rounding;
+          const bool is_high = wet.contains(above);
+          if (is_high || !(wet.contains(below) || parameters.table<dim>()))
+            throw ValueError(entry_message("Water",
+                                           entry,
+                                           value,
+                                           std::string("it leaves the box of subsection Mesh ") +
+                                               (is_high ? "through its top" : "through its bottom") + " at " +
+                                               number_text(point.location) +
+                                               " m. Write a larger box, or an elevation from " + number_text(bottom) +
+                                               " (dry) to " + number_text(top) + " m."));
+        });
+    });
   }
 
 
@@ -50,10 +85,7 @@ namespace scree
                          const double cell_size,
                          const LevelSet<dim> *ground)
     {
-      const auto parts = water_parts(parameters, soil);
-      std::vector<Region<dim>> regions;
-      for (const WaterPart &part : parts)
-        regions.emplace_back(entry_name("Water", "Region"), part.region);
+      const auto parts = water_parts<dim>(parameters, soil);
       const auto velocity =
           parameters.initial_velocity.empty()
               ? nullptr
@@ -65,7 +97,7 @@ namespace scree
         Tensor<1, dim> moment; // of the water about the lower corner, m^4
         for (unsigned int i = 0; i < parts.size(); ++i)
           {
-            const auto [volume, centroid] = regions[i].part_of_cube(lower, width, ground);
+            const auto [volume, centroid] = parts[i].region.part_of_cube(lower, width, ground);
             filled[i] += volume;
             sum.filled += volume;
             sum.stays |= volume > 0 && parts[i].soil == nullptr;
@@ -87,11 +119,18 @@ namespace scree
       join_slivers(triangulation, ground, seeds);
 
       Utilities::MPI::sum(filled, communicator, filled);
+      const auto [entry, value] = parameters.place();
+      require_entry(entry.rfind("Phreatic", 0) != 0 ||
+                        std::any_of(filled.begin(), filled.begin() + soil.size(), [](const double v) { return v > 0; }),
+                    "Water",
+                    entry,
+                    value,
+                    "there is no soil below it. Write a higher elevation, or a \"Reservoir level\" alone.");
       require_entry(parameters.is_fed ||
                         std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
                     "Water",
-                    "Region",
-                    parameters.region,
+                    entry,
+                    value,
                     ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
                              "Bed. Move the region, the box or the bed."
                            : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
@@ -140,6 +179,12 @@ namespace scree
       seed_own_points(water, parameters, soil, triangulation, cell_size, ground);
   }
 
+  template std::vector<WaterPart<2>> water_parts<2>(const WaterParameters &, const std::vector<SoilRegion> &);
+  template std::vector<WaterPart<3>> water_parts<3>(const WaterParameters &, const std::vector<SoilRegion> &);
+  template void
+  require_phreatic_surface(const WaterParameters &, const std::list<SoilBody<2>> &, const BackgroundGrid<2> &);
+  template void
+  require_phreatic_surface(const WaterParameters &, const std::list<SoilBody<3>> &, const BackgroundGrid<3> &);
   template void seed_water(WaterPhase<2> &,
                            const WaterParameters &,
                            const std::vector<SoilRegion> &,

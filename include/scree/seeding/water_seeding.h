@@ -2,24 +2,34 @@
 #ifndef scree_seeding_water_seeding_h
 #define scree_seeding_water_seeding_h
 
+#include <scree/mesh/background_grid.h>
 #include <scree/seeding/seeding.h>
 #include <scree/bodies/water_parameters.h>
 #include <scree/bodies/water_phase.h>
 
+#include <list>
 #include <vector>
 
 namespace scree
 {
-  /// A part of the water's region, as an expression, and how much room there is for water.
+  /// A part of the water's region, and how much room there is for water.
+  template <int dim>
   struct WaterPart
   {
-    std::string region;     ///< expression; true inside
+    Region<dim> region;
     double porosity;        ///< 1 outside the soil
     const SoilRegion *soil; ///< null outside
   };
 
   /// The water's region, cut along the surfaces of the soil. Refers to `soil`.
-  std::vector<WaterPart> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil);
+  template <int dim>
+  std::vector<WaterPart<dim>> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil);
+
+  /// Throws EntryError unless the phreatic surface is in the box above and below each point of soil. Collective.
+  template <int dim>
+  void require_phreatic_surface(const WaterParameters &parameters,
+                                const std::list<SoilBody<dim>> &bodies,
+                                const BackgroundGrid<dim> &grid);
 
   /// Throws EntryError unless a body in the water has pores.
   void require_pores(const SoilRegion &soil);
