@@ -13,11 +13,11 @@ namespace scree
   {
     std::vector<typename Overburden<dim>::Layer> layers;
     for (const SoilRegion &body : soil)
-      layers.push_back({ body.template places<dim>(), body.bulk_density });
+      layers.emplace_back(body.template places<dim>(), body.bulk_density);
     if (water && water->initial_pressure_kind() == InitialPressure::hydrostatic)
       for (auto &part : water_parts<dim>(*water, soil))
         if (part.soil)
-          layers.push_back({ std::move(part.region), -(1. - part.porosity) * water->density });
+          layers.emplace_back(std::move(part.region), -(1. - part.porosity) * water->density);
     return layers;
   }
 
@@ -28,11 +28,16 @@ namespace scree
   {
     // Inside and outside of the soil together: a surface between them adds nothing but its error.
     std::vector<typename Overburden<dim>::Layer> layers;
+    if (water.has_levels())
+      layers.emplace_back(water.density);
     if (!water.is_where_soil_is() && !water.has_levels())
-      layers.push_back({ Region<dim>(entry_name("Water", "Region"), water.region), water.density });
+      layers.emplace_back(Region<dim>(entry_name("Water", "Region"), water.region), water.density);
     else
       for (auto &part : water_parts<dim>(water, soil))
-        layers.push_back({ std::move(part.region), water.density });
+        if (water.has_levels())
+          layers.front().regions.push_back(std::move(part.region));
+        else
+          layers.emplace_back(std::move(part.region), water.density);
     return layers;
   }
 

@@ -78,6 +78,17 @@ def drained_slope(scree):
     check("slope with a water table: largest change of p within 0.1 s over rho g H", np.max(np.abs(change)) / (10 * WATER), 0, 0.05)
 
 
+def reservoir(scree):
+    """A reservoir before a slope with the table at its level: hydrostatic, also at the waterline and after the release, within 1 %."""
+    run(scree, "slopes/phreatic", "reservoir", {
+        "Mesh/Cell size": "1", "End time": "0.1", "Output/Graphics": "points", "Water/Phreatic surface": "8", "Water/Reservoir level": "8"})
+    check("reservoir: unbalanced force over weight", settled("reservoir")[0], 0, 1e-3)
+    for time in (0, 0.1):
+        water = read_points("reservoir", time, "water")
+        error = water.arrays["pressure"] - WATER * (8 - water.positions[:, 1])
+        check("reservoir, t = %g s: largest error of p over rho g H" % time, np.max(np.abs(error)) / (8 * WATER), 0, 0.01)
+
+
 def dry_slope_at_rest(scree):
     """A dry Mohr-Coulomb slope of 2:1 with 32 degrees settles and stays at rest: largest speed within 0.5 s below 5 mm/s."""
     table = run(scree, "slopes/first_slope", "dry", {
