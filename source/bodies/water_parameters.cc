@@ -21,24 +21,7 @@ namespace scree
                       "Region of the water, in the pores of the soil and outside: same (wherever soil is), or an "
                       "expression of x, y (z), in m. Without subsection Water the case is dry.",
                       Patterns::Anything());
-    prm.add_parameter("Phreatic surface",
-                      phreatic_surface,
-                      "m; elevation of the water table, an expression of x (3D: x, y). The pores of soil below it are "
-                      "full, and there is no water outside the soil but that of \"Reservoir level\". Alternative to "
-                      "\"Region\". The vertical axis is y (3D: z). Empty: not given.",
-                      Patterns::Anything());
-    add_file_entry(
-        prm,
-        "Phreatic surface file",
-        phreatic_file,
-        "m; alternative to \"Phreatic surface\". 2D: file of points x, y, one per line, with ascending x. 3D: "
-        "raster (ESRI ASCII grid or GeoTIFF) of elevations, dry where values are missing. Beyond its ends "
-        "the surface is level.");
-    prm.add_parameter("Reservoir level",
-                      reservoir_level,
-                      "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
-                      "8, 0.5). Without \"Phreatic surface\" it also fills the pores below it. Empty: no free water.",
-                      Patterns::Anything());
+    add_level_parameters(prm);
     prm.add_parameter(
         "Point sets",
         point_sets,
@@ -78,6 +61,29 @@ namespace scree
                       "Empty: at rest. Double-point only.",
                       Patterns::Anything());
     suspension.add_parameters(prm);
+  }
+
+
+  void WaterParameters::add_level_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Phreatic surface",
+                      phreatic_surface,
+                      "m; elevation of the water table, an expression of x (3D: x, y). The pores of soil below it are "
+                      "full, and there is no water outside the soil but that of \"Reservoir level\". Alternative to "
+                      "\"Region\". The vertical axis is y (3D: z). Empty: not given.",
+                      Patterns::Anything());
+    add_file_entry(
+        prm,
+        "Phreatic surface file",
+        phreatic_file,
+        "m; alternative to \"Phreatic surface\". 2D: file of points x, y, one per line, with ascending x. 3D: "
+        "raster (ESRI ASCII grid or GeoTIFF) of elevations, dry where values are missing. Beyond its ends "
+        "the surface is level.");
+    prm.add_parameter("Reservoir level",
+                      reservoir_level,
+                      "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
+                      "8, 0.5). Without \"Phreatic surface\" it also fills the pores below it. Empty: no free water.",
+                      Patterns::Anything());
   }
 
 

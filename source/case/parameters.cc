@@ -4,7 +4,6 @@
 #include <scree/case/map_system.h>
 #include <scree/case/removed_entries.h>
 #include <scree/case/parameters.h>
-#include <scree/seeding/unit_weights.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -287,29 +286,6 @@ namespace scree
     handler.set("Lower corner", exact_text(lower));
     handler.set("Upper corner", exact_text(upper));
     handler.leave_subsection();
-  }
-
-
-  void Parameters::take_unit_weights()
-  {
-    for (const BodyParameters &body : bodies)
-      {
-        const SeedingParameters &seeding = body.seeding;
-        if (!seeding.has_unit_weights())
-          continue;
-        UnitWeights given{ seeding.dry_unit_weight,
-                           seeding.saturated_unit_weight,
-                           seeding.grain_density,
-                           file.sets(body.name, "Grain density"),
-                           {} };
-        if (const double porosity = body.initial_porosity(); porosity > 0 || seeding.initial_porosity >= 0)
-          given.porosity = porosity;
-        const GrainsAndPores result = grains_and_pores(body.name, given, size_of_gravity(), water.density);
-        handler.enter_subsection(body.name);
-        handler.set("Grain density", exact_text({ result.grain_density }));
-        handler.set("Initial porosity", exact_text({ result.porosity }));
-        handler.leave_subsection();
-      }
   }
 
 

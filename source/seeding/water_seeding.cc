@@ -32,38 +32,6 @@ namespace scree
   }
 
 
-  template <int dim>
-  void require_phreatic_surface(const WaterParameters &parameters,
-                                const std::list<SoilBody<dim>> &bodies,
-                                const BackgroundGrid<dim> &grid)
-  {
-    const auto [entry, value] = parameters.place();
-    if (entry.rfind("Phreatic", 0) != 0)
-      return;
-    const Region<dim> wet(entry_name("Water", entry), parameters.region_in_soil(dim), nullptr, parameters.table<dim>());
-    const double top = grid.upper_corner()[dim - 1], bottom = grid.lower_corner()[dim - 1];
-    const double rounding = 1e-6 * grid.cell_size();
-    on_all_ranks(grid.triangulation().get_communicator(), [&] {
-      for (const SoilBody<dim> &body : bodies)
-        for_each_point(body.points, [&](const auto &point) {
-          Point<dim> above = point.location, below = point.location;
-          above[dim - 1]     = top + rounding;
-          below[dim - 1]     = bottom - rounding;
-          const bool is_high = wet.contains(above);
-          if (is_high || !(wet.contains(below) || parameters.table<dim>()))
-            throw ValueError(entry_message("Water",
-                                           entry,
-                                           value,
-                                           std::string("it leaves the box of subsection Mesh ") +
-                                               (is_high ? "through its top" : "through its bottom") + " at " +
-                                               number_text(point.location) +
-                                               " m. Write a larger box, or an elevation from " + number_text(bottom) +
-                                               " (dry) to " + number_text(top) + " m."));
-        });
-    });
-  }
-
-
   void require_pores(const SoilRegion &soil)
   {
     require_entry(soil.porosity > 0,
@@ -77,6 +45,31 @@ namespace scree
 
   namespace
   {
+    /// Throws EntryError if the water's region holds no volume, or a phreatic surface none in soil.
+    /// @param filled volumes of the parts, m^3; those in the `n_bodies` bodies come first
+    void require_water(const WaterParameters &parameters,
+                       const std::vector<double> &filled,
+                       const std::size_t n_bodies,
+                       const bool has_ground)
+    {
+      const auto [entry, value] = parameters.place();
+      require_entry(entry.rfind("Phreatic", 0) != 0 ||
+                        std::any_of(filled.begin(), filled.begin() + n_bodies, [](const double v) { return v > 0; }),
+                    "Water",
+                    entry,
+                    value,
+                    "there is no soil below it. Write a higher elevation, or a \"Reservoir level\" alone.");
+      require_entry(parameters.is_fed ||
+                        std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
+                    "Water",
+                    entry,
+                    value,
+                    has_ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
+                                 "Bed. Move the region, the box or the bed."
+                               : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
+    }
+
+
     template <int dim>
     void seed_own_points(WaterPhase<dim> &water,
                          const WaterParameters &parameters,
@@ -119,21 +112,7 @@ namespace scree
       join_slivers(triangulation, ground, seeds);
 
       Utilities::MPI::sum(filled, communicator, filled);
-      const auto [entry, value] = parameters.place();
-      require_entry(entry.rfind("Phreatic", 0) != 0 ||
-                        std::any_of(filled.begin(), filled.begin() + soil.size(), [](const double v) { return v > 0; }),
-                    "Water",
-                    entry,
-                    value,
-                    "there is no soil below it. Write a higher elevation, or a \"Reservoir level\" alone.");
-      require_entry(parameters.is_fed ||
-                        std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
-                    "Water",
-                    entry,
-                    value,
-                    ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
-                             "Bed. Move the region, the box or the bed."
-                           : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
+      require_water(parameters, filled, soil.size(), ground != nullptr);
       for (unsigned int i = 0; i < parts.size(); ++i)
         if (parts[i].soil && filled[i] > 0)
           require_pores(*parts[i].soil);
@@ -181,10 +160,6 @@ namespace scree
 
   template std::vector<WaterPart<2>> water_parts<2>(const WaterParameters &, const std::vector<SoilRegion> &);
   template std::vector<WaterPart<3>> water_parts<3>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template void
-  require_phreatic_surface(const WaterParameters &, const std::list<SoilBody<2>> &, const BackgroundGrid<2> &);
-  template void
-  require_phreatic_surface(const WaterParameters &, const std::list<SoilBody<3>> &, const BackgroundGrid<3> &);
   template void seed_water(WaterPhase<2> &,
                            const WaterParameters &,
                            const std::vector<SoilRegion> &,

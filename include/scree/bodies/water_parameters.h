@@ -108,6 +108,7 @@ namespace scree
     }
 
   private:
+    void add_level_parameters(dealii::ParameterHandler &prm);
     void add_drag_parameters(dealii::ParameterHandler &prm);
     void check_single_point() const;
     void check_without_soil() const;

@@ -2,6 +2,8 @@
 #ifndef scree_initial_initial_state_h
 #define scree_initial_initial_state_h
 
+#include <scree/bodies/drainage.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <optional>
@@ -37,13 +39,6 @@ namespace scree
     /// Entry `K0` as a number; auto: 1 - sin(phi) of normally consolidated soil (@source{jaky1944}), 0.5 without an
     /// angle.
     double k0_ratio(const std::optional<double> &sine_of_friction) const;
-  };
-
-  /// What the pore water does while the soil settles.
-  enum class Drainage
-  {
-    undrained, ///< it moves, and its pressure follows from the motion
-    drained    ///< it keeps its place and its pressure
   };
 
   /// Subsection Settling: motion under gravity with damping, before the release at t = 0.

@@ -2,7 +2,7 @@
 #ifndef scree_schemes_scheme_h
 #define scree_schemes_scheme_h
 
-#include <scree/initial/initial_state.h>
+#include <scree/bodies/drainage.h>
 #include <scree/momentum/nodal_forces.h>
 #include <scree/step/step_report.h>
 #include <scree/transfer/water_view.h>

@@ -10,7 +10,8 @@ namespace scree
   /// Unit weights of a soil, and what else its subsection says of grains and pores.
   struct UnitWeights
   {
-    double dry = 0, saturated = 0;  ///< N/m^3; 0: not given
+    double dry             = 0,     ///< N/m^3; 0: not given
+        saturated          = 0;     ///< N/m^3; 0: not given
     double grain_density   = 0;     ///< kg/m^3, of the entry or its default
     bool has_grain_density = false; ///< whether the file has the entry
     std::optional<double> porosity; ///< of the entry or of the law

@@ -2,12 +2,10 @@
 #ifndef scree_seeding_water_seeding_h
 #define scree_seeding_water_seeding_h
 
-#include <scree/mesh/background_grid.h>
 #include <scree/seeding/seeding.h>
 #include <scree/bodies/water_parameters.h>
 #include <scree/bodies/water_phase.h>
 
-#include <list>
 #include <vector>
 
 namespace scree
@@ -16,7 +14,7 @@ namespace scree
   template <int dim>
   struct WaterPart
   {
-    Region<dim> region;
+    Region<dim> region;     ///< place of the water
     double porosity;        ///< 1 outside the soil
     const SoilRegion *soil; ///< null outside
   };
@@ -24,12 +22,6 @@ namespace scree
   /// The water's region, cut along the surfaces of the soil. Refers to `soil`.
   template <int dim>
   std::vector<WaterPart<dim>> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil);
-
-  /// Throws EntryError unless the phreatic surface is in the box above and below each point of soil. Collective.
-  template <int dim>
-  void require_phreatic_surface(const WaterParameters &parameters,
-                                const std::list<SoilBody<dim>> &bodies,
-                                const BackgroundGrid<dim> &grid);
 
   /// Throws EntryError unless a body in the water has pores.
   void require_pores(const SoilRegion &soil);
