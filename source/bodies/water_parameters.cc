@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/height_surface.h>
+#include <scree/geometry/profile.h>
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
+#include <scree/input/named_file.h>
 #include <scree/particles/region.h>
 #include <scree/bodies/water_parameters.h>
 
@@ -18,6 +21,7 @@ namespace scree
                       "Region of the water, in the pores of the soil and outside: same (wherever soil is), or an "
                       "expression of x, y (z), in m. Without subsection Water the case is dry.",
                       Patterns::Anything());
+    add_level_parameters(prm);
     prm.add_parameter(
         "Point sets",
         point_sets,
@@ -60,6 +64,29 @@ namespace scree
   }
 
 
+  void WaterParameters::add_level_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Phreatic surface",
+                      phreatic_surface,
+                      "m; elevation of the water table, an expression of x (3D: x, y). The pores of soil below it are "
+                      "full, and there is no water outside the soil but that of \"Reservoir level\". Alternative to "
+                      "\"Region\". The vertical axis is y (3D: z). Empty: not given.",
+                      Patterns::Anything());
+    add_file_entry(
+        prm,
+        "Phreatic surface file",
+        phreatic_file,
+        "m; alternative to \"Phreatic surface\". 2D: file of points x, y, one per line, with ascending x. 3D: "
+        "raster (ESRI ASCII grid or GeoTIFF) of elevations, dry where values are missing. Beyond its ends "
+        "the surface is level.");
+    prm.add_parameter("Reservoir level",
+                      reservoir_level,
+                      "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
+                      "8, 0.5). Without \"Phreatic surface\" it also fills the pores below it. Empty: no free water.",
+                      Patterns::Anything());
+  }
+
+
   void WaterParameters::add_drag_parameters(ParameterHandler &prm)
   {
     prm.declare_entry("Hydraulic conductivity",
@@ -94,15 +121,18 @@ namespace scree
         "there is no soil, as entry \"Bodies\" is none. Write where the water is, for instance x < 1 && y < 1");
     const std::string where_region = entry_name("Water", "Region");
     const std::string where_speed  = entry_name("Water", "Initial velocity");
-    if (!is_where_soil_is() && dim == 2)
+    const bool is_expression       = region != WaterParameters().region;
+    if (is_expression && dim == 2)
       Region<2>(where_region, region);
-    if (!is_where_soil_is() && dim == 3)
+    if (is_expression && dim == 3)
       Region<3>(where_region, region);
     if (!initial_velocity.empty() && dim == 2)
       parse_expression<2>(where_speed, initial_velocity, 2);
     if (!initial_velocity.empty() && dim == 3)
       parse_expression<3>(where_speed, initial_velocity, 3);
 
+    if (has_levels())
+      check_levels(gravity, n_bodies);
     if (point_sets_kind() == PointSets::single_point)
       check_single_point();
     if (n_bodies == 0)
@@ -173,8 +203,8 @@ namespace scree
     const WaterParameters defaults;
     require_entry(is_where_soil_is(),
                   "Water",
-                  "Region",
-                  region,
+                  place().first,
+                  place().second,
                   "the soil points carry single-point water. Write \"Region = same\", or "
                   "\"Point sets = double\".");
     const std::string remedy =
@@ -187,6 +217,40 @@ namespace scree
                   volume_correction_rate,
                   remedy);
     require_entry(initial_velocity == defaults.initial_velocity, "Water", "Initial velocity", initial_velocity, remedy);
+  }
+
+
+  void WaterParameters::check_levels(const std::vector<double> &gravity, const unsigned int n_bodies) const
+  {
+    const std::size_t dim         = gravity.size();
+    const auto [entry, elevation] = place();
+    require_entry(region == WaterParameters().region,
+                  "Water",
+                  "Region",
+                  region,
+                  quoted(entry) + " = " + elevation + " says where water is, too. Keep one of the two.");
+    require_entry(phreatic_surface.empty() || phreatic_file.empty(),
+                  "Water",
+                  "Phreatic surface file",
+                  phreatic_file,
+                  "the surface is given twice. Keep one of \"Phreatic surface\" and \"Phreatic surface file\".");
+    require_entry(n_bodies > 0 || (phreatic_surface.empty() && phreatic_file.empty()),
+                  "Water",
+                  entry,
+                  elevation,
+                  "there is no soil, as entry \"Bodies\" is none. Write a \"Reservoir level\".");
+    require_entry(gravity.back() < 0 && std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(dim),
+                  "Water",
+                  entry,
+                  elevation,
+                  std::string("an elevation needs gravity along -") + "xyz"[dim - 1] +
+                      ", but entry \"Gravity\" = " + number_text(gravity) + ". Change it, or write a \"Region\".");
+    for (const auto &[name, text] :
+         { std::make_pair("Phreatic surface", phreatic_surface), std::make_pair("Reservoir level", reservoir_level) })
+      if (!text.empty() && dim == 2)
+        parse_expression<2>(entry_name("Water", name), text, 1, false, "8 - 0.2*x");
+      else if (!text.empty())
+        parse_expression<3>(entry_name("Water", name), text, 1, false, "8 - 0.2*x");
   }
 
 
@@ -210,6 +274,59 @@ namespace scree
 
   bool WaterParameters::is_where_soil_is() const
   {
-    return region == "same";
+    return region == "same" && !has_levels();
+  }
+
+
+  bool WaterParameters::has_levels() const
+  {
+    return !(phreatic_surface.empty() && phreatic_file.empty() && reservoir_level.empty());
+  }
+
+
+  std::pair<std::string, std::string> WaterParameters::place() const
+  {
+    if (!phreatic_surface.empty())
+      return { "Phreatic surface", phreatic_surface };
+    if (!phreatic_file.empty())
+      return { "Phreatic surface file", phreatic_file };
+    if (!reservoir_level.empty())
+      return { "Reservoir level", reservoir_level };
+    return { "Region", region };
+  }
+
+
+  namespace
+  {
+    std::string below(const std::string &elevation, const unsigned int dim)
+    {
+      return (dim == 2 ? "y < (" : "z < (") + elevation + ")";
+    }
+  } // namespace
+
+
+  std::string WaterParameters::region_in_soil(const unsigned int dim) const
+  {
+    if (!phreatic_file.empty())
+      return "1";
+    return has_levels() ? below(place().second, dim) : region;
+  }
+
+
+  std::string WaterParameters::region_outside(const unsigned int dim) const
+  {
+    if (!has_levels())
+      return is_where_soil_is() ? "" : region;
+    return reservoir_level.empty() ? "" : below(reservoir_level, dim);
+  }
+
+
+  void WaterParameters::read_table(const unsigned int dim, const Point<2> &map_origin)
+  {
+    const std::string where = entry_name("Water", "Phreatic surface file");
+    if (!phreatic_file.empty() && dim == 2)
+      std::get<0>(tables) = std::make_shared<const Profile>(read_profile(phreatic_file, where));
+    else if (!phreatic_file.empty())
+      std::get<1>(tables) = std::make_shared<const HeightSurface>(read_raster(phreatic_file, where, map_origin));
   }
 } // namespace scree

@@ -60,6 +60,12 @@ namespace scree
   }
 
 
+  double BodyParameters::k0() const
+  {
+    return initial_state.k0_ratio(material.chosen().sine_of_friction());
+  }
+
+
   double BodyParameters::wave_speed() const
   {
     const auto law = make_material<2>(material);

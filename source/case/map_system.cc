@@ -30,6 +30,7 @@ namespace scree
           add(body.name, "Upper surface", source.upper_surface);
           add(body.name, "Lower surface", source.lower_surface);
         }
+      add("Water", "Phreatic surface file", parameters.water.phreatic_file);
       return result;
     }
   } // namespace

@@ -237,8 +237,8 @@ namespace scree
           cells_in(soil[i].template places<dim>()) * std::pow(parameters.bodies[i].seeding.points_per_cell, dim);
     double n_wet_cells = 0, n_entered_water = 0;
     if (parameters.has_water)
-      for (const WaterPart &part : water_parts(parameters.water, soil))
-        n_wet_cells += cells_in(Region<dim>(entry_name("Water", "Region"), part.region));
+      for (const auto &part : water_parts<dim>(parameters.water, soil))
+        n_wet_cells += cells_in(part.region);
     double n_entered_cells = 0; // full of what enters
     for (const InflowParameters &inflow : parameters.inflows)
       {

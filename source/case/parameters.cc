@@ -67,9 +67,12 @@ namespace scree
               body.seeding.is_fed = body.seeding.is_fed || inflow.body == body.name;
           }
         take_box_from_raster();
+        take_unit_weights();
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();
+        if (has_water)
+          water.read_table(dimension, bed.map_origin);
         time_step.choose_maximum(has_water, size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
@@ -292,7 +295,8 @@ namespace scree
     for (BodyParameters &body : bodies)
       {
         SeedingParameters &seeding = body.seeding;
-        seeding.source.check(body.name, dimension, has_water, bed.is_set());
+        seeding.source.check(
+            body.name, dimension, has_water && !(water.has_levels() && water.reservoir_level.empty()), bed.is_set());
         if (!seeding.source.is_set())
           continue;
         try

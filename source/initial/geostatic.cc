@@ -42,7 +42,9 @@ namespace scree
         const auto inside = [&](const double height) {
           Point<dim> y = x;
           y[axis]      = up * height;
-          return layer.region.contains(y);
+          return std::any_of(layer.regions.begin(), layer.regions.end(), [&](const Region<dim> &region) {
+            return region.contains(y);
+          });
         };
         // A sample may fall on the surface: what was found there must not be asked for again, with other rounding.
         const auto boundary_between = [&](double a, double b, const bool inside_at_a) {

@@ -17,7 +17,11 @@ namespace scree
                       "Stress at the start. none: no stress. K0: vertical stress from the weight above the point, "
                       "horizontal stress K0 times that. isotropic: \"Pressure\".",
                       Patterns::Selection("none|K0|isotropic"));
-    prm.add_parameter("K0", k0, "Ratio of horizontal to vertical stress.", Patterns::Double(0, 10));
+    prm.add_parameter("K0",
+                      k0,
+                      "Ratio of horizontal to vertical effective stress, from 0 to 10. auto: 1 - sin(phi) with the "
+                      "friction angle of the law (Nor-Sand: the critical one), 0.5 if it has none.",
+                      Patterns::Anything());
     prm.add_parameter("Pressure", pressure, "Pa; isotropic stress, compression positive.", Patterns::Double(0));
     prm.leave_subsection();
   }
@@ -34,6 +38,8 @@ namespace scree
                   pressure,
                   is_isotropic ? "an isotropic start needs a pressure above 0, in Pa."
                                : "this entry has no effect. Remove it, or write \"Type = isotropic\".");
+    const double ratio = k0_ratio({});
+    require_entry(ratio >= 0 && ratio <= 10, subsection, "K0", k0, "write auto, or a number from 0 to 10.");
     require_entry(is_k0 || k0 == defaults.k0,
                   subsection,
                   "K0",
@@ -54,19 +60,42 @@ namespace scree
   }
 
 
+  double InitialStateParameters::k0_ratio(const std::optional<double> &sine_of_friction) const
+  {
+    if (k0 != "auto")
+      return number_of(k0);
+    return sine_of_friction ? 1. - *sine_of_friction : 0.5;
+  }
+
+
   void SettlingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
+    prm.add_parameter("Type",
+                      type,
+                      "undrained: water moves with the soil, and its pressure follows from the motion. drained: water "
+                      "keeps its place and its initial pressure; the soil carries its effective weight and the seepage "
+                      "force of that pressure.",
+                      Patterns::Selection("undrained|drained"));
     prm.add_parameter(
         "Maximum time",
         maximum_time,
         "s; longest duration of the damped motion under gravity before the release at t = 0; 0: no settling.",
         Patterns::Double(0));
-    prm.add_parameter(
-        "Damping rate", damping_rate, "1/s; decay rate of the velocity during settling.", Patterns::Double(0));
+    prm.add_parameter("Damping rate",
+                      damping_rate,
+                      "1/s; decay rate of the velocity during undrained settling. Drained settling stops all where the "
+                      "kinetic energy "
+                      "is largest.",
+                      Patterns::Double(0));
     prm.add_parameter("Kinetic energy",
                       kinetic_energy,
-                      "Ratio of kinetic to elastic energy below which settling ends.",
+                      "Ratio of kinetic to elastic energy below which undrained settling ends.",
+                      Patterns::Double(0, 1));
+    prm.add_parameter("Unbalanced force",
+                      unbalanced_force,
+                      "Ratio of unbalanced force to weight, root mean square over the nodes, below which drained "
+                      "settling ends.",
                       Patterns::Double(0, 1));
     prm.add_parameter("Gate",
                       gate,
@@ -90,9 +119,37 @@ namespace scree
                   "Gate",
                   gate,
                   "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
+    const SettlingParameters defaults;
+    const bool is_drained = drainage() == Drainage::drained;
+    require_entry(!is_drained || maximum_time > 0,
+                  "Settling",
+                  "Type",
+                  type,
+                  "settling has no time. Write a \"Maximum time\" above 0, in s.");
+    require_entry(!is_drained || kinetic_energy == defaults.kinetic_energy,
+                  "Settling",
+                  "Kinetic energy",
+                  kinetic_energy,
+                  "drained settling ends by \"Unbalanced force\". Write that, or \"Type = undrained\".");
+    require_entry(!is_drained || damping_rate == defaults.damping_rate,
+                  "Settling",
+                  "Damping rate",
+                  damping_rate,
+                  "drained settling has no rate. Remove the entry, or write \"Type = undrained\".");
+    require_entry(is_drained || unbalanced_force == defaults.unbalanced_force,
+                  "Settling",
+                  "Unbalanced force",
+                  unbalanced_force,
+                  "undrained settling ends by \"Kinetic energy\". Write that, or \"Type = drained\".");
     if (!gate.empty() && dim == 2)
       Region<2>(entry_name("Settling", "Gate"), gate);
     if (!gate.empty() && dim == 3)
       Region<3>(entry_name("Settling", "Gate"), gate);
+  }
+
+
+  Drainage SettlingParameters::drainage() const
+  {
+    return type == "drained" ? Drainage::drained : Drainage::undrained;
   }
 } // namespace scree

@@ -13,12 +13,11 @@ namespace scree
   {
     std::vector<typename Overburden<dim>::Layer> layers;
     for (const SoilRegion &body : soil)
-      layers.push_back({ body.template places<dim>(), body.bulk_density });
+      layers.emplace_back(body.template places<dim>(), body.bulk_density);
     if (water && water->initial_pressure_kind() == InitialPressure::hydrostatic)
-      for (const WaterPart &part : water_parts(*water, soil))
+      for (auto &part : water_parts<dim>(*water, soil))
         if (part.soil)
-          layers.push_back(
-              { Region<dim>(entry_name("Water", "Region"), part.region), -(1. - part.porosity) * water->density });
+          layers.emplace_back(std::move(part.region), -(1. - part.porosity) * water->density);
     return layers;
   }
 
@@ -28,25 +27,56 @@ namespace scree
                                                             const std::vector<SoilRegion> &soil)
   {
     // Inside and outside of the soil together: a surface between them adds nothing but its error.
-    const std::string where = entry_name("Water", "Region");
     std::vector<typename Overburden<dim>::Layer> layers;
-    if (!water.is_where_soil_is())
-      layers.push_back({ Region<dim>(where, water.region), water.density });
+    if (water.has_levels())
+      layers.emplace_back(water.density);
+    if (!water.is_where_soil_is() && !water.has_levels())
+      layers.emplace_back(Region<dim>(entry_name("Water", "Region"), water.region), water.density);
     else
-      for (const WaterPart &part : water_parts(water, soil))
-        layers.push_back({ Region<dim>(where, part.region), water.density });
+      for (auto &part : water_parts<dim>(water, soil))
+        if (water.has_levels())
+          layers.front().regions.push_back(std::move(part.region));
+        else
+          layers.emplace_back(std::move(part.region), water.density);
     return layers;
   }
 
 
-  template <int dim>
-  void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden)
+  namespace
   {
-    const Tensor<1, dim> gradient = water.density * water_overburden.gravity_vector();
-    const auto &layout            = water.layout;
+    /// Horizontal gradient, Pa/m, of the weight above a place with the weight `here`; one-sided beside a face, behind
+    /// which there is no water.
+    template <int dim>
+    Tensor<1, dim>
+    horizontal_gradient(Overburden<dim> &overburden, const Point<dim> &x, const double here, const double reach)
+    {
+      Tensor<1, dim> gradient;
+      for (unsigned int a = 0; a < dim; ++a)
+        if (a != overburden.vertical_axis())
+          {
+            const Tensor<1, dim> way = reach * Point<dim>::unit_vector(a);
+            const double before = overburden.weight_above(x - way), behind = overburden.weight_above(x + way);
+            const double first = before > 0 ? before : here, last = behind > 0 ? behind : here;
+            const int n_sides = (before > 0) + (behind > 0);
+            gradient[a]       = n_sides > 0 ? (last - first) / (n_sides * reach) : 0.;
+          }
+      return gradient;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden, const double reach)
+  {
+    const Tensor<1, dim> weight = water.density * water_overburden.gravity_vector();
+    const auto &layout          = water.layout;
     on_all_ranks(water_overburden.communicator(), [&] {
       for_each_point(water.points(), [&](const auto &point) {
-        point.properties[layout.pressure] = water_overburden.weight_above(point.location);
+        const double pressure             = water_overburden.weight_above(point.location);
+        point.properties[layout.pressure] = pressure;
+        Tensor<1, dim> gradient           = weight;
+        if (reach > 0)
+          gradient += horizontal_gradient(water_overburden, point.location, pressure, reach);
         for (unsigned int a = 0; a < dim; ++a)
           point.properties[layout.pressure_gradient + a] = gradient[a];
       });
@@ -59,6 +89,6 @@ namespace scree
                                                                         const WaterParameters *);
   template std::vector<Overburden<2>::Layer> water_layers<2>(const WaterParameters &, const std::vector<SoilRegion> &);
   template std::vector<Overburden<3>::Layer> water_layers<3>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template void set_hydrostatic_pressure(WaterPhase<2> &, Overburden<2> &);
-  template void set_hydrostatic_pressure(WaterPhase<3> &, Overburden<3> &);
+  template void set_hydrostatic_pressure(WaterPhase<2> &, Overburden<2> &, const double);
+  template void set_hydrostatic_pressure(WaterPhase<3> &, Overburden<3> &, const double);
 } // namespace scree

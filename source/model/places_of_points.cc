@@ -22,8 +22,8 @@ namespace scree
     for (unsigned int i = 0; i < soil.size(); ++i)
       parts->push_back({ soil[i].template places<dim>(), parameters.bodies[i].seeding.points_per_cell });
     if (parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point)
-      for (const WaterPart &part : water_parts(parameters.water, soil))
-        parts->push_back({ Region<dim>(entry_name("Water", "Region"), part.region), parameters.water.points_per_cell });
+      for (auto &part : water_parts<dim>(parameters.water, soil))
+        parts->push_back({ std::move(part.region), parameters.water.points_per_cell });
     struct Section // of an inflow
     {
       Region<dim> region;

@@ -41,6 +41,43 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Throws EntryError unless the phreatic surface is in the box above and below each point of soil. Collective.
+    template <int dim>
+    void require_phreatic_surface(const WaterParameters &parameters,
+                                  const std::list<SoilBody<dim>> &bodies,
+                                  const BackgroundGrid<dim> &grid)
+    {
+      const auto [entry, value] = parameters.place();
+      if (entry.rfind("Phreatic", 0) != 0)
+        return;
+      const Region<dim> wet(
+          entry_name("Water", entry), parameters.region_in_soil(dim), nullptr, parameters.table<dim>());
+      const double top = grid.upper_corner()[dim - 1], bottom = grid.lower_corner()[dim - 1];
+      const double rounding = 1e-6 * grid.cell_size();
+      on_all_ranks(grid.triangulation().get_communicator(), [&] {
+        for (const SoilBody<dim> &body : bodies)
+          for_each_point(body.points, [&](const auto &point) {
+            Point<dim> above = point.location, below = point.location;
+            above[dim - 1]     = top + rounding;
+            below[dim - 1]     = bottom - rounding;
+            const bool is_high = wet.contains(above);
+            if (is_high || !(wet.contains(below) || parameters.table<dim>()))
+              throw ValueError(entry_message("Water",
+                                             entry,
+                                             value,
+                                             std::string("it leaves the box of subsection Mesh ") +
+                                                 (is_high ? "through its top" : "through its bottom") + " at " +
+                                                 number_text(point.location) +
+                                                 " m. Write a larger box, or an elevation from " + number_text(bottom) +
+                                                 " (dry) to " + number_text(top) + " m."));
+          });
+      });
+    }
+  } // namespace
+
+
   template <int dim>
   void Scene<dim>::fill_with_points()
   {
@@ -50,6 +87,8 @@ namespace scree
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water);
+    if (parameters.has_water)
+      require_phreatic_surface(parameters.water, bodies, grid);
     for (auto &part : water)
       seed_water(part,
                  parameters.water,
@@ -168,6 +207,7 @@ namespace scree
       {
         const InitialStateParameters &state = entries->initial_state;
         const std::string modulus           = entries->material.modulus_text(body.name);
+        const double k0                     = entries->k0();
         ++entries;
         if (state.stress_kind() != InitialStress::k0)
           {
@@ -181,7 +221,7 @@ namespace scree
               effective_weight_layers<dim>(soil, parameters.has_water ? &parameters.water : nullptr),
               forcing.gravity(),
               grid.cell_size() / 4);
-        set_k0_stress(body, *overburden, state.k0, modulus);
+        set_k0_stress(body, *overburden, k0, modulus);
       }
     if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
         forcing.gravity().norm() > 0)
@@ -189,7 +229,7 @@ namespace scree
         Overburden<dim> water_above(
             grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);
         for (auto &part : water)
-          set_hydrostatic_pressure(part, water_above);
+          set_hydrostatic_pressure(part, water_above, parameters.water.has_levels() ? 1e-2 * grid.cell_size() : 0.);
       }
   }
 

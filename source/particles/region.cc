@@ -54,9 +54,11 @@ namespace scree
   template <int dim>
   Region<dim>::Region(const std::string &where,
                       const std::string &expression,
-                      const std::shared_ptr<const SourceMap> &map)
+                      const std::shared_ptr<const SourceMap> &map,
+                      const std::shared_ptr<const LevelSet<dim>> &table)
       : function(parse_expression<dim>(where, expression, 1))
       , map(map)
+      , table(table)
   {
   }
 
@@ -102,7 +104,7 @@ namespace scree
           const auto [bottom, top] = map->part_of_line(x, y, lower[2], lower[2] + width);
           const double part        = (top - bottom) / n_parts;
           for (unsigned int k = 0; k < n_parts && part > least * width; ++k)
-            if (const Point<dim> place(x, y, bottom + part * (k + 0.5)); function->value(place) != 0.)
+            if (const Point<dim> place(x, y, bottom + part * (k + 0.5)); holds(place))
               {
                 length += part;
                 moment += part * (place - lower);

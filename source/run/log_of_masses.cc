@@ -43,10 +43,11 @@ namespace scree
     }
 
 
-    std::string stress_text(const InitialStateParameters &state)
+    std::string stress_text(const BodyParameters &body)
     {
+      const InitialStateParameters &state = body.initial_state;
       if (state.stress_kind() == InitialStress::k0)
-        return "stress by weight, K0 = " + number_text(state.k0);
+        return "stress by weight, K0 = " + number_text(body.k0());
       if (state.stress_kind() == InitialStress::isotropic)
         return "isotropic stress " + number_text(state.pressure) + " Pa";
       return "no stress (\"Type = none\" in subsection Initial state)";
@@ -70,11 +71,12 @@ namespace scree
         folder.record(body.name + " at the start: " + volume_and_mass<dim>(mass / body.density, mass) + "; " +
                       number_text(body.density) + " kg/m^3 dry: grains of " + number_text(body.grain_density) +
                       " kg/m^3, porosity " + number_text(porosity) +
-                      (!is_of_the_law  ? ""
-                       : porosity > 0. ? " (of the law)"
+                      (of_case.seeding.has_unit_weights() ? " (of the unit weights)"
+                       : !is_of_the_law                   ? ""
+                       : porosity > 0.                    ? " (of the law)"
                                        : " (no \"Initial porosity\" is set, and \"Material = " + of_case.material.law +
                                              "\" has none of its own)") +
-                      "; " + stress_text(of_case.initial_state));
+                      "; " + stress_text(of_case));
       }
     if (!scene.water.empty())
       folder.record("Water at the start: " + kilograms<dim>(water_mass(scene, communicator)));

@@ -292,7 +292,13 @@ namespace scree
     stop.listen();
     is_released = false;
     is_released = scree::settle(
-        parameters, scene, control, folder, [this](const double time_step) { advance(time_step); }, communicator);
+        parameters,
+        scene,
+        *scheme,
+        control,
+        folder,
+        [this](const double time_step) { advance(time_step); },
+        communicator);
     // Balances begin at the release; what was lost stays lost.
     const RunTotals<dim> settled = totals;
     totals                       = RunTotals<dim>(scene.obstacles.size());

@@ -178,6 +178,16 @@ namespace scree
 
 
   template <int dim>
+  NodalForces ExplicitScheme<dim>::nodal_forces(const double time_step) const
+  {
+    NodalForces sums;
+    for (const Group &group : groups)
+      add_nodal_forces(group.soil.field, forces, time_step, sums);
+    return sums;
+  }
+
+
+  template <int dim>
   std::vector<PointSet<dim> *> ExplicitScheme<dim>::point_sets()
   {
     std::vector<PointSet<dim> *> sets;

@@ -199,6 +199,8 @@ namespace scree
     Budget<dim> &budget = report.balance;
 
     sum_at_nodes(time_step);
+    if (drainage == Drainage::drained)
+      return solve_drained(nodes, time_step, budget);
     momentum.predict(nodes, time_step, budget); // A v* = m v + dt (f + m g - G p^n)
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
@@ -207,6 +209,38 @@ namespace scree
     momentum.correct(nodes, mixture, pressure, time_step, budget);                             // v = v** - dt A^-1 G dp
     contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);
     end_step(nodes, time_step, budget);
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+  {
+    load_soil_with_water();
+    momentum.predict(nodes, time_step, budget);
+    contact.begin_step(mixture, pressure.free_surface());
+    contact.predict(nodes, mixture, momentum, time_step, budget);
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::load_soil_with_water()
+  {
+    using Field = NodalField<dim>;
+    for (const unsigned int node : pores.active_nodes())
+      {
+        double *of_soil = soil.field[node], *of_water = water_field[node];
+        if (of_soil[Field::mass] > 0.)
+          {
+            const double ratio = 1. + of_water[Field::mass] / of_soil[Field::mass];
+            of_soil[Field::mass] *= ratio;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                of_soil[Field::momentum + c] *= ratio;
+                of_soil[Field::force + c] += of_water[Field::force + c];
+              }
+          }
+        std::fill_n(of_water, Field::n_components, 0.);
+      }
   }
 
 
@@ -255,24 +289,46 @@ namespace scree
       soil.to_points(time_step, report, &mixture);
       fluidise();
     }
-    {
-      const TimedPart part(timer, TimerSection::water_points);
-      for (auto &one : water)
-        {
-          report.speeds.include_point(transfer.to_points(
-              one,
-              { soil.field, water_field, pores },
-              mixture,
-              [this](const unsigned int cell) { return pressure.pressure_of(cell); },
-              pressure.fades() ? [this](const unsigned int cell) { return pressure.forgotten_of(cell); }
-                               : ForgottenOfCell<dim>(),
-              time_step));
-          shifting.apply(one, mixture, water_field, pores, time_step, report.balance);
-          if (const PointSet<dim> *own = one.own_points())
-            report.n_updates += own->n_points();
-        }
-    }
+    if (drainage == Drainage::undrained)
+      move_water(time_step, report);
     project_to_boundary(time_step, report.speeds.points);
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::move_water(const double time_step, StepReport<dim> &report)
+  {
+    const TimedPart part(timer, TimerSection::water_points);
+    for (auto &one : water)
+      {
+        report.speeds.include_point(transfer.to_points(
+            one,
+            { soil.field, water_field, pores },
+            mixture,
+            [this](const unsigned int cell) { return pressure.pressure_of(cell); },
+            pressure.fades() ? [this](const unsigned int cell) { return pressure.forgotten_of(cell); }
+                             : ForgottenOfCell<dim>(),
+            time_step));
+        shifting.apply(one, mixture, water_field, pores, time_step, report.balance);
+        if (const PointSet<dim> *own = one.own_points())
+          report.n_updates += own->n_points();
+      }
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::set_drainage(const Drainage now)
+  {
+    drainage = now;
+  }
+
+
+  template <int dim>
+  NodalForces TwoPhaseScheme<dim>::nodal_forces(const double time_step) const
+  {
+    NodalForces sums;
+    add_nodal_forces(soil.field, forces, time_step, sums);
+    return sums;
   }
 
 

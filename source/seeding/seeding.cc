@@ -37,6 +37,17 @@ namespace scree
         initial_porosity,
         "Pore volume over total volume; -1: the value of the material law (Nor-Sand: 1 - 1/v_0; others: 0).",
         Patterns::Double(-1, 0.999));
+    prm.add_parameter(
+        "Dry unit weight",
+        dry_unit_weight,
+        "N/m^3; unit weight of the dry soil. With \"Saturated unit weight\" it gives grain density and "
+        "porosity; alone it gives the porosity, or the grain density if the porosity is given. 0: not given.",
+        Patterns::Double(0));
+    prm.add_parameter(
+        "Saturated unit weight",
+        saturated_unit_weight,
+        "N/m^3; unit weight of the soil with pores full of water; used as \"Dry unit weight\". 0: not given.",
+        Patterns::Double(0));
     prm.add_parameter("Initial velocity",
                       initial_velocity,
                       "m/s; velocity at the start, one expression per axis, separated by semicolons. Empty: at rest.",

@@ -12,19 +12,22 @@ namespace scree
 {
   using namespace dealii;
 
-  std::vector<WaterPart> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil)
+  template <int dim>
+  std::vector<WaterPart<dim>> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil)
   {
-    const bool as_soil = parameters.is_where_soil_is();
-    std::vector<WaterPart> parts;
-    std::string outside = "(" + parameters.region + ")";
+    const std::string where = entry_name("Water", parameters.place().first);
+    const bool as_soil      = parameters.is_where_soil_is();
+    std::vector<WaterPart<dim>> parts;
+    std::string outside = "(" + parameters.region_outside(dim) + ")";
     for (const SoilRegion &body : soil)
       {
-        parts.push_back(
-            { as_soil ? body.region : "(" + parameters.region + ") && (" + body.region + ")", body.porosity, &body });
+        const std::string inside =
+            as_soil ? body.region : "(" + parameters.region_in_soil(dim) + ") && (" + body.region + ")";
+        parts.push_back({ Region<dim>(where, inside, body.map, parameters.table<dim>()), body.porosity, &body });
         outside += " && (" + body.region + ") == 0";
       }
-    if (!as_soil)
-      parts.push_back({ outside, 1., nullptr });
+    if (!parameters.region_outside(dim).empty())
+      parts.push_back({ Region<dim>(where, outside), 1., nullptr });
     return parts;
   }
 
@@ -42,6 +45,31 @@ namespace scree
 
   namespace
   {
+    /// Throws EntryError if the water's region holds no volume, or a phreatic surface none in soil.
+    /// @param filled volumes of the parts, m^3; those in the `n_bodies` bodies come first
+    void require_water(const WaterParameters &parameters,
+                       const std::vector<double> &filled,
+                       const std::size_t n_bodies,
+                       const bool has_ground)
+    {
+      const auto [entry, value] = parameters.place();
+      require_entry(entry.rfind("Phreatic", 0) != 0 ||
+                        std::any_of(filled.begin(), filled.begin() + n_bodies, [](const double v) { return v > 0; }),
+                    "Water",
+                    entry,
+                    value,
+                    "there is no soil below it. Write a higher elevation, or a \"Reservoir level\" alone.");
+      require_entry(parameters.is_fed ||
+                        std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
+                    "Water",
+                    entry,
+                    value,
+                    has_ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
+                                 "Bed. Move the region, the box or the bed."
+                               : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
+    }
+
+
     template <int dim>
     void seed_own_points(WaterPhase<dim> &water,
                          const WaterParameters &parameters,
@@ -50,10 +78,7 @@ namespace scree
                          const double cell_size,
                          const LevelSet<dim> *ground)
     {
-      const auto parts = water_parts(parameters, soil);
-      std::vector<Region<dim>> regions;
-      for (const WaterPart &part : parts)
-        regions.emplace_back(entry_name("Water", "Region"), part.region);
+      const auto parts = water_parts<dim>(parameters, soil);
       const auto velocity =
           parameters.initial_velocity.empty()
               ? nullptr
@@ -65,7 +90,7 @@ namespace scree
         Tensor<1, dim> moment; // of the water about the lower corner, m^4
         for (unsigned int i = 0; i < parts.size(); ++i)
           {
-            const auto [volume, centroid] = regions[i].part_of_cube(lower, width, ground);
+            const auto [volume, centroid] = parts[i].region.part_of_cube(lower, width, ground);
             filled[i] += volume;
             sum.filled += volume;
             sum.stays |= volume > 0 && parts[i].soil == nullptr;
@@ -87,14 +112,7 @@ namespace scree
       join_slivers(triangulation, ground, seeds);
 
       Utilities::MPI::sum(filled, communicator, filled);
-      require_entry(parameters.is_fed ||
-                        std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
-                    "Water",
-                    "Region",
-                    parameters.region,
-                    ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
-                             "Bed. Move the region, the box or the bed."
-                           : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
+      require_water(parameters, filled, soil.size(), ground != nullptr);
       for (unsigned int i = 0; i < parts.size(); ++i)
         if (parts[i].soil && filled[i] > 0)
           require_pores(*parts[i].soil);
@@ -140,6 +158,8 @@ namespace scree
       seed_own_points(water, parameters, soil, triangulation, cell_size, ground);
   }
 
+  template std::vector<WaterPart<2>> water_parts<2>(const WaterParameters &, const std::vector<SoilRegion> &);
+  template std::vector<WaterPart<3>> water_parts<3>(const WaterParameters &, const std::vector<SoilRegion> &);
   template void seed_water(WaterPhase<2> &,
                            const WaterParameters &,
                            const std::vector<SoilRegion> &,

@@ -3,10 +3,14 @@
 #define scree_bodies_water_parameters_h
 
 #include <scree/bodies/suspension.h>
+#include <scree/geometry/level_set.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace scree
@@ -52,6 +56,9 @@ namespace scree
     std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
     bool is_fed                   = false;         ///< as SeedingParameters::is_fed
     SuspensionParameters suspension;               ///< viscosity of water with grains
+    std::string phreatic_surface = "";             ///< expression of its elevation, m; empty: not given
+    std::string phreatic_file    = "";             ///< profile (2D) or raster (3D) of it; empty: not given
+    std::string reservoir_level  = "";             ///< expression of the elevation, m; empty: no reservoir
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -77,10 +84,37 @@ namespace scree
     /// Whether the region is wherever soil is, and not an expression.
     bool is_where_soil_is() const;
 
+    /// Whether a phreatic surface or a reservoir level say where water is, in place of the region.
+    bool has_levels() const;
+
+    /// Entry and value of what tells where water is, for messages.
+    std::pair<std::string, std::string> place() const;
+
+    /// Where water is in pores, as an expression; a table() is asked besides.
+    std::string region_in_soil(const unsigned int dim) const;
+
+    /// Where water is outside the soil, as an expression; empty: nowhere.
+    std::string region_outside(const unsigned int dim) const;
+
+    /// Reads the file of the phreatic surface if there is one; throws EntryError if it is none.
+    /// @param map_origin where the map has the origin of the case's coordinates, m
+    void read_table(const unsigned int dim, const dealii::Point<2> &map_origin);
+
+    /// The phreatic surface of that file: its open is dry. Null without a file.
+    template <int dim>
+    const std::shared_ptr<const LevelSet<dim>> &table() const
+    {
+      return std::get<dim - 2>(tables);
+    }
+
   private:
+    void add_level_parameters(dealii::ParameterHandler &prm);
     void add_drag_parameters(dealii::ParameterHandler &prm);
     void check_single_point() const;
     void check_without_soil() const;
+    void check_levels(const std::vector<double> &gravity, const unsigned int n_bodies) const;
+
+    std::tuple<std::shared_ptr<const LevelSet<2>>, std::shared_ptr<const LevelSet<3>>> tables;
   };
 } // namespace scree
 

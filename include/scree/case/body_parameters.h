@@ -35,6 +35,9 @@ namespace scree
     /// Density of the dry body, kg/m^3: grains times (1 - porosity).
     double bulk_density() const;
 
+    /// Horizontal over vertical stress of a K0 start.
+    double k0() const;
+
     /// Of pressure waves in the dry body at the entry of its pressure, m/s; 0 without stiffness.
     double wave_speed() const;
 

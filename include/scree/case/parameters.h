@@ -118,6 +118,7 @@ namespace scree
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
     void take_box_from_raster();
+    void take_unit_weights();
     void read_maps();
     void check_dry() const;
 

@@ -18,11 +18,24 @@ namespace scree
   class Overburden
   {
   public:
-    /// A region filled with a material.
+    /// Regions filled with a material: parts of one column, so that none is missed where it is thin.
     struct Layer
     {
-      Region<dim> region; ///< place of the material
-      double density;     ///< kg/m^3; below 0 for what buoyancy lifts
+      std::vector<Region<dim>> regions; ///< places of the material
+      double density;                   ///< kg/m^3; below 0 for what buoyancy lifts
+
+      /// An empty layer.
+      explicit Layer(const double density)
+          : density(density)
+      {
+      }
+
+      /// One region.
+      Layer(Region<dim> region, const double density)
+          : density(density)
+      {
+        regions.push_back(std::move(region));
+      }
     };
 
     /// @param gravity m/s^2; must lie along an axis (throws otherwise)

@@ -2,8 +2,11 @@
 #ifndef scree_initial_initial_state_h
 #define scree_initial_initial_state_h
 
+#include <scree/bodies/drainage.h>
+
 #include <deal.II/base/parameter_handler.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +24,7 @@ namespace scree
   struct InitialStateParameters
   {
     std::string type = "none"; ///< none | K0 | isotropic
-    double k0        = 0.5;    ///< horizontal over vertical stress
+    std::string k0   = "auto"; ///< horizontal over vertical stress; auto: 1 - sin(phi), see k0_ratio()
     double pressure  = 0;      ///< Pa, isotropic
 
     /// Declares the subsection and its entries.
@@ -32,15 +35,21 @@ namespace scree
 
     /// Entry `Type` as an enum.
     InitialStress stress_kind() const;
+
+    /// Entry `K0` as a number; auto: 1 - sin(phi) of normally consolidated soil (@source{jaky1944}), 0.5 without an
+    /// angle.
+    double k0_ratio(const std::optional<double> &sine_of_friction) const;
   };
 
   /// Subsection Settling: motion under gravity with damping, before the release at t = 0.
   struct SettlingParameters
   {
-    double maximum_time   = 0;    ///< s; 0: no settling
-    double damping_rate   = 20;   ///< 1/s
-    double kinetic_energy = 1e-8; ///< ends when kinetic energy falls below this part of the elastic energy
-    std::string gate;             ///< nodes where this is true are held until the release
+    std::string type        = "undrained"; ///< undrained | drained
+    double maximum_time     = 0;           ///< s; 0: no settling
+    double damping_rate     = 20;          ///< 1/s
+    double kinetic_energy   = 1e-8;        ///< undrained: ends below this part of the elastic energy
+    double unbalanced_force = 1e-3;        ///< drained: ends below this ratio
+    std::string gate;                      ///< nodes where this is true are held until the release
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -48,6 +57,9 @@ namespace scree
     /// Throws EntryError at impossible combinations.
     /// @param gravity m/s^2
     void check(const std::vector<double> &gravity) const;
+
+    /// Entry `Type` as an enum.
+    Drainage drainage() const;
   };
 } // namespace scree
 

@@ -26,8 +26,9 @@ namespace scree
 
   /// Gives the points of water the weight of the water above them as pressure, Pa, and density times gravity as its
   /// gradient, Pa/m. Collective.
+  /// @param reach of the differences that give the horizontal gradient below an oblique surface, m; 0: it is 0
   template <int dim>
-  void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden);
+  void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden, const double reach = 0.);
 } // namespace scree
 
 #endif

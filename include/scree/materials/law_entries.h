@@ -7,6 +7,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,12 @@ namespace scree
 
     /// Makes the law with these values, in three dimensions.
     virtual std::unique_ptr<Material<3>> make_3d() const = 0;
+
+    /// Sine of the friction angle; nothing if the law has no angle.
+    virtual std::optional<double> sine_of_friction() const
+    {
+      return {};
+    }
   };
 
   /// Those that are a struct `Parameters` with the members of a law's struct (see MohrCoulombParameters).
@@ -93,6 +100,10 @@ namespace scree
     {
       return stiffest_of(parameters, 0);
     }
+    std::optional<double> sine_of_friction() const override
+    {
+      return sine_of(parameters, 0);
+    }
     std::vector<UsualRange> usual_ranges() const override
     {
       return parameters.usual_ranges();
@@ -109,6 +120,18 @@ namespace scree
     static LawEntry stiffest_of(const Law &law, long)
     {
       return law.modulus();
+    }
+
+    /// A struct without a member sine() has no angle.
+    template <typename Law>
+    static auto sine_of(const Law &law, int) -> decltype(std::optional<double>(law.sine()))
+    {
+      return law.sine();
+    }
+    template <typename Law>
+    static std::optional<double> sine_of(const Law &, long)
+    {
+      return {};
     }
   };
 

@@ -12,16 +12,19 @@
 
 namespace scree
 {
-  /// A part of space: inside where an expression of the coordinates is true (not 0), and maps agree if there are any.
+  /// A part of space: inside where an expression of the coordinates is true (not 0), and maps agree if there are any;
+  /// of water also where a water table is above.
   template <int dim>
   class Region
   {
   public:
     /// @param where entry_name(), for the message if the expression does not parse
     /// @param map null without maps; not in 2D
+    /// @param table whose open is dry; null without
     Region(const std::string &where,
            const std::string &expression,
-           const std::shared_ptr<const SourceMap> &map = nullptr);
+           const std::shared_ptr<const SourceMap> &map       = nullptr,
+           const std::shared_ptr<const LevelSet<dim>> &table = nullptr);
 
     /// Throws ValueError if the expression is no number there.
     bool contains(const dealii::Point<dim> &x) const
@@ -29,7 +32,7 @@ namespace scree
       if constexpr (dim == 3)
         if (map && !map->contains(x))
           return false;
-      return function->value(x) != 0.;
+      return holds(x);
     }
 
     /// Places that touches_cube() looks at.
@@ -45,6 +48,12 @@ namespace scree
     part_of_cube(const dealii::Point<dim> &lower, const double width, const LevelSet<dim> *ground = nullptr) const;
 
   private:
+    /// What is asked besides the maps.
+    bool holds(const dealii::Point<dim> &x) const
+    {
+      return function->value(x) != 0. && !(table && table->is_open(x));
+    }
+
     /// Corners of the cube, a little inside it: a region may end at its face.
     static dealii::Point<dim> corner(const dealii::Point<dim> &lower, const double width, const unsigned int vertex);
     static dealii::Point<dim> middle(const dealii::Point<dim> &lower, const double width);
@@ -54,6 +63,7 @@ namespace scree
 
     std::unique_ptr<Expression<dim>> function;
     std::shared_ptr<const SourceMap> map;
+    std::shared_ptr<const LevelSet<dim>> table;
   };
 } // namespace scree
 

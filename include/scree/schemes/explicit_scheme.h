@@ -27,6 +27,7 @@ namespace scree
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
     void to_points(const double time_step, StepReport<dim> &report) override;
+    NodalForces nodal_forces(const double time_step) const override;
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override;
     std::unique_ptr<WaterView<dim>> water_view() const override;

@@ -2,7 +2,8 @@
 #ifndef scree_schemes_scheme_h
 #define scree_schemes_scheme_h
 
-#include <scree/mesh/nodal_field.h>
+#include <scree/bodies/drainage.h>
+#include <scree/momentum/nodal_forces.h>
 #include <scree/step/step_report.h>
 #include <scree/transfer/water_view.h>
 
@@ -46,6 +47,14 @@ namespace scree
 
     /// What pictures show of the water; null in a dry scene.
     virtual std::unique_ptr<WaterView<dim>> water_view() const = 0;
+
+    /// Lets the water flow, or keeps its place and pressure from the next step on.
+    virtual void set_drainage(const Drainage)
+    {
+    }
+
+    /// Out-of-balance forces and weights of the nodes of this rank after a step of `time_step` s.
+    virtual NodalForces nodal_forces(const double time_step) const = 0;
   };
 } // namespace scree
 

@@ -38,6 +38,8 @@ namespace scree
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
     void to_points(const double time_step, StepReport<dim> &report) override;
+    void set_drainage(const Drainage drainage) override;
+    NodalForces nodal_forces(const double time_step) const override;
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override;
     std::unique_ptr<WaterView<dim>> water_view() const override;
@@ -56,6 +58,16 @@ namespace scree
     /// that act. Collective.
     void sum_at_nodes(const double time_step);
 
+    /// The soil takes mass, weight and pressure of the water at its nodes: what carries both where water keeps its
+    /// place.
+    void load_soil_with_water();
+
+    /// The solve where water keeps its place: the pressure is that of its points.
+    void solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
+
+    /// The water's part of to_points().
+    void move_water(const double time_step, StepReport<dim> &report);
+
     /// Books what is known at the end of a step only, and fits the pressure to it. Collective.
     void end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
 
@@ -68,6 +80,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const BodyForces<dim> &forces;
     const double fluidisation_porosity;
+    Drainage drainage    = Drainage::undrained;
     double shear_modulus = 0; // largest of the bodies, Pa
     std::list<WaterPhase<dim>> &water;
     const bool limits_volumetric_strain;                            // that soil loses where a solve leaves it closing

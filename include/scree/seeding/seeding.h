@@ -27,6 +27,8 @@ namespace scree
     double initial_porosity      = -1;    ///< below 0: as the law says
     std::string initial_velocity = "";    ///< m/s, one expression an axis; empty: at rest
     bool is_fed                  = false; ///< whether an inflow brings points, so that there may be none at the start
+    double dry_unit_weight       = 0;     ///< N/m^3; 0: not given
+    double saturated_unit_weight = 0;     ///< N/m^3; 0: not given
 
     /// Declares the entries in the body's subsection.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -39,6 +41,12 @@ namespace scree
 
     /// Entry and value of what tells where the body is, for messages.
     std::pair<std::string, std::string> place() const;
+
+    /// Whether unit weights say how heavy it is.
+    bool has_unit_weights() const
+    {
+      return dry_unit_weight > 0 || saturated_unit_weight > 0;
+    }
   };
 
   /// Where a body of soil is at the start, and what water finds there.

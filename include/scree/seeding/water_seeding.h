@@ -10,16 +10,18 @@
 
 namespace scree
 {
-  /// A part of the water's region, as an expression, and how much room there is for water.
+  /// A part of the water's region, and how much room there is for water.
+  template <int dim>
   struct WaterPart
   {
-    std::string region;     ///< expression; true inside
+    Region<dim> region;     ///< place of the water
     double porosity;        ///< 1 outside the soil
     const SoilRegion *soil; ///< null outside
   };
 
   /// The water's region, cut along the surfaces of the soil. Refers to `soil`.
-  std::vector<WaterPart> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil);
+  template <int dim>
+  std::vector<WaterPart<dim>> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil);
 
   /// Throws EntryError unless a body in the water has pores.
   void require_pores(const SoilRegion &soil);

@@ -74,6 +74,13 @@ namespace scree
   }
 
 
+  double NorSandParameters::sine() const
+  {
+    return critical_friction_angle > 0 ? std::sin(radians(critical_friction_angle))
+                                       : 3 * critical_stress_ratio / (6 + critical_stress_ratio);
+  }
+
+
   void NorSandParameters::check(const std::string &subsection) const
   {
     const std::string positive = "it must be positive.";

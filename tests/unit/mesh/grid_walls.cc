@@ -234,7 +234,7 @@ void test_friction(std::ostream &out)
   parameters.boundaries.bottom                  = "friction 20";
   parameters.bodies[0].seeding.initial_velocity = "3; 0";
   parameters.bodies[0].initial_state.type       = "K0";
-  parameters.bodies[0].initial_state.k0         = 0;
+  parameters.bodies[0].initial_state.k0         = "0";
   Simulation<2>(parameters, Start::fresh, MPI_COMM_WORLD).run();
   MPI_Barrier(MPI_COMM_WORLD);
 

@@ -38,6 +38,9 @@ namespace scree
     /// M, from the critical friction angle if there is one.
     double critical_ratio() const;
 
+    /// Sine of the critical friction angle: of the entry, or of triaxial compression at M.
+    double sine() const;
+
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
 

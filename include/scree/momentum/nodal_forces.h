@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_momentum_nodal_forces_h
+#define scree_momentum_nodal_forces_h
+
+#include <scree/boundary/body_forces.h>
+#include <scree/mesh/nodal_field.h>
+
+namespace scree
+{
+  /// Sums over nodes: how far a state is from equilibrium, and how it moves there.
+  struct NodalForces
+  {
+    double unbalanced = 0, ///< squares of the out-of-balance forces, N^2
+        weight        = 0, ///< squares of the weights, N^2
+        kinetic       = 0; ///< twice the kinetic energy, J
+
+    /// Of all ranks. Collective.
+    NodalForces sum_over_ranks(const MPI_Comm communicator) const;
+
+    /// Root mean square of the out-of-balance forces over that of the weights.
+    double ratio() const;
+  };
+
+  /// Adds the nodes of a solved field: mass times acceleration, with the reactions of walls and beds, where no damping
+  /// acts.
+  template <int dim>
+  void add_nodal_forces(const NodalField<dim> &field,
+                        const BodyForces<dim> &forces,
+                        const double time_step,
+                        NodalForces &sums);
+} // namespace scree
+
+#endif
