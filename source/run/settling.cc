@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/postprocess/measures.h>
+#include <scree/run/motion_before_release.h>
 #include <scree/run/settling.h>
 
 #include <limits>
@@ -23,15 +24,10 @@ namespace scree
       const SettlingParameters &settling          = parameters.settling;
       constexpr unsigned int steps_between_checks = 50;
       double ratio                                = std::numeric_limits<double>::infinity();
-      while (settling_clock.time() < settling.maximum_time && ratio >= settling.kinetic_energy &&
-             control.stop_reason() == StopReason::none)
-        {
-          const double step = settling_clock.next_step(control.stable_step(), settling.maximum_time);
-          advance(step);
-          settling_clock.advance(step, settling.maximum_time);
-          if (settling_clock.step() % steps_between_checks == 0 || settling_clock.time() >= settling.maximum_time)
-            ratio = kinetic_to_elastic_energy(scene.bodies, scene.water, communicator);
-        }
+      move_before_release(control, settling_clock, settling.maximum_time, steps_between_checks, advance, [&] {
+        ratio = kinetic_to_elastic_energy(scene.bodies, scene.water, communicator);
+        return ratio < settling.kinetic_energy;
+      });
       return ratio;
     }
   } // namespace
