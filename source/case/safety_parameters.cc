@@ -16,8 +16,8 @@ namespace scree
                       Patterns::Double(1e-3, 1e3));
     prm.add_parameter("Lower factor",
                       lower,
-                      "--safety: lower end of the range of the factor. The slope comes to rest with it before the "
-                      "search.",
+                      "--safety: lower end of the range of the factor. Before the search the slope settles with the "
+                      "strength divided by half of it.",
                       Patterns::Double(1e-3, 1e3));
     prm.add_parameter(
         "Upper factor", upper, "--safety: upper end of the range of the factor.", Patterns::Double(1e-3, 1e3));

@@ -10,6 +10,14 @@ namespace scree
                                              const std::function<TrialEnd(double)> &try_factor)
   {
     constexpr double growth = 1.3;
+    const TrialEnd first    = try_factor(safety.lower);
+    if (first == TrialEnd::undecided)
+      return {};
+    require_entry(first == TrialEnd::rests,
+                  "Safety",
+                  "Lower factor",
+                  safety.lower,
+                  "the slope does not come to rest with its strength divided by this. Write a smaller one.");
     FactorBracket bracket{ safety.lower, 0. };
     bool has_failed = false;
     double factor   = std::min(safety.lower < 1. ? 1. : growth * safety.lower, safety.upper);

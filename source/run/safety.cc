@@ -71,17 +71,18 @@ namespace scree
       }
 
 
-      /// From the start of the case to the state that the other trials begin with.
+      /// From the start of the case to the state that the other trials begin with, without a bound of the displacement.
       TrialEnd settle()
       {
-        const auto parameters = parameters_of_trial(given.safety.lower, "settled");
+        const double factor   = 0.5 * given.safety.lower; // deforms little beyond elasticity
+        const auto parameters = parameters_of_trial(factor, "settled");
         Simulation<dim> simulation(*parameters, Start::fresh, communicator);
         if (!simulation.is_settled())
           return TrialEnd::undecided;
         const Trial trial = simulation.try_strength(std::numeric_limits<double>::infinity());
         if (trial.end == TrialEnd::rests)
           simulation.write_checkpoint();
-        record(given.safety.lower, trial);
+        record(factor, trial);
         return trial.end;
       }
 
@@ -182,7 +183,7 @@ namespace scree
                   "Safety",
                   "Lower factor",
                   safety.lower,
-                  "the slope does not come to rest with its strength divided by this. Write a smaller one.");
+                  "the slope does not settle with its strength divided by half of this. Write a smaller one.");
     const auto bracket = first == TrialEnd::rests
                              ? search_factor(safety, [&](const double factor) { return trials.try_factor(factor); })
                              : std::nullopt;

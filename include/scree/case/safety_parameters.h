@@ -12,7 +12,7 @@ namespace scree
   struct SafetyParameters
   {
     double strength_factor = 1;      ///< divides the strength in a run
-    double lower           = 0.5;    ///< factor at which the slope settles
+    double lower           = 0.5;    ///< smallest factor that is tried
     double upper           = 5;      ///< largest factor that is tried
     double tolerance       = 0.01;   ///< of the factor
     double displacement    = 0.02;   ///< of a slope that fails, over the height of the soil

@@ -17,9 +17,9 @@ namespace scree
         fails;    ///< smallest one with which it fails
   };
 
-  /// Searches the factor: from 1 up in steps of 30 % until the slope fails, then by bisection to the tolerance. The
-  /// lower factor is known to rest. Nothing if a trial is undecided, as it was asked to stop. Throws EntryError if the
-  /// slope rests with the upper factor.
+  /// Searches the factor: the lower factor, then from 1 up in steps of 30 % until the slope fails, then by bisection to
+  /// the tolerance. Nothing if a trial is undecided, as it was asked to stop. Throws EntryError if the slope fails with
+  /// the lower factor, or rests with the upper one.
   /// @param try_factor makes a trial with a factor
   std::optional<FactorBracket> search_factor(const SafetyParameters &safety,
                                              const std::function<TrialEnd(double)> &try_factor);

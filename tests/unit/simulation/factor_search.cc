@@ -73,6 +73,7 @@ void run()
   safety.tolerance = 0.1;
   search(safety, 1.374);
   search(safety, 1.5);
+  search(safety, 1.1);
 
   judge("faster and faster", 1e-3, 4.);
   judge("steady", 0.01, 1.);

@@ -78,9 +78,10 @@ def entries_of(scene, cell):
 
 
 def variants():
-    found = [Variant({"scene": scene, "H/h": round(HEIGHT / cell), "entries": DEFAULT}, entries_of(scene, cell)) for scene in SCENES for cell in (1., 0.5)]
-    return found + [Variant({"scene": BANK, "H/h": 10, "entries": name}, {"Mesh/Cell size": 1., "Safety/Tolerance": 0.005, **entries})
-                    for name, entries in {DEFAULT: {}, **OTHERS}.items()]
+    found = [Variant({"scene": scene, "H/h": round(HEIGHT / cell), "entries": DEFAULT}, entries_of(scene, cell)) for cell in (1., 0.5) for scene in SCENES]
+    bank = [Variant({"scene": BANK, "H/h": 10, "entries": name}, {"Mesh/Cell size": 1., "Safety/Tolerance": 0.005, **entries})
+            for name, entries in {DEFAULT: {}, **OTHERS}.items()]
+    return bank + found
 
 
 def measure(run):
