@@ -28,8 +28,8 @@ namespace scree
                       Patterns::Double(1e-4, 1));
     prm.add_parameter("Displacement",
                       displacement,
-                      "--safety: the slope fails where 1 % of the soil has moved by more than this and does not become "
-                      "slower, over the height of the soil.",
+                      "--safety: the slope fails where 1 % of the soil has moved by more than this, over the height of "
+                      "the soil. Write more for soil so soft that it deforms as much without failure.",
                       Patterns::Double(1e-6, 10));
     prm.add_parameter(
         "Maximum time",

@@ -17,7 +17,6 @@ namespace scree
   {
     constexpr double part_that_moves = 0.01; // of the mass; single points at the surface do not count
     constexpr double speed_at_rest   = 2e-4; // over sqrt(g H): terminal speed with a thousandth of strength missing
-    constexpr double kept_speed      = 0.8;  // after a time scale, of soil that fails
 
 
     template <int dim, typename Visit>
@@ -86,16 +85,14 @@ namespace scree
 
   TrialEnd TrialJudge::look(const double time, const double displacement, const double speed)
   {
+    if (displacement > bounds.displacement)
+      return TrialEnd::fails;
     last.push_back({ time, speed });
     while (last.size() > 1 && last[1].time <= time - bounds.time_scale)
       last.pop_front();
-    if (last.front().time <= time - bounds.time_scale)
-      {
-        if (std::all_of(last.begin(), last.end(), [&](const Look &look) { return look.speed < bounds.speed; }))
-          return TrialEnd::rests;
-        if (displacement > bounds.displacement && speed >= kept_speed * last.front().speed)
-          return TrialEnd::fails;
-      }
+    if (last.front().time <= time - bounds.time_scale &&
+        std::all_of(last.begin(), last.end(), [&](const Look &look) { return look.speed < bounds.speed; }))
+      return TrialEnd::rests;
     return time >= bounds.maximum_time ? TrialEnd::fails : TrialEnd::undecided;
   }
 

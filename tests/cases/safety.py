@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 
-from case_tools import HERE, LAUNCHER, SCREE, check, run
+from case_tools import HERE, SCREE, check, run
 from scree.variants import read_case, set_entry
 
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
@@ -60,7 +60,7 @@ def range_and_stop():
     folder = pathlib.Path("stop")
     folder.mkdir(exist_ok=True)
     (folder / "case.prm").write_text(slope(**{"Safety/Tolerance": 0.001}), encoding="utf-8")
-    with subprocess.Popen([*LAUNCHER, "1", SCREE, "case.prm", "--safety"], cwd=folder, stdout=subprocess.DEVNULL) as search:
+    with subprocess.Popen([SCREE, "case.prm", "--safety"], cwd=folder, stdout=subprocess.DEVNULL) as search:
         table = folder / "results" / "safety" / "safety.csv"
         while search.poll() is None and not (table.exists() and len(table.read_text(encoding="utf-8").splitlines()) > 2):
             time.sleep(0.05)

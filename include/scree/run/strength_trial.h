@@ -30,9 +30,8 @@ namespace scree
 
   /// Judges from displacement and speed over time whether soil rests or fails.
   ///
-  /// It rests once it has been slower than the bound of speed for a time scale. It fails where its displacement is
-  /// beyond the bound and its speed at least 80 % of that a time scale before, or where it does not rest in time. Soil
-  /// that only deforms decelerates with the damping, which leaves a third of the speed after a time scale.
+  /// It fails where its displacement is beyond the bound, or where it does not rest in time. It rests once it has been
+  /// slower than the bound of speed for a time scale.
   class TrialJudge
   {
   public:

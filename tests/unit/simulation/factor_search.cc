@@ -79,7 +79,7 @@ void run()
   judge("steady", 0.01, 1.);
   judge("steady and too slow to come far", 2e-3, 1.);
   judge("slower and slower", 0.1, 0.4);
-  judge("beyond the displacement, but slower and slower", 0.5, 0.4);
+  judge("beyond the displacement before it rests", 0.5, 0.4);
   judge("at rest", 1e-4, 1.);
 }
 
