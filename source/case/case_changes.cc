@@ -46,6 +46,7 @@ namespace scree
                                    { "Output", "", Change::free },
                                    { "Output/Maps", "Format", Change::free },
                                    { "Time step", "", Change::noted },
+                                   { "Safety", "", Change::noted },
                                    { "Transfer", "Method", Change::noted, methods_of_same_points },
                                    { "Transfer", "PIC rate", Change::noted },
                                    { "Water/Pressure", "Relative tolerance", Change::noted },

@@ -198,6 +198,7 @@ namespace scree
     parameters.surface_load.check(parameters.grid, parameters.dimension);
     parameters.body_forces.check(parameters.dimension);
     parameters.settling.check(parameters.gravity);
+    parameters.safety.check();
     parameters.probes.check(parameters.grid, parameters.dimension, !parameters.bodies.empty());
     require_entry(parameters.transfer.transfer_method() != TransferMethod::apic ||
                       parameters.grid.basis_kind() == Basis::spline,

@@ -73,6 +73,8 @@ namespace scree
         read_maps();
         if (has_water)
           water.read_table(dimension, bed.map_origin);
+        if (safety.strength_factor != 1.)
+          reduce_strength(safety.strength_factor);
         time_step.choose_maximum(has_water, size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
@@ -90,9 +92,9 @@ namespace scree
   void Parameters::name_bodies()
   {
     // The names of the bodies are names of subsections: the declarations need them.
-    static const std::set<std::string> taken{ "Mesh",         "Time step", "Transfer", "Stabilisation",
-                                              "Boundaries",   "Settling",  "Output",   "Water",
-                                              "Surface load", "Probes",    "Bed",      "Base motion" };
+    static const std::set<std::string> taken{ "Mesh",     "Time step",   "Transfer", "Stabilisation", "Boundaries",
+                                              "Settling", "Output",      "Water",    "Surface load",  "Probes",
+                                              "Bed",      "Base motion", "Safety" };
     const std::string names = file.value("", "Bodies", "Soil");
     if (names == "none")
       return;
@@ -215,6 +217,7 @@ namespace scree
       contact.add_parameters(prm);
     surface_load.add_parameters(prm);
     settling.add_parameters(prm);
+    safety.add_parameters(prm);
     output.add_parameters(prm);
     probes.add_parameters(prm);
   }

@@ -83,20 +83,23 @@ namespace scree
   }
 
 
+  void Parameters::set(const std::string &path, const std::string &entry, const std::string &value)
+  {
+    const std::vector<std::string> subsections = Utilities::split_string_list(path, '/');
+    for (const std::string &subsection : subsections)
+      handler.enter_subsection(subsection);
+    handler.set(entry, value);
+    for (unsigned int s = 0; s < subsections.size(); ++s)
+      handler.leave_subsection();
+  }
+
+
   void Parameters::print_into(const std::string &folder, std::ostream &out)
   {
-    const auto set = [this](const NamedFile &named, const std::string &path) {
-      const std::vector<std::string> subsections = Utilities::split_string_list(named.subsection, '/');
-      for (const std::string &subsection : subsections)
-        handler.enter_subsection(subsection);
-      handler.set(named.entry, path);
-      for (unsigned int s = 0; s < subsections.size(); ++s)
-        handler.leave_subsection();
-    };
     for (const NamedFile &named : named_files)
-      set(named, std::filesystem::relative(named.path, folder));
+      set(named.subsection, named.entry, std::filesystem::relative(named.path, folder));
     print(out);
     for (const NamedFile &named : named_files)
-      set(named, named.path);
+      set(named.subsection, named.entry, named.path);
   }
 } // namespace scree

@@ -14,6 +14,12 @@ namespace scree
   }
 
 
+  double divided_angle(const double degrees, const double factor)
+  {
+    return std::atan(std::tan(radians(degrees)) / factor) * 180 / dealii::numbers::PI;
+  }
+
+
   FrictionAngleKind friction_angle_kind(const std::string &name)
   {
     if (name == "triaxial")

@@ -84,6 +84,12 @@ namespace scree
   }
 
 
+  bool MaterialParameters::divide_strength(const double factor)
+  {
+    return all.at(registered(law).name)->divide_strength(factor);
+  }
+
+
   bool MaterialParameters::is_rigid() const
   {
     return law == rigid_name;

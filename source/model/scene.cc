@@ -35,7 +35,11 @@ namespace scree
     if (ground)
       bed = std::make_unique<DiscreteLevelSet<dim>>(grid, *ground);
     if (!parameters.bed.friction_angles.empty())
-      bed_friction = read_friction(parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner);
+      {
+        bed_friction = read_friction(parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner);
+        for (auto &coefficient : bed_friction->values)
+          coefficient /= parameters.safety.strength_factor;
+      }
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);

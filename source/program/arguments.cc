@@ -23,6 +23,7 @@ namespace scree
     const std::vector<Option> &options()
     {
       static const std::vector<Option> table{ { "--resume", Task::resume, "" },
+                                              { "--safety", Task::safety, "" },
                                               { "--advise", Task::advise, "" },
                                               { "--accuracy", {}, "--advise" },
                                               { "--print-parameters", Task::print_parameters, "" },
@@ -189,6 +190,7 @@ namespace scree
       {
       case Task::run:
       case Task::resume:
+      case Task::safety:
       case Task::advise:
         take_case_file(sorted.others, arguments);
         break;
@@ -217,6 +219,7 @@ namespace scree
   {
     return "Usage: scree case.prm             run a case\n"
            "       scree case.prm --resume    continue from the newest checkpoint in its run folder\n"
+           "       scree case.prm --safety    factor of safety of a slope by strength reduction\n"
            "       scree case.prm --advise [--accuracy 0.05]\n"
            "                                  regime, estimated cost and recommendations\n"
            "       scree --new                list of scenes to start from\n"

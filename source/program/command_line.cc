@@ -3,6 +3,7 @@
 #include <scree/program/arguments.h>
 #include <scree/program/command_line.h>
 #include <scree/program/new_case.h>
+#include <scree/run/safety.h>
 #include <scree/run/simulation.h>
 #include <scree/version.h>
 
@@ -62,6 +63,15 @@ namespace scree
     }
 
 
+    int find_safety_of_case(const Arguments &arguments, const MPI_Comm communicator)
+    {
+      Parameters parameters(arguments.case_file);
+      End end = End::complete;
+      in_its_dimension(parameters, [&](const auto dim) { end = find_safety<dim()>(parameters, communicator); });
+      return end == End::stopped ? exit_code_of_a_stop : 0;
+    }
+
+
     int perform(const Arguments &arguments, const MPI_Comm communicator, std::ostream &out)
     {
       switch (arguments.task)
@@ -80,6 +90,8 @@ namespace scree
                       ? list_of_scenes()
                       : write_new_case(arguments.scene, arguments.case_file, arguments.overwrite, communicator));
           return 0;
+        case Task::safety:
+          return find_safety_of_case(arguments, communicator);
         case Task::advise:
           {
             Parameters parameters(arguments.case_file);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/postprocess/measures.h>
+#include <scree/run/motion_before_release.h>
 #include <scree/run/settling.h>
 
 #include <limits>
@@ -66,21 +67,15 @@ namespace scree
       constexpr unsigned int steps_between_lines = 1000;
       double ratio                               = std::numeric_limits<double>::infinity();
       unsigned int n_below                       = 0;
-      while (settling_clock.time() < maximum_time && n_below < rest.n_checks &&
-             control.stop_reason() == StopReason::none)
-        {
-          const double step = settling_clock.next_step(control.stable_step(), maximum_time);
-          advance(step);
-          settling_clock.advance(step, maximum_time);
-          if (settling_clock.step() % rest.steps_between_checks == 0 || settling_clock.time() >= maximum_time)
-            {
-              ratio   = rest.ratio(step);
-              n_below = ratio < rest.bound ? n_below + 1 : 0;
-            }
-          if (settling_clock.step() % steps_between_lines == 0)
-            folder.log("Settling: " + number_text(settling_clock.time()) + " s, step " +
-                       std::to_string(settling_clock.step()) + ", " + rest.name + ' ' + number_text(ratio));
-        }
+      const auto rests                           = [&](const double step) {
+        ratio   = rest.ratio(step);
+        n_below = ratio < rest.bound ? n_below + 1 : 0;
+        if (settling_clock.step() % steps_between_lines == 0)
+          folder.log("Settling: " + number_text(settling_clock.time()) + " s, step " +
+                     std::to_string(settling_clock.step()) + ", " + rest.name + ' ' + number_text(ratio));
+        return n_below >= rest.n_checks;
+      };
+      move_before_release(control, settling_clock, maximum_time, rest.steps_between_checks, advance, rests);
       return ratio;
     }
   } // namespace

@@ -70,7 +70,9 @@ namespace scree
   void Simulation<dim>::resume()
   {
     const Checkpoint checkpoint = find_checkpoint(
-        parameters.output_directory, [this](const std::string &line) { folder.log(line); }, communicator);
+        parameters.start_folder.empty() ? parameters.output_directory : parameters.start_folder,
+        [this](const std::string &line) { folder.log(line); },
+        communicator);
     const std::vector<std::string> notes = notes_on_changes(checkpoint, parameters.entries());
     load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
     require_entry(!(parameters.end_time < clock.time()),
@@ -306,6 +308,20 @@ namespace scree
     totals.lost_mass             = settled.lost_mass;
     totals.lost_volume           = settled.lost_volume;
     totals.lost_water_mass       = settled.lost_water_mass;
+  }
+
+
+  template <int dim>
+  Trial Simulation<dim>::try_strength(const double displacement)
+  {
+    stop.listen();
+    is_released = false;
+    scene.mark_start();
+    const Trial trial = scree::try_strength(
+        parameters, displacement, scene, control, folder, [this](const double time_step) { advance(time_step); });
+    scene.stop();
+    control.measure_speeds();
+    return trial;
   }
 
 

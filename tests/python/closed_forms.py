@@ -9,7 +9,7 @@ import numpy as np
 from scree.closed_forms import (GRAVITY, GrainDamBreak, Mud, Terzaghi, consolidate, consolidation_with_inertia, dupuit_discharge, dupuit_surface,
                                 ergun_gradient, ergun_velocity, film_discharge, film_velocity, final_height, final_settlement,
                                 final_volume_ratio, gauss, hydrostatic_pressure, krieger_dougherty, oedometric_modulus, plane_poiseuille,
-                                self_weight_pressure, stoker_bore, terzaghi_degree, terzaghi_pressure, volume_ratio_of_stress)
+                                self_weight_pressure, slip_circle_factor, stoker_bore, terzaghi_degree, terzaghi_pressure, volume_ratio_of_stress)
 
 
 def check(failures, what, error, bound):
@@ -43,6 +43,12 @@ def check_all():
               for t in (0.1, 0.5, 1)]
     check(failures, "consolidation with inertia: prm/consolidation/terzaghi.prm, k = 1e-3 m/s: largest distance to Terzaghi",
           max(np.max(np.abs(difference)) for difference in inertia), 2e-3)
+
+    for degrees, number in ((60, 0.191), (75, 0.219)):
+        factor = slip_circle_factor(1 / math.tan(math.radians(degrees)), 1, number, number)
+        check(failures, f"slip circles: stability number of Taylor's chart, {number} at {degrees} degrees", abs(factor - 1), 6e-3)
+    check(failures, "slip circles: Taylor's factor 1.47 of a slope 2:1 with D = 2 and c_u = 0.25 gamma H",
+          abs(slip_circle_factor(2, 2, 0.25, 0.25) - 1.47), 6e-3)
 
     y, w = gauss(0., 0.1)
     check(failures, "Poiseuille: mean velocity G H^2/(12 mu)",

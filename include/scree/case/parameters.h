@@ -3,6 +3,7 @@
 #define scree_case_parameters_h
 
 #include <scree/case/body_parameters.h>
+#include <scree/case/safety_parameters.h>
 #include <scree/mesh/background_grid.h>
 #include <scree/boundary/boundary_conditions.h>
 #include <scree/boundary/water_walls.h>
@@ -54,6 +55,7 @@ namespace scree
     std::vector<ContactParameters> contacts;   ///< also those that are not set
     SurfaceLoadParameters surface_load;        ///< subsection Surface load
     SettlingParameters settling;               ///< subsection Settling
+    SafetyParameters safety;                   ///< subsection Safety
     OutputParameters output;                   ///< subsection Output
     ProbeParameters probes;                    ///< subsection Probes
 
@@ -65,6 +67,16 @@ namespace scree
     WaterParameters water;       ///< subsection Water
     PressureParameters pressure; ///< subsection Pressure of Water
     WaterBoundaryParameters water_boundaries; ///< subsection Water of Boundaries
+
+    std::string start_folder; ///< run folder from whose checkpoint a resumed run goes on; empty: its own
+
+    /// Divides the strength of soil and the friction of bases, contacts and walls by a factor, instead of what entry
+    /// "Strength factor" says. Once only. Throws EntryError if there is no soil that has strength.
+    void reduce_strength(const double factor);
+
+    /// Changes an entry as if the file had it so; nothing is checked again.
+    /// @param subsection its path
+    void set(const std::string &subsection, const std::string &entry, const std::string &value);
 
     /// Where the bodies are, and how porous and heavy.
     std::vector<SoilRegion> soil_regions() const;

@@ -21,6 +21,9 @@ namespace scree
   /// An angle in radians.
   double radians(const double degrees);
 
+  /// The angle whose tangent is that of `degrees` over `factor`, degrees.
+  double divided_angle(const double degrees, const double factor);
+
   /// The kind of that name. Throws dealii::ExcMessage if there is none.
   FrictionAngleKind friction_angle_kind(const std::string &name);
 

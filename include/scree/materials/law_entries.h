@@ -64,6 +64,12 @@ namespace scree
       return {};
     }
 
+    /// Divides the strength by a factor, for a safety of slopes. Returns whether the law has any.
+    virtual bool divide_strength(const double)
+    {
+      return false;
+    }
+
     /// Makes the law with these values, for plane strain.
     virtual std::unique_ptr<Material<2>> make_2d() const = 0;
 
@@ -108,6 +114,10 @@ namespace scree
     {
       return parameters.usual_ranges();
     }
+    bool divide_strength(const double factor) override
+    {
+      return divide_strength_of(parameters, factor, 0);
+    }
 
   private:
     /// A struct without a member stiffest() has modulus().
@@ -132,6 +142,19 @@ namespace scree
     static std::optional<double> sine_of(const Law &, long)
     {
       return {};
+    }
+
+    /// A struct without a member divide_strength() has no strength.
+    template <typename Law>
+    static auto divide_strength_of(Law &law, const double factor, int) -> decltype(law.divide_strength(factor), true)
+    {
+      law.divide_strength(factor);
+      return true;
+    }
+    template <typename Law>
+    static bool divide_strength_of(Law &, const double, long)
+    {
+      return false;
     }
   };
 

@@ -27,6 +27,9 @@ namespace scree
     /// Check the chosen law; `subsection` is the path of the enclosing subsection for messages, e.g. "Soil".
     void check(const std::string &subsection) const;
 
+    /// Divides the strength of the chosen law by a factor, for a safety of slopes. Returns whether it has any.
+    bool divide_strength(const double factor);
+
     /// Whether the body does not move: it has no law.
     bool is_rigid() const;
 

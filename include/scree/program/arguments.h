@@ -12,6 +12,7 @@ namespace scree
   {
     run,
     resume,
+    safety,
     advise,
     print_parameters,
     new_case,

@@ -11,6 +11,7 @@
 #include <scree/run/shown_motion.h>
 #include <scree/step/timer_section.h>
 #include <scree/run/step_control.h>
+#include <scree/run/strength_trial.h>
 
 #include <limits>
 #include <memory>
@@ -51,6 +52,19 @@ namespace scree
     {
       return control.stable_step();
     }
+
+    /// Whether no settling at the start was stopped.
+    bool is_settled() const
+    {
+      return is_released;
+    }
+
+    /// Damped motion from the state as it is, until the soil rests or fails; then it is stopped. Collective.
+    /// @param displacement of the soil that fails, over its height
+    Trial try_strength(const double displacement);
+
+    /// Writes a checkpoint of the state as it is. Collective.
+    void write_checkpoint();
 
     /// One step of the run, of `largest_step` s and to the time `due`, s, at most.
     /// @return its length, s
@@ -147,7 +161,6 @@ namespace scree
     {
       return { totals, last_update, clock.time(), clock.step(), last_time_step };
     }
-    void write_checkpoint();
 
     /// Writes what --resume and the eye need of a run that ends before its time.
     void write_last();

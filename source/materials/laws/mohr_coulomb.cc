@@ -141,6 +141,15 @@ namespace scree
   }
 
 
+  void MohrCoulombParameters::divide_strength(const double factor)
+  {
+    friction_angle = divided_angle(friction_angle, factor);
+    dilation_angle = std::min(dilation_angle, friction_angle);
+    cohesion /= factor;
+    tension_cut_off = std::min(tension_cut_off / factor, apex(*this));
+  }
+
+
   LawEntry MohrCoulombParameters::modulus() const
   {
     return { "Young's modulus", young_modulus };

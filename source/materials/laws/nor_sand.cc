@@ -114,6 +114,13 @@ namespace scree
   }
 
 
+  void NorSandParameters::divide_strength(const double factor)
+  {
+    critical_stress_ratio   = critical_ratio() / factor;
+    critical_friction_angle = 0;
+  }
+
+
   LawEntry NorSandParameters::modulus() const
   {
     return { "Shear modulus", shear_modulus };

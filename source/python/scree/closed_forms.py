@@ -409,3 +409,41 @@ def settling_velocity(conductivity, porosity, grain_density, density=1000):
     is n (rho - rho_w) g = Q (v_w - v_s) with rho - rho_w = (1-n)(rho_s - rho_w), Q = n^2 rho_w g/k.
     """
     return conductivity * (1 - porosity) * (grain_density - density) / density
+
+
+def _descend(function, start, step=0.2, smallest=1e-4):
+    """The least value that steps in random directions find, which become shorter where they do not lead down."""
+    random = np.random.default_rng(1)
+    place, least = np.array(start), function(start)
+    while step > smallest:
+        trial = place + step * random.normal(size=len(start))
+        if (value := function(trial)) < least:
+            place, least, step = trial, value, 2 * step
+        else:
+            step *= 0.98
+    return least
+
+
+def slip_circle_factor(run_per_rise, depth, strength, strength_below):
+    """Factor of safety of a slope of undrained clay: the least over slip circles of resisting over driving moment (Taylor 1937 with phi_u = 0).
+
+    run_per_rise: 2 of a slope 2:1. depth: of the firm base below the crest, over the height of the slope. strength, strength_below: above and
+    below the level of the toe, over the weight of its height, c_u/(gamma H)."""
+    def factor(circle):
+        start, end, half_angle = circle  # x of the start on the crest (0, 1) and beyond, x of the end on the slope or beyond its toe
+        rise = 1 - max(1 - end / run_per_rise, 0)
+        chord = math.hypot(end - start, rise)
+        if start > 0 or end <= 0 or not 0 < half_angle < math.pi / 2:
+            return math.inf
+        radius = chord / (2 * math.sin(half_angle))
+        x0 = (start + end + 2 * radius * math.cos(half_angle) * rise / chord) / 2
+        y0 = 1 - rise / 2 + radius * math.cos(half_angle) * (end - start) / chord
+        angle = np.linspace(math.asin(max((start - x0) / radius, -1.)), math.asin(min((end - x0) / radius, 1.)), 1000)
+        x, y = x0 + radius * np.sin(angle), y0 - radius * np.cos(angle)
+        driving = np.trapz((np.clip(1 - x / run_per_rise, 0, 1) - y) * (x0 - x), x)
+        if y0 < 1 or driving <= 0 or y.min() < 1 - depth - 1e-9:
+            return math.inf
+        return np.trapz(np.where(y > 0, strength, strength_below) * radius**2, angle) / driving
+
+    starts = [(start, end * run_per_rise, half_angle) for start in (-0.3, -1.) for end in (1., 1.6) for half_angle in (0.4, 0.9)]
+    return min(_descend(factor, start) for start in starts)

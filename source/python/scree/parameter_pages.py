@@ -25,6 +25,7 @@ PAGES = {
     "Surface load": ("surface_load", "Surface load", "`subsection Surface load`"),
     "Water": ("water", "Water", "`subsection Water`"),
     "Settling": ("settling", "Settling", "`subsection Settling`"),
+    "Safety": ("safety", "Safety", "`subsection Safety`"),
     "Time step": ("time_step", "Time step", "`subsection Time step`"),
     "Transfer": ("transfer", "Transfer", "`subsection Transfer`"),
     "Stabilisation": ("stabilisation", "Stabilisation", "`subsection Stabilisation`"),

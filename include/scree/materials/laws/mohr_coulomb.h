@@ -38,6 +38,9 @@ namespace scree
     /// See LawEntries.
     LawEntry modulus() const;
 
+    /// See LawEntries. Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
+    void divide_strength(const double factor);
+
     /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
 

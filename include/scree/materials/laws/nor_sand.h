@@ -53,6 +53,9 @@ namespace scree
     /// See LawEntries.
     LawEntry stiffest() const;
 
+    /// See LawEntries. Divides M, from whichever entry; dilatancy is as before, so that the peak falls with M.
+    void divide_strength(const double factor);
+
     /// See LawEntries.
     std::vector<UsualRange> usual_ranges() const;
   };

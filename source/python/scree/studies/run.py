@@ -53,7 +53,8 @@ def case_text(study, variant, folder=None):
 
 def folder_of(study, variant, results):
     """Runs of one content share a folder, whichever study or label they serve."""
-    return results / hashlib.sha256(f"{study.program} {variant.ranks}\n{case_text(study, variant)}".encode()).hexdigest()[:12]
+    command = " ".join((study.program, *study.options))
+    return results / hashlib.sha256(f"{command} {variant.ranks}\n{case_text(study, variant)}".encode()).hexdigest()[:12]
 
 
 def load_run(folder, labels):
@@ -76,7 +77,7 @@ def make_run(study, variant, folder, arguments):
     launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
     if variant.ranks > (os.cpu_count() or 1):
         launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
-    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, prm]
+    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, *study.options, prm]
     # Runs of Open MPI side by side share folders, which the last one to end removes under one that begins: each has its own.
     with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_", ignore_cleanup_errors=True) as temporary:
         environment["TMPDIR"] = temporary

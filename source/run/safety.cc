@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/io/table_file.h>
+#include <scree/run/factor_search.h>
+#include <scree/run/safety.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    void check(const Parameters &parameters)
+    {
+      require_entry(!parameters.bodies.empty(), "", "Bodies", "none", "without soil there is no slope. Name a body.");
+      require_entry(!parameters.has_water,
+                    "",
+                    "Bodies",
+                    "with subsection Water",
+                    "--safety does not support water yet. Remove the subsection, and write total weights and "
+                    "strengths.");
+      require_entry(parameters.safety.strength_factor == 1.,
+                    "Safety",
+                    "Strength factor",
+                    parameters.safety.strength_factor,
+                    "--safety searches this factor. Remove the entry.");
+      for (const double component : parameters.gravity)
+        if (component != 0.)
+          return;
+      require_entry(
+          false, "", "Gravity", number_text(parameters.gravity), "without gravity no slope fails. Write another one.");
+    }
+
+
+    std::string text_of(const TrialEnd end)
+    {
+      return end == TrialEnd::rests ? "rests" : end == TrialEnd::fails ? "fails" : "stopped";
+    }
+
+
+    std::string table_line(const char *format, const double factor, const Trial &trial)
+    {
+      char line[100];
+      std::snprintf(
+          line, sizeof line, format, factor, text_of(trial.end).c_str(), trial.displacement, trial.time, trial.steps);
+      return line;
+    }
+
+
+    /// Trials of a case, one after the other, each a run with a folder of its own.
+    template <int dim>
+    class Trials
+    {
+    public:
+      Trials(const Parameters &given, const MPI_Comm communicator)
+          : given(given)
+          , path(given.output_directory + "/safety")
+          , communicator(communicator)
+          , folder(path, given.output.screen_kind() == Screen::progress, communicator)
+          , rows(folder.file("safety.csv"))
+      {
+        folder.remove_old_results();
+        for (const char *name : { "safety.csv", "settled", "trial", "rests", "fails" })
+          remove(name);
+      }
+
+
+      /// From the start of the case to the state that the other trials begin with, without a bound of the displacement.
+      TrialEnd settle()
+      {
+        const double factor   = 0.5 * given.safety.lower; // deforms little beyond elasticity
+        const auto parameters = parameters_of_trial(factor, "settled");
+        Simulation<dim> simulation(*parameters, Start::fresh, communicator);
+        if (!simulation.is_settled())
+          return TrialEnd::undecided;
+        const Trial trial = simulation.try_strength(std::numeric_limits<double>::infinity());
+        if (trial.end == TrialEnd::rests)
+          simulation.write_checkpoint();
+        record(factor, trial);
+        return trial.end;
+      }
+
+
+      /// From that state.
+      TrialEnd try_factor(const double factor)
+      {
+        Trial trial;
+        {
+          const auto parameters    = parameters_of_trial(factor, "trial");
+          parameters->start_folder = path + "/settled";
+          Simulation<dim> simulation(*parameters, Start::resume, communicator);
+          trial = simulation.try_strength(given.safety.displacement);
+          simulation.write_picture();
+        }
+        record(factor, trial);
+        if (trial.end != TrialEnd::undecided)
+          keep_as(text_of(trial.end));
+        return trial.end;
+      }
+
+
+      void log(const std::string &text)
+      {
+        folder.log(text);
+      }
+
+
+      /// Removes what only the search needs. Collective.
+      void remove(const std::string &name)
+      {
+        MPI_Barrier(communicator);
+        if (folder.is_writer())
+          std::filesystem::remove_all(folder.file(name));
+        MPI_Barrier(communicator);
+      }
+
+    private:
+      std::unique_ptr<Parameters> parameters_of_trial(const double factor, const std::string &name)
+      {
+        auto parameters = std::make_unique<Parameters>(given.case_file);
+        parameters->set("", "Output directory", path + '/' + name);
+        parameters->set("Output", "Screen", "nothing");
+        parameters->set("Probes", "Displacement", "true");
+        if (given.output.graphics_kind() == Pictures::none)
+          parameters->set("Output", "Graphics", "points");
+        parameters->reduce_strength(factor);
+        return parameters;
+      }
+
+
+      /// The folder of the last trial gets this name. Collective.
+      void keep_as(const std::string &name)
+      {
+        remove(name);
+        if (folder.is_writer())
+          std::filesystem::rename(folder.file("trial"), folder.file(name));
+        MPI_Barrier(communicator);
+      }
+
+
+      void record(const double factor, const Trial &trial)
+      {
+        if (rows.is_empty())
+          folder.log("   factor   trial   displacement (m)   time (s)    steps");
+        folder.log(table_line("   %-6.4g   %-7s %16.4g   %8.3f  %7llu", factor, trial));
+        if (!folder.is_writer() || trial.end == TrialEnd::undecided)
+          return;
+        if (rows.is_empty())
+          rows.append(csv_head({ "Factor (-)", "Rests (-)", "Displacement (m)", "Time (s)", "Steps (-)" }));
+        rows.append(csv_row(
+            { factor, double(trial.end == TrialEnd::rests), trial.displacement, trial.time, double(trial.steps) }));
+      }
+
+      const Parameters &given;
+      const std::string path;
+      const MPI_Comm communicator;
+      RunFolder folder;
+      RowFile rows;
+    };
+  } // namespace
+
+
+  template <int dim>
+  End find_safety(const Parameters &parameters, const MPI_Comm communicator)
+  {
+    check(parameters);
+    const SafetyParameters &safety = parameters.safety;
+    Parameters(parameters.case_file).reduce_strength(safety.lower); // throws if there is none, before files are touched
+    Trials<dim> trials(parameters, communicator);
+    trials.log("Safety      " + parameters.case_file + " -> " + parameters.output_directory + "/safety");
+    trials.log("Rests       where not more than 1 % of the soil is faster than 2e-4 sqrt(gH), during sqrt(H/g)\n"
+               "Fails       where more than 1 % of the soil has moved by " +
+               number_text(safety.displacement) + " H, or still moves after " + number_text(safety.maximum_time) +
+               " sqrt(H/g)");
+    const TrialEnd first = trials.settle();
+    require_entry(first != TrialEnd::fails,
+                  "Safety",
+                  "Lower factor",
+                  safety.lower,
+                  "the slope does not settle with its strength divided by half of this. Write a smaller one.");
+    const auto bracket = first == TrialEnd::rests
+                             ? search_factor(safety, [&](const double factor) { return trials.try_factor(factor); })
+                             : std::nullopt;
+    trials.remove("settled");
+    if (!bracket)
+      {
+        trials.log("Stopped     safety.csv has the trials so far");
+        return End::stopped;
+      }
+    const int digits = std::max(0, int(std::ceil(-std::log10(safety.tolerance) - 1e-9)));
+    char text[100];
+    std::snprintf(text,
+                  sizeof text,
+                  "Factor of safety  %.*f (between %.*f and %.*f)",
+                  digits,
+                  0.5 * (bracket->rests + bracket->fails),
+                  digits + 1,
+                  bracket->rests,
+                  digits + 1,
+                  bracket->fails);
+    trials.log(text);
+    trials.log("Results     " + parameters.output_directory +
+               "/safety: safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
+    return End::complete;
+  }
+
+  template End find_safety<2>(const Parameters &, const MPI_Comm);
+  template End find_safety<3>(const Parameters &, const MPI_Comm);
+} // namespace scree

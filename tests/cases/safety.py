@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""scree --safety on a coarse mesh: Griffiths & Lane (1999), example 1, cells of 1 m; the factor is 1.4 by finite elements, 1.38 by Bishop's method."""
+
+import csv
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+from case_tools import HERE, SCREE, check, run
+from scree.variants import read_case, set_entry
+
+CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
+
+
+def slope(**entries):
+    text = read_case(CASE)
+    for name, value in {"Mesh/Cell size": 1, "Output directory": "results", "Safety/Lower factor": 1, "Safety/Upper factor": 1.6, "Safety/Tolerance": 0.05, **entries}.items():
+        text = set_entry(text, name, value)
+    return text
+
+
+def trials(folder):
+    """The rows of safety.csv."""
+    with open(folder / "safety" / "safety.csv", encoding="utf-8") as file:
+        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+
+def bracket(rows):
+    """(largest factor that rests, smallest one that fails)."""
+    return max(row["factor"] for row in rows if row["rests"] == 1), min(row["factor"] for row in rows if row["rests"] == 0)
+
+
+def factor():
+    """Within 3 % on one rank and on two; pictures of both ends are there."""
+    results = run("one", slope(), "--safety")
+    rows = trials(results)
+    rests, fails = bracket(rows)
+    print(f"one rank: between {rests:g} and {fails:g}, {len(rows)} trials")
+    check(rows[0]["factor"] == 0.5 and rows[0]["rests"] == 1, "the first row is not that of the settled state")
+    check(fails - rests <= 0.05, "the bracket is wider than the tolerance")
+    check(abs(0.5 * (rests + fails) / 1.4 - 1) < 0.03, "the factor deviates from 1.4 by 3 % or more")
+    for end in ("rests", "fails"):
+        check((results / "safety" / end / "solution" / "points.pvd").exists(), f"there is no picture of the trial that {end}")
+    check(not (results / "safety" / "settled").exists(), "the settled state has been left behind")
+    other = bracket(trials(run("two", slope(), "--safety", ranks=2)))
+    check(other == (rests, fails), f"two ranks give {other}")
+
+
+def range_and_stop():
+    """A range that does not hold the factor is an error; a search that is stopped keeps its trials."""
+    for entries, words in (({"Safety/Lower factor": 1.5}, "does not come to rest"), ({"Safety/Upper factor": 1.2}, "still comes to rest")):
+        folder = pathlib.Path("range")
+        folder.mkdir(exist_ok=True)
+        (folder / "case.prm").write_text(slope(**entries), encoding="utf-8")
+        ended = subprocess.run([SCREE, "case.prm", "--safety"], cwd=folder, capture_output=True, text=True, check=False)
+        check(ended.returncode == 1 and words in ended.stderr, f"no error with {entries}: {ended.stderr}")
+        check(trials(folder / "results"), "safety.csv has no row")
+    folder = pathlib.Path("stop")
+    folder.mkdir(exist_ok=True)
+    (folder / "case.prm").write_text(slope(**{"Safety/Tolerance": 0.001}), encoding="utf-8")
+    with subprocess.Popen([SCREE, "case.prm", "--safety"], cwd=folder, stdout=subprocess.DEVNULL) as search:
+        table = folder / "results" / "safety" / "safety.csv"
+        while search.poll() is None and not (table.exists() and len(table.read_text(encoding="utf-8").splitlines()) > 2):
+            time.sleep(0.05)
+        search.send_signal(signal.SIGTERM)
+    check(search.returncode == 3, f"exit code {search.returncode} of a search that was stopped")
+    check(len(trials(folder / "results")) >= 2, "trials are lost")
+
+
+{"factor": factor, "range_and_stop": range_and_stop}[sys.argv[3]]()
