@@ -10,6 +10,8 @@ namespace scree
 {
   namespace
   {
+    constexpr const char *run_out = "of the run-out";
+
     /// Why the law of elastic soil, measured where a constant load drains, does not decide; empty: it does.
     std::string gap_of_elastic_law(const SceneNumbers &scene)
     {
@@ -23,6 +25,58 @@ namespace scree
       if (groups_of(scene).time_factor < least_time_factor)
         return "its law begins at T_v = 0.1, after the end of this run";
       return "";
+    }
+
+
+    /// Of soil that runs out, dry.
+    ErrorLaw law_of_dry_soil(const SceneNumbers &scene)
+    {
+      constexpr double least_grain = 0.005; // of the height; smaller ones hardly slow the flow
+      if (scene.grain_diameter > least_grain * scene.height)
+        return { run_out,
+                 1.2,
+                 1.,
+                 "2 to 10 % of the way of the front at H/h = 48 to 12, columns with inertial friction, d/H = 0.011, "
+                 "against the extrapolated front" };
+      if (scene.sticks)
+        return { run_out,
+                 3.8,
+                 1.,
+                 "10 to 19 % of the way of the front at H/h = 20 on a base that holds the soil, against the "
+                 "extrapolated front",
+                 "",
+                 "the front then runs ahead of experiments, by 20 to 40 % of its way. Set Grain diameter, or give the "
+                 "base the friction of the soil" };
+      return { run_out,
+               1.6,
+               1.,
+               "4 to 8 % of the way of the front of 90 % of the mass at H/h = 20 on a base with friction, against the "
+               "extrapolated front; the front of 99 % up to 14 % from H/h = 28 to 40" };
+    }
+
+
+    /// Of soil with water that runs out.
+    ErrorLaw law_of_wet_soil(const SceneNumbers &scene)
+    {
+      if (regime_of(scene) == Regime::undrained)
+        return { run_out,
+                 3.8,
+                 1.,
+                 "-5.5 % at H/h = 10 to +18.5 % at H/h = 80, undrained heap against total stress",
+                 "the front of undrained soil has not converged",
+                 "its error grows with finer cells. Compare three cell sizes, and report their range" };
+      if (scene.sticks)
+        return { run_out,
+                 3.8,
+                 1.,
+                 "13 to 24 % at H/h = 20, saturated loose slope on a fixed base against H/h = 40",
+                 "fronts of saturated slopes on such a base have not converged" };
+      return { run_out,
+               2.4,
+               1.,
+               "12 and 5 % of the way of the front of 90 % of the mass at H/h = 20 and 40 with TPIC, saturated loose "
+               "slope on a base with friction, against the extrapolated front; extrapolated fronts of TPIC, FLIP and "
+               "AFLIP differ by 12 %; the front of 99 % has no limit" };
     }
   } // namespace
 
@@ -47,52 +101,8 @@ namespace scree
                "0.03 to 0.08 % of the load at H/h = 20, Terzaghi's column",
                gap_of_elastic_law(scene) };
     if (!falls)
-      return { "of the run-out", 3.8, 1., "", "its law is that of soil that falls and runs out" };
-    constexpr double least_grain = 0.005; // of the height; smaller ones hardly slow the flow
-    if (!scene.has_water && scene.grain_diameter > least_grain * scene.height)
-      return {
-        "of the run-out",
-        1.2,
-        1.,
-        "2 to 10 % of the way of the front at H/h = 48 to 12, columns with inertial friction, d/H = 0.011, against "
-        "the extrapolated front"
-      };
-    if (!scene.has_water && scene.sticks)
-      return { "of the run-out",
-               3.8,
-               1.,
-               "10 to 19 % of the way of the front at H/h = 20 on a base that holds the soil, against the extrapolated "
-               "front",
-               "",
-               "the front then runs ahead of experiments, by 20 to 40 % of its way. Set Grain diameter, or give the "
-               "base the friction of the soil" };
-    if (!scene.has_water)
-      return { "of the run-out",
-               1.6,
-               1.,
-               "4 to 8 % of the way of the front of 90 % of the mass at H/h = 20 on a base with friction, against the "
-               "extrapolated front; the front of 99 % up to 14 % from H/h = 28 to 40" };
-    if (regime_of(scene) == Regime::undrained)
-      return { "of the run-out",
-               3.8,
-               1.,
-               "-5.5 % at H/h = 10 to +18.5 % at H/h = 80, undrained heap against total stress",
-               "the front of undrained soil has not converged",
-               "its error grows with finer cells. Compare three cell sizes, and report their range" };
-    if (scene.sticks)
-      return { "of the run-out",
-               3.8,
-               1.,
-               "13 to 24 % at H/h = 20, saturated loose slope on a fixed base against H/h = 40",
-               "fronts of saturated slopes on such a base have not converged" };
-    return {
-      "of the run-out",
-      2.4,
-      1.,
-      "12 and 5 % of the way of the front of 90 % of the mass at H/h = 20 and 40 with TPIC, saturated loose slope "
-      "on a base with friction, against the extrapolated front; extrapolated fronts of TPIC, FLIP and AFLIP differ "
-      "by 12 %; the front of 99 % has no limit"
-    };
+      return { run_out, 3.8, 1., "", "its law is that of soil that falls and runs out" };
+    return scene.has_water ? law_of_wet_soil(scene) : law_of_dry_soil(scene);
   }
 
 

@@ -19,12 +19,11 @@ namespace scree
     void check(const Parameters &parameters)
     {
       require_entry(!parameters.bodies.empty(), "", "Bodies", "none", "without soil there is no slope. Name a body.");
-      require_entry(!parameters.has_water,
-                    "",
-                    "Bodies",
-                    "with subsection Water",
-                    "--safety does not support water yet. Remove the subsection, and write total weights and "
-                    "strengths.");
+      require_entry(!parameters.has_water || parameters.settling.drainage() == Drainage::drained,
+                    "Settling",
+                    "Type",
+                    parameters.settling.type,
+                    "--safety holds the pore pressure. Write drained, and a \"Maximum time\" above 0.");
       require_entry(parameters.safety.strength_factor == 1.,
                     "Safety",
                     "Strength factor",

@@ -317,11 +317,10 @@ namespace scree
     stop.listen();
     is_released = false;
     scene.mark_start();
-    const Trial trial = scree::try_strength(
-        parameters, displacement, scene, control, folder, [this](const double time_step) { advance(time_step); });
-    scene.stop();
-    control.measure_speeds();
-    return trial;
+    return scree::try_strength(
+        parameters, displacement, scene, *scheme, control, folder, [this](const double time_step) {
+          advance(time_step);
+        });
   }
 
 

@@ -111,7 +111,8 @@ namespace scree
   Trial try_strength(const Parameters &parameters,
                      const double displacement,
                      Scene<dim> &scene,
-                     const StepControl<dim> &control,
+                     Scheme<dim> &scheme,
+                     StepControl<dim> &control,
                      RunFolder &folder,
                      const std::function<void(double)> &advance)
   {
@@ -122,6 +123,7 @@ namespace scree
     TimeStepper clock(parameters.time_step);
     Trial trial{ TrialEnd::undecided, 0., 0., 0 };
     scene.forcing.set_damping(parameters.safety.damping_rate(bounds.time_scale));
+    scheme.set_drainage(Drainage::drained); // the pore pressure is held
     move_before_release(control, clock, bounds.maximum_time, steps_between_looks, advance, [&](const double) {
       trial.displacement = exceeded_by(
           part_that_moves,
@@ -143,6 +145,9 @@ namespace scree
       return trial.end != TrialEnd::undecided;
     });
     scene.forcing.set_damping(0.);
+    scheme.set_drainage(Drainage::undrained);
+    scene.stop();
+    control.measure_speeds();
     trial.time  = clock.time();
     trial.steps = clock.step();
     return trial;
@@ -153,13 +158,15 @@ namespace scree
   template Trial try_strength(const Parameters &,
                               const double,
                               Scene<2> &,
-                              const StepControl<2> &,
+                              Scheme<2> &,
+                              StepControl<2> &,
                               RunFolder &,
                               const std::function<void(double)> &);
   template Trial try_strength(const Parameters &,
                               const double,
                               Scene<3> &,
-                              const StepControl<3> &,
+                              Scheme<3> &,
+                              StepControl<3> &,
                               RunFolder &,
                               const std::function<void(double)> &);
 } // namespace scree

@@ -14,8 +14,11 @@ from scree.variants import read_case, set_entry
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
 
 
-def slope(**entries):
-    text = read_case(CASE)
+WET = HERE.parents[1] / "prm/slopes/griffiths_lane_water.prm"
+
+
+def slope(case=CASE, **entries):
+    text = read_case(case)
     for name, value in {"Mesh/Cell size": 1, "Output directory": "results", "Safety/Lower factor": 1, "Safety/Upper factor": 1.6, "Safety/Tolerance": 0.05, **entries}.items():
         text = set_entry(text, name, value)
     return text
@@ -69,4 +72,18 @@ def range_and_stop():
     check(len(trials(folder / "results")) >= 2, "trials are lost")
 
 
-{"factor": factor, "range_and_stop": range_and_stop}[sys.argv[3]]()
+def under_water():
+    """With the water level at the crest the factor is that of a dry slope of the buoyant weight, within 3 %."""
+    search = {"Safety/Lower factor": 1.6, "Safety/Upper factor": 2.2, "Safety/Tolerance": 0.02}
+    wet, buoyant = (bracket(trials(run(name, text, "--safety"))) for name, text in (
+        ("wet", slope(WET, **search)), ("buoyant", slope(Gravity="0, -4.85595", **search))))  # 0.99 (2000 - 1000)/2000 of 9.81 m/s^2
+    folder = pathlib.Path("undrained")
+    folder.mkdir(exist_ok=True)
+    (folder / "case.prm").write_text(slope(WET, **{"Settling/Type": "undrained"}), encoding="utf-8")
+    ended = subprocess.run([SCREE, "case.prm", "--safety"], cwd=folder, capture_output=True, text=True, check=False)
+    check(ended.returncode == 1 and "--safety holds the pore pressure" in ended.stderr, f"no error in undrained settling: {ended.stderr}")
+    print(f"water between {wet[0]:g} and {wet[1]:g}, buoyant between {buoyant[0]:g} and {buoyant[1]:g}")
+    check(abs(sum(wet) / sum(buoyant) - 1) < 0.03, "the factors differ by 3 % or more")
+
+
+{"factor": factor, "range_and_stop": range_and_stop, "under_water": under_water}[sys.argv[3]]()

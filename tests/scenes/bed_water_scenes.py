@@ -89,7 +89,7 @@ def bed_fall(scree):
             for step in ("1e-3", "1e-4") if is_wet else ("1e-4",):
                 for kind in ("fixed", "free slip", "friction"):
                     lowest = math.ceil(level / cell + 1 - 1e-9) * cell
-                    entries = {"Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "%g" % cell, "Soil/Points per cell": "3", "Soil/Initial state/Type": "none",
+                    entries = {"Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "%g" % cell, "Soil/Points per cell": "3", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
                                "Soil/Region": "x > 0.5 && x < 1.5 && y > %g && y < %g" % (lowest, lowest + 0.5), "Soil/Initial velocity": "0; %g" % -speed,
                                "Time step/Maximum time step": step, "End time": "0.15", "Output/Statistics interval": "0.001"}
                     if floor == "box":
@@ -185,7 +185,7 @@ def slab(scree, case, plane, entries):
     """Acceleration of 1 x 0.3 m along the plane over g, from 0.1 s on."""
     along = plane.along(plane.down)
     region = "%s > 0.6 && %s < 1.6 && %s < 0.3" % (along, along, plane.along(plane.normal))
-    body = {"Water/Region": region} if case == "water/hydrostatic" else {"Soil/Region": region, "Soil/Initial state/Type": "none"}
+    body = {"Water/Region": region} if case == "water/hydrostatic" else {"Soil/Region": region, "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto"}
     table = run(scree, case, "slab",
                 {**body, "End time": "0.4", "Mesh/Cell size": "%g" % CELL, "Water/Initial pressure": "none",
                  "Time step/Maximum time step": "2e-3", "Bed/Type": "free slip", "Bed/Level set expression": plane.along(plane.normal),

@@ -32,7 +32,7 @@ def obstacle_impact(scree):
                      "Obstacle Piston/Level set expression": "(1.113 - x)*%.15g + (0.7 - y)*%.15g" % (c, s),
                      "Obstacle Piston/Velocity": "", "Boundaries/Bottom": "free slip",
                      "Soil/Region": "x > 0.3 && x < 0.7 && y > 0.5 && y < 0.9", "Soil/Initial velocity": "5; 0",
-                     "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "0.5", "Output/Statistics interval": "0.002"})
+                     "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto", "Output/Statistics interval": "0.002"})
         momentum = np.array([table["Momentum %s (N s)" % a] for a in "xy"])
         impulse = np.array([table["Obstacle Piston impulse %s (N s)" % a] for a in "xy"])
         name = "impact, %d degrees" % angle

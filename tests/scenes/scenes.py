@@ -73,7 +73,7 @@ def drop(scree):
     """A dry block falls on a wall of the box: freely and without stress until its points reach it, then without a gain of energy; at rest its weight
     is the wall's force, and a sliding one is braked by friction times weight. A wall that acts on all of its cells leaves .56 of the speed."""
     gravity, height, speed = 9.81, 0.1, 2.
-    block = {"Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Points per cell": "3", "Soil/Initial state/Type": "none",
+    block = {"Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Points per cell": "3", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
              "Soil/Region": "x > 0.5 && x < 1.5 && y > %g && y < %g" % (height, height + 0.5), "Soil/Initial velocity": "0; %g" % -speed,
              "Transfer/PIC rate": "0", "Time step/Maximum time step": "1e-4", "End time": "0.2", "Output/Statistics interval": "0.002"}
     for wall in ("fixed", "free slip", "friction 20"):

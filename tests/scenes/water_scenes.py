@@ -608,7 +608,7 @@ def seepage(scree):
     """Mean discharge through a dam with vertical faces: Dupuit's, exact for any free surface (closed_forms), of an elastic dam within
     5 % (ours), of a rigid one within 1 %. The level of a tank is what its pressure tells: its volume changes by rows that cross faces."""
     conductivity, length = 1e-2, 1.
-    rigid = {"Soil/Material": "rigid", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "0.5",
+    rigid = {"Soil/Material": "rigid", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
              "Time step/Maximum time step": "4e-3"}
     for name, entries, tolerance in (("porous dam", {}, 0.05), ("rigid porous dam", rigid, 0.01)):
         folder = name.replace(" ", "_")
@@ -728,7 +728,7 @@ def packed_bed(scree):
     """Speed of the flow through a bed of grains of 5 mm that its weight alone drives: Ergun's within 1 %, at particle Reynolds numbers
     rho_w U d/(mu (1-n)) from .027 (slow: inertia takes .03 % of the head) to 4.6e5 (viscosity takes .02 %); single-point, too, and in
     rigid grains with ten times the step, of which an implicit step takes energy."""
-    rigid = {"Soil/Material": "rigid", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "0.5",
+    rigid = {"Soil/Material": "rigid", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
              "Water/Grain diameter": "0", "Soil/Grain diameter": "5e-3", "Time step/Maximum time step": "2e-3"}
     for viscosity, sets, kind, entries in ((0.3, "double", "elastic", {}), (1e-2, "double", "elastic", {}), (1e-3, "double", "elastic", {}),
                                            (1e-6, "double", "elastic", {}), (1e-3, "single", "elastic", {}), (1e-3, "double", "rigid", rigid)):
@@ -914,7 +914,7 @@ def closing_gap(scree):
         both, velocity = "y < 0.4 || (y > %g && y < %g)" % (0.4 + gap, 0.8 + gap), "0; if(y > %g, %g, 0)" % (0.4 + gap / 2, -speed)
         soil = {"Soil/Region": both, "Soil/Initial velocity": velocity} if what == "soil" else {"Soil/Region": "y < 0.4"}
         table = run(scree, "columns/column_saturated", name.replace(",", "").replace(" ", "_").replace("/", "_"), pictures({
-            "Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": "0.05", **soil, "Soil/Initial state/Type": "none",
+            "Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": "0.05", **soil, "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
             "Soil/Points per cell": "3", "Water/Region": both,
             "Water/Points per cell": "3", "Water/Initial pressure": "none", "Water/Hydraulic conductivity": "1e-3",
             "Water/Initial velocity": velocity,
@@ -936,7 +936,7 @@ def impact(scree):
         name = "impact, steps of %s s" % step
         table = run(scree, "columns/column_saturated", "impact_" + step, {
             "Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6",
-            "Soil/Initial state/Type": "none", "Soil/Points per cell": "3", "Water/Points per cell": "3", "Water/Initial pressure": "none",
+            "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto", "Soil/Points per cell": "3", "Water/Points per cell": "3", "Water/Initial pressure": "none",
             "Water/Hydraulic conductivity": "1e-5", "Soil/Initial velocity": "0; -2", "Water/Initial velocity": "0; -2",
             "Time step/Maximum time step": step, "End time": "0.2", "Output/Statistics interval": "0.002"})
         mass = table["Mass (kg)"][0] + table["Water mass (kg)"][0]

@@ -67,15 +67,18 @@ namespace scree
   template <int dim>
   TrialBounds bounds_of_trial(const Scene<dim> &scene, const SafetyParameters &safety, const double displacement);
 
-  /// Moves the soil with damping until it rests or fails, or the run is asked to stop, and logs how that went.
+  /// Moves the soil with damping and the pore pressure held until it rests or fails, or the run is asked to stop, and
+  /// logs how that went; then all is at rest.
   /// Displacements count from Scene::mark_start(). Collective.
   /// @param displacement of soil that fails, over its height
+  /// @param scheme that `advance` steps with
   /// @param advance moves all by a step, s
   template <int dim>
   Trial try_strength(const Parameters &parameters,
                      const double displacement,
                      Scene<dim> &scene,
-                     const StepControl<dim> &control,
+                     Scheme<dim> &scheme,
+                     StepControl<dim> &control,
                      RunFolder &folder,
                      const std::function<void(double)> &advance);
 } // namespace scree

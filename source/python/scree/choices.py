@@ -14,7 +14,7 @@ import re
 from scree import benchmarks
 from scree.command import ROOT
 from scree.studies import run as studies
-from scree.studies.cases import regimes, run_out, run_out_limits
+from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio
 
 PAGE = ROOT / "doc" / "choosing.md"
@@ -138,6 +138,13 @@ POND = {round(0.2 / h): max(abs(row["fall/exact"] - 1) for row in with_labels("w
         for h in (0.1, 0.05, 0.025, 0.0125)}
 
 
+def wet_limits():
+    """{H/h: deviation} of the front of 90 % of a loose saturated slope on friction, TPIC, from its value at h = 0, over the displacement at h = 0."""
+    group = saturated_run_out_limits.curves(rows("saturated_run_out_limits"))[saturated_run_out_limits.SLOPE, saturated_run_out_limits.FRICTION, "TPIC"]
+    limit = run_out.Limit(group, saturated_run_out_limits.MASS)
+    return {row["cells"]: abs(row[saturated_run_out_limits.MASS] - limit.value) / (limit.value - start(run_out.SLOPE, 0.9)) for row in group}
+
+
 def tip_change():
     """Largest change of the front of 99 % at the last refinement of saturated slopes on friction, over its displacement."""
     groups = [group for (scene, _, _), group in run_out.curves(rows("run_out")).items() if scene in (run_out.SATURATED, run_out.PERMEABLE)]
@@ -215,6 +222,8 @@ def accuracy():
             "limit of 4 sizes"),
         row("[saturated slopes][run_out], friction", "2", WET_SLOPES, minutes("run_out", 40, scene="saturated slope", h=0.05), at(WET_SLOPES, 20, 40),
             "limit of 4 sizes"),
+        row("[loose saturated slope][wet_limits], friction", "3", wet_limits(), minutes("saturated_run_out_limits", 40, scene="slope", transfer="TPIC", cells=40.),
+            at(wet_limits(), 20, 40), "limit of 4 sizes, TPIC"),
         row("the same, held by suction", "2", HELD, minutes("run_out", 40, scene="saturated slope", soil="dense", h=0.05), at(HELD, 20, 40),
             "limit of 4 sizes"),
         row("the same, front of 99 %", "2", none, minutes("run_out", 40, scene="saturated slope", h=0.05), f"{percent(tip_change())} from 28 to 40", "finer run"),

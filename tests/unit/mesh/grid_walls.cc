@@ -191,6 +191,7 @@ void set_block(Parameters &parameters)
   body.material.law                                         = "linear elastic";
   body.material.of<LinearElasticParameters>().young_modulus = 1e6;
   body.material.of<LinearElasticParameters>().poisson_ratio = 0.;
+  body.seeding.points_per_cell                              = 4;
   body.seeding.grain_density                                = 2000;
   body.seeding.region                                       = "x > 0.3 && x < 0.7 && y < 0.2";
 }

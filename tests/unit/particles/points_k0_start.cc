@@ -78,7 +78,7 @@ void run()
   test<2>(
       "slope",
       { 5, 2.5 },
-      { { "Soil", "set Region = if(x < 2, y < 2, y < 4 - x)" } },
+      { { "Soil", "set Region = if(x < 2, y < 2, y < 4 - x)\nset Points per cell = 4" } },
       [&](const Point<2> &x) { return dense * ((x[0] < 2 ? 2 : 4 - x[0]) - x[1]); },
       out);
   test<3>(
@@ -93,8 +93,8 @@ void run()
   test<2>(
       "layers",
       { 2, 1.5 },
-      { { "Lower", "set Region = y < 1 && y < 0.3 + 0.2 * x" },
-        { "Upper", "set Region = y < 1 && y >= 0.3 + 0.2 * x" + light_soil } },
+      { { "Lower", "set Region = y < 1 && y < 0.3 + 0.2 * x\nset Points per cell = 4" },
+        { "Upper", "set Region = y < 1 && y >= 0.3 + 0.2 * x\nset Points per cell = 4" + light_soil } },
       [&](const Point<2> &x) {
         return dense * std::max(0., interface(x) - x[1]) + light * (1 - std::max(x[1], interface(x)));
       },

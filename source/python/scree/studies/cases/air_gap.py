@@ -25,7 +25,7 @@ def with_case(variants):
         velocity = f"0; if(y > {HEIGHT + gap / 2:g}, {-labels['v']:g}, 0)"
         entries = {**entries, "Water/Region": f"{below} || {above}", "Water/Initial velocity": velocity}
         if soil:
-            entries.update({"Soil/Initial state/Type": "none", "Soil/Points per cell": 3, "Soil/Region": " || ".join(soil),
+            entries.update({"Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto", "Soil/Points per cell": 3, "Soil/Region": " || ".join(soil),
                             "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": 1e-3})
         else:
             entries.update({"Water/Volume correction rate": 0, "Time step/Maximum time step": 1e-3})

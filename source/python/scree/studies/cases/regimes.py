@@ -69,7 +69,7 @@ def loaded(height, young, cells=10):
     width = 2 * height / cells
     return {**common(height, cells, 2 / cells, 1.2), "Gravity": "0, 0", "Stabilisation/F-bar": "none", "Soil/Region": f"y < {height:g}",
             "Soil/Material": "linear elastic", "Soil/Linear elastic/Young's modulus": young, "Soil/Linear elastic/Poisson's ratio": POISSON,
-            "Soil/Initial porosity": POROSITY, "Soil/Grain density": GRAINS, "Soil/Initial state/Type": "none",
+            "Soil/Initial porosity": POROSITY, "Soil/Grain density": GRAINS, "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
             "Surface load/Lower corner": f"0, {height:g}", "Surface load/Upper corner": f"{width:g}, {height:g}",
             "Surface load/Traction": f"0; {-rate:.6g}*t"}
 

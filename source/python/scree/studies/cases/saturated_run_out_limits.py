@@ -118,6 +118,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(title="Limits of the saturated run-out", question="Does the run-out of saturated soil have a limit, the same for all transfers?",
-              advice="Report the front of 90 % of the mass on a base with friction, and its range of transfers. The front of 99 % is a film that has no limit.",
+              advice="Use a base with friction, and report the front of 90 % of the mass with the range of the transfers.",
               base=FILES[COLUMN], variants=variants(), table=table, measure=measure, verdict=verdict,
               quick=lambda labels: labels["scene"] == COLUMN and labels["cells"] == 10, chart=Curves(draw))
