@@ -28,7 +28,8 @@ void run()
                   "\nend\nsubsection Stabilisation\n set F-bar = none\nend\n"
                   "subsection Boundaries\n set Left = fixed\n set Right = fixed\n set Bottom = free slip\n"
                   " set Top = free slip\nend\n"
-                  "subsection Soil\n set Region = 1\n set Points per cell = 4\n set Material = linear elastic\n set Grain density = 1e3\n"
+                  "subsection Soil\n set Region = 1\n set Points per cell = 4\n set Material = linear elastic\n set "
+                  "Grain density = 1e3\n"
                   " set Initial velocity = 1e-3*sin(pi*x); 0\n"
                   " subsection Linear elastic\n  set Young's modulus = 1e4\n  set Poisson's ratio = 0\n end\nend\n",
               [&](const auto &body, const auto &x, const double *properties) {
