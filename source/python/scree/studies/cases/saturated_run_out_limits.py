@@ -113,7 +113,7 @@ def draw(figure, rows):
             group = groups.get((scene, base, transfer), [])
             axes.plot([row["cells"] for row in group], [row[TIP] for row in group], style, marker="o", markersize=4, label=transfer)
             axes.plot([row["cells"] for row in group], [row[MASS] for row in group], style.replace("-", "--"))
-        axes.set(xlabel=f"cells over the height ({scene}, base {base})", ylabel="front of 99 % and (dashed) 90 % (m)")
+        axes.set(title=f"{scene}, base {base}", xlabel="cells over the height", ylabel="front of 99 % and (dashed) 90 % (m)")
         name_lines(axes)
 
 

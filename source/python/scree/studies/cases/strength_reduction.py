@@ -138,16 +138,17 @@ def table(rows):
 
 
 def draw(figure, rows):
-    axes = figure.subplots()
+    axes, points = figure.subplots(), []
     for cells, color in ((10, "C0"), (20, "C1")):
         group = [row for row in scenes_of(rows) if row["H/h"] == cells]
-        axes.errorbar([SCENES[row["scene"]] for row in group], [row["factor"] for row in group], [0.5 * (row["fails"] - row["rests"]) for row in group],
-                      color=color, marker="o", markersize=5, linestyle="", label=f"h = H/{cells}")
+        points.append(axes.errorbar([SCENES[row["scene"]] for row in group], [row["factor"] for row in group], [0.5 * (row["fails"] - row["rests"]) for row in group],
+                      color=color, marker="o", markersize=5, linestyle="", label=f"h = H/{cells}"))
     ends = [0.9, 2.1]
     for part, style, label in ((1., "-", "equal"), (0.97, "--", "-3 %"), (1.03, "--", "+3 %")):
         axes.plot(ends, [part * end for end in ends], style, color="0.5", linewidth=1, label=label)
     axes.set(xlabel="reference factor of safety", ylabel="factor of scree --safety")
     name_lines(axes)
+    axes.legend(handles=points, loc="upper left")
 
 
 STUDY = Study(title="Strength reduction", question="Is the factor of safety by strength reduction that of finite elements and of charts?",
