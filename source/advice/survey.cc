@@ -94,7 +94,8 @@ namespace scree
             parameters.bodies.begin(), parameters.bodies.end(), [](const auto &body) { return !body.is_rigid(); });
         const Wall floor =
             parameters.boundaries.walls(dim)[2 * axis + (parameters.gravity[axis] > 0)]; // in deal.II's numbering
-        scene.sticks              = floor.type == WallType::fixed || parameters.bed.type_kind() == BedType::fixed;
+        scene.sticks =
+            parameters.bed.is_set() ? parameters.bed.type_kind() == BedType::fixed : floor.type == WallType::fixed;
         scene.is_elastic          = scene.has_soil;
         scene.grain_diameter      = scene.has_soil ? std::numeric_limits<double>::max() : 0;
         scene.has_water           = parameters.has_water;

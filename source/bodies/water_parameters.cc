@@ -321,12 +321,31 @@ namespace scree
   }
 
 
-  void WaterParameters::read_table(const unsigned int dim, const Point<2> &map_origin)
+  void WaterParameters::read_table(const unsigned int dim,
+                                   const Point<2> &map_origin,
+                                   const std::vector<double> &lower,
+                                   const std::vector<double> &upper)
   {
-    const std::string where = entry_name("Water", "Phreatic surface file");
-    if (!phreatic_file.empty() && dim == 2)
-      std::get<0>(tables) = std::make_shared<const Profile>(read_profile(phreatic_file, where));
-    else if (!phreatic_file.empty())
-      std::get<1>(tables) = std::make_shared<const HeightSurface>(read_raster(phreatic_file, where, map_origin));
+    if (phreatic_file.empty())
+      return;
+    const std::string where    = entry_name("Water", "Phreatic surface file");
+    const auto require_overlap = [&](const unsigned int a, const double first, const double last) {
+      require_entry(first < upper[a] && last > lower[a],
+                    "Water",
+                    "Phreatic surface file",
+                    phreatic_file,
+                    "it lies beside the box of subsection Mesh. Look at its coordinates, and at \"Local origin\".");
+    };
+    if (dim == 2)
+      {
+        auto profile = std::make_shared<const Profile>(read_profile(phreatic_file, where));
+        require_overlap(0, profile->first_x(), profile->last_x());
+        std::get<0>(tables) = profile;
+        return;
+      }
+    Raster raster = read_raster(phreatic_file, where, map_origin);
+    require_overlap(0, raster.x, raster.last_x());
+    require_overlap(1, raster.y, raster.last_y());
+    std::get<1>(tables) = std::make_shared<const HeightSurface>(std::move(raster));
   }
 } // namespace scree

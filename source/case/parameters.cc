@@ -72,7 +72,7 @@ namespace scree
         map_system = system_of_maps(*this);
         read_maps();
         if (has_water)
-          water.read_table(dimension, bed.map_origin);
+          water.read_table(dimension, bed.map_origin, grid.lower_corner, grid.upper_corner);
         if (safety.strength_factor != 1.)
           reduce_strength(safety.strength_factor);
         time_step.choose_maximum(has_water, size_of_gravity(), grid.cell_size);

@@ -20,6 +20,12 @@ namespace scree
         if (const double porosity = body.initial_porosity(); porosity > 0 || seeding.initial_porosity >= 0)
           given.porosity = porosity;
         const GrainsAndPores result = grains_and_pores(body.name, given, size_of_gravity(), water.density);
+        require_entry(has_water || seeding.dry_unit_weight > 0,
+                      body.name,
+                      "Saturated unit weight",
+                      seeding.saturated_unit_weight,
+                      "the scene is dry, and the soil would weigh less than this. Write \"Dry unit weight\" (in total "
+                      "stress the same value), or add subsection Water.");
         handler.enter_subsection(body.name);
         handler.set("Grain density", exact_text({ result.grain_density }));
         handler.set("Initial porosity", exact_text({ result.porosity }));

@@ -10,7 +10,11 @@ namespace scree
     set("Safety", "Strength factor", exact_text({ factor })); // for the record, and for the bed's raster of angles
     bool has_strength = false;
     for (BodyParameters &body : bodies)
-      has_strength = body.material.divide_strength(factor) || has_strength;
+      {
+        if (body.initial_state.stress_kind() == InitialStress::k0)
+          body.initial_state.k0 = exact_text({ body.k0() }); // of the soil as it is
+        has_strength = body.material.divide_strength(factor) || has_strength;
+      }
     require_entry(has_strength,
                   "Safety",
                   "Strength factor",

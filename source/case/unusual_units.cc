@@ -95,6 +95,7 @@ namespace scree
         questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
         questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
       }
+    questions.ask("Bed", "Turbulent friction", parameters.bed.turbulent_friction, 20, 2e4, "m/s^2");
     const auto walls = parameters.boundaries.walls(3);
     for (unsigned int face = 0; face < walls.size(); ++face)
       {

@@ -24,6 +24,12 @@ namespace scree
                     "Type",
                     parameters.settling.type,
                     "--safety holds the pore pressure. Write drained, and a \"Maximum time\" above 0.");
+      for (const BodyParameters &body : parameters.bodies)
+        require_entry(body.material.law != "Nor-Sand",
+                      body.name,
+                      "Material",
+                      body.material.law,
+                      "the hardening of this law depends on the strength that --safety divides. Write Mohr-Coulomb.");
       require_entry(parameters.safety.strength_factor == 1.,
                     "Safety",
                     "Strength factor",
@@ -183,9 +189,17 @@ namespace scree
                   "Lower factor",
                   safety.lower,
                   "the slope does not settle with its strength divided by half of this. Write a smaller one.");
-    const auto bracket = first == TrialEnd::rests
-                             ? search_factor(safety, [&](const double factor) { return trials.try_factor(factor); })
-                             : std::nullopt;
+    std::optional<FactorBracket> bracket;
+    try
+      {
+        if (first == TrialEnd::rests)
+          bracket = search_factor(safety, [&](const double factor) { return trials.try_factor(factor); });
+      }
+    catch (const EntryError &) // on all ranks: the factor is not in the range
+      {
+        trials.remove("settled");
+        throw;
+      }
     trials.remove("settled");
     if (!bracket)
       {

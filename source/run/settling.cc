@@ -37,16 +37,16 @@ namespace scree
     template <int dim>
     Rest force_rest(Scene<dim> &scene, const Scheme<dim> &scheme, const double bound, const MPI_Comm communicator)
     {
-      double kinetic     = 0.;
-      unsigned int n_way = 0; // steps since the last stop
+      double kinetic         = 0.;
+      unsigned int n_falling = 0; // steps with less kinetic energy since the last stop
       return { "unbalanced force over weight", bound, 1, 20, [=, &scene, &scheme](const double step) mutable {
                 constexpr unsigned int least_way = 4; // Single points do not stop the others.
                 const NodalForces forces         = scheme.nodal_forces(step).sum_over_ranks(communicator);
-                const bool is_past_peak          = forces.kinetic < kinetic && ++n_way >= least_way;
+                const bool is_past_peak          = forces.kinetic < kinetic && ++n_falling >= least_way;
                 if (is_past_peak)
                   {
                     scene.stop();
-                    n_way = 0;
+                    n_falling = 0;
                   }
                 kinetic = is_past_peak ? 0. : forces.kinetic;
                 return forces.ratio();

@@ -118,7 +118,9 @@ namespace scree
   {
     constexpr unsigned int steps_between_looks = 20;
     const MPI_Comm communicator                = scene.grid.triangulation().get_communicator();
-    const TrialBounds bounds                   = bounds_of_trial(scene, parameters.safety, displacement);
+    for ([[maybe_unused]] const auto &body : scene.bodies)
+      Assert(body.layout.has_start, ExcMessage("A trial needs the displacement of the points."));
+    const TrialBounds bounds = bounds_of_trial(scene, parameters.safety, displacement);
     TrialJudge judge(bounds);
     TimeStepper clock(parameters.time_step);
     Trial trial{ TrialEnd::undecided, 0., 0., 0 };

@@ -3,6 +3,7 @@
 
 import csv
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -61,7 +62,8 @@ def range_and_stop():
         check(ended.returncode == 1 and words in ended.stderr, f"no error with {entries}: {ended.stderr}")
         check(trials(folder / "results"), "safety.csv has no row")
     folder = pathlib.Path("stop")
-    folder.mkdir(exist_ok=True)
+    shutil.rmtree(folder, ignore_errors=True)  # the table of an earlier search
+    folder.mkdir()
     (folder / "case.prm").write_text(slope(**{"Safety/Tolerance": 0.001}), encoding="utf-8")
     with subprocess.Popen([SCREE, "case.prm", "--safety"], cwd=folder, stdout=subprocess.DEVNULL) as search:
         table = folder / "results" / "safety" / "safety.csv"

@@ -98,7 +98,10 @@ namespace scree
 
     /// Reads the file of the phreatic surface if there is one; throws EntryError if it is none.
     /// @param map_origin where the map has the origin of the case's coordinates, m
-    void read_table(const unsigned int dim, const dealii::Point<2> &map_origin);
+    void read_table(const unsigned int dim,
+                    const dealii::Point<2> &map_origin,
+                    const std::vector<double> &lower,
+                    const std::vector<double> &upper);
 
     /// The phreatic surface of that file: its open is dry. Null without a file.
     template <int dim>

@@ -41,7 +41,8 @@ namespace scree
           const Tensor<1, dim> velocity = vector_of<dim>(point.properties + PropertyLayout<dim>::velocity);
           const Tensor<1, dim> along    = velocity - (velocity * view.normal) * view.normal;
           const double weight           = 2. / reach * (1. - std::max(view.distance, 0.) / reach);
-          const Tensor<1, dim> force    = -point.properties[body.layout.mass] * factor * weight * along.norm() * along;
+          const double rate             = std::min(factor * weight * along.norm(), 1. / time_step); // 1/s
+          const Tensor<1, dim> force    = -point.properties[body.layout.mass] * rate * along;
           balance.bed_impulse += time_step * force;
           balance.bed_dissipation -= time_step * force * along;
 

@@ -99,6 +99,11 @@ namespace scree
             "Residual cohesion",
             last.cohesion,
             "without residual friction the soil needs some residual cohesion to have any strength.");
+    require(!softening.is_active() || last.cohesion < cohesion || last.friction_angle < friction_angle ||
+                last.dilation_angle < dilation_angle,
+            "Softening strain",
+            softening.strain,
+            "no strength falls, as the residual values are those of the peak. Lower one of them.");
     require(tension_cut_off <= apex(last),
             "Tension cut-off",
             tension_cut_off,
@@ -141,12 +146,34 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Divides tan(phi), of phi itself, cohesion and cut-off. The increase of inertial friction stays, as far as the
+    /// grains bear no tension.
+    void divide(MohrCoulombParameters &law, const double factor)
+    {
+      law.friction_angle = divided_angle(std::asin(law.sine()) * 180. / numbers::PI, factor);
+      law.angle_kind     = "triaxial";
+      law.dilation_angle = std::min(law.dilation_angle, law.friction_angle);
+      law.cohesion /= factor;
+      law.tension_cut_off = std::min(law.tension_cut_off / factor, apex(law));
+      double &increase    = law.inertial_friction.friction_increase;
+      increase            = std::min(increase, 0.999 * (1. - law.sine()));
+    }
+  } // namespace
+
+
   void MohrCoulombParameters::divide_strength(const double factor)
   {
-    friction_angle = divided_angle(friction_angle, factor);
-    dilation_angle = std::min(dilation_angle, friction_angle);
-    cohesion /= factor;
-    tension_cut_off = std::min(tension_cut_off / factor, apex(*this));
+    MohrCoulombParameters last = residual(); // before the peak changes
+    divide(*this, factor);
+    if (!softening.is_active())
+      return;
+    divide(last, factor);
+    softening.cohesion       = last.cohesion;
+    softening.friction_angle = last.friction_angle;
+    softening.dilation_angle = last.dilation_angle;
+    tension_cut_off          = std::min(tension_cut_off, last.tension_cut_off);
   }
 
 

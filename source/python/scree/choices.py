@@ -142,7 +142,7 @@ def wet_limits():
     """{H/h: deviation} of the front of 90 % of a loose saturated slope on friction, TPIC, from its value at h = 0, over the displacement at h = 0."""
     group = saturated_run_out_limits.curves(rows("saturated_run_out_limits"))[saturated_run_out_limits.SLOPE, saturated_run_out_limits.FRICTION, "TPIC"]
     limit = run_out.Limit(group, saturated_run_out_limits.MASS)
-    return {row["cells"]: abs(row[saturated_run_out_limits.MASS] - limit.value) / (limit.value - start(run_out.SLOPE, 0.9)) for row in group}
+    return {round(row["cells"]): abs(row[saturated_run_out_limits.MASS] - limit.value) / (limit.value - start(run_out.SLOPE, 0.9)) for row in group}
 
 
 def tip_change():

@@ -15,7 +15,7 @@ namespace scree
   /// Coulomb.
   ///
   /// It acts on the points within a cell of the bed, with a weight w(d) = 2/h (1 - d/h) of the distance d, whose
-  /// integral is 1: so it does not depend on how points lie along the bed.
+  /// integral is 1 where the soil is a cell deep or more: so it does not depend on how points lie along the bed.
   template <int dim>
   class TurbulentFriction
   {
@@ -46,7 +46,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const DiscreteLevelSet<dim> &bed;
-    const double factor; // g/xi, 1/m
+    const double factor; // g/xi, -
     const double reach;  // m
   };
 } // namespace scree

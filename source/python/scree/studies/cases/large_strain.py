@@ -51,7 +51,7 @@ def reference():
 
 
 def measure(run):
-    n_rows = round(float(run.entries.get("Soil/Points per cell", 4)) / float(run.entries["Mesh/Cell size"]))
+    n_rows = round(float(run.entries["Soil/Points per cell"]) / float(run.entries["Mesh/Cell size"]))
     pressures, heights = [], []
     for state in reference():
         soil, water = run.points(state.time), run.points(state.time, "water")
