@@ -37,6 +37,7 @@ subsection Mesh
   set Cell size    = 0.1
 end
 subsection Soil
+  set Points per cell  = 4
   set Region           = x > 600000.2 && x < 600000.5 && y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6
   set Material         = linear elastic
   set Grain density    = 2000
