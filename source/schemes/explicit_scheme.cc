@@ -109,13 +109,14 @@ namespace scree
   {
     {
       const TimedPart part(timer, TimerSection::points_to_grid);
-      for (unsigned int number = 0; number < groups.size(); ++number)
+      unsigned int number = 0;
+      for (Group &group : groups)
         {
-          Group &group = *std::next(groups.begin(), number);
           group.soil.add_loads(0.); // Leapfrog: loads are those of the start of the step.
           for (const auto &friction : turbulent_frictions)
             friction.add_to(group.soil.field, bodies, number, time_step, budget);
           group.soil.field.add_contributions();
+          ++number;
         }
     }
     const TimedPart part(timer, TimerSection::nodes);

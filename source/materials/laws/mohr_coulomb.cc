@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
+#include <scree/materials/laws/mohr_coulomb_surfaces.h>
 #include <scree/materials/laws/softening_mohr_coulomb.h>
 #include <scree/materials/principal_batch_material.h>
 
@@ -243,25 +244,12 @@ namespace scree
     const double dilation = std::sin(radians(parameters.dilation_angle));
     const double limit    = 2 * parameters.cohesion * std::sqrt(1 - sine * sine);
 
-    constexpr unsigned int largest[3]  = { 0, 0, 1 };
-    constexpr unsigned int smallest[3] = { 2, 1, 2 };
-    for (unsigned int s = 0; s < 3; ++s)
-      {
-        PrincipalValues normal{}, flow{};
-        normal[largest[s]]  = 1 + sine;
-        normal[smallest[s]] = -(1 - sine);
-        flow[largest[s]]    = 1 + dilation;
-        flow[smallest[s]]   = -(1 - dilation);
-        add_surface(normal, flow, limit);
-      }
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        PrincipalValues axis{};
-        axis[i] = 1;
-        add_surface(axis, axis, largest_principal_stress);
-      }
+    using namespace mohr_coulomb_surfaces;
+    for (unsigned int s = 0; s < n_surfaces; ++s)
+      surfaces.push_back({ direction(s, sine),
+                           relaxation(direction(s, dilation), bulk, shear),
+                           s < cut_1 ? limit : largest_principal_stress });
 
-    const unsigned int f13 = 0, f12 = 1, f23 = 2, cut_1 = 3, cut_2 = 4;
     add_active_set({ f13 });
     add_active_set({ f13, f12 });
     add_active_set({ f13, f23 });
@@ -276,16 +264,6 @@ namespace scree
         add_active_set({ f13, f23, cut_1 });
       }
     // The three cut-offs meet at the vertex, which needs no system.
-  }
-
-
-  void MohrCoulomb::add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit)
-  {
-    Surface surface{ normal, flow, {}, limit };
-    const double volume_part = (bulk - 2. / 3. * shear) * (flow[0] + flow[1] + flow[2]);
-    for (unsigned int i = 0; i < 3; ++i)
-      surface.relaxation[i] = volume_part + 2 * shear * flow[i];
-    surfaces.push_back(surface);
   }
 
 

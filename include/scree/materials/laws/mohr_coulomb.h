@@ -153,11 +153,11 @@ namespace scree
     const double largest_principal_stress; ///< of the cut-off, Pa
 
   private:
-    /// A plane of the yield surface, normal . tau <= limit, and its flow direction.
+    /// A plane of the yield surface, normal . tau <= limit.
     struct Surface
     {
-      PrincipalValues normal, flow, relaxation; // relaxation: elastic stiffness times flow, Pa
-      double limit;                             // Pa
+      PrincipalValues normal, relaxation; // relaxation: elastic stiffness times flow direction, Pa
+      double limit;                       // Pa
     };
 
     /// Surfaces met together, and the inverse of normal_a . relaxation_b.
@@ -167,7 +167,6 @@ namespace scree
       dealii::Tensor<2, 3> inverse;
     };
 
-    void add_surface(const PrincipalValues &normal, const PrincipalValues &flow, const double limit);
     void add_active_set(const std::vector<unsigned int> &surfaces);
 
     /// How far a sorted stress is beyond a surface, Pa.

@@ -3,7 +3,7 @@
 #ifndef scree_materials_laws_point_strength_return_h
 #define scree_materials_laws_point_strength_return_h
 
-#include <scree/materials/law.h>
+#include <scree/materials/laws/mohr_coulomb_surfaces.h>
 
 namespace scree
 {
@@ -36,8 +36,6 @@ namespace scree
     void return_sorted(PrincipalNumbers<Number> &stress, simd::Mask<Number> &todo) const;
 
   private:
-    static constexpr unsigned int f13 = 0, f12 = 1, f23 = 2, cut_1 = 3, cut_2 = 4, cut_3 = 5, n_surfaces = 6;
-
     /// A plane normal . tau <= limit; relaxation: elastic stiffness times flow direction, Pa.
     struct Surface
     {
@@ -50,25 +48,6 @@ namespace scree
       return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
 
-    /// With normal n_i - n_j of this sine.
-    static PrincipalNumbers<Number>
-    direction(const unsigned int largest, const unsigned int smallest, const Number &sine)
-    {
-      PrincipalNumbers<Number> result;
-      for (Number &component : result)
-        component = simd::broadcast<Number>(0.);
-      result[largest]  = 1. + sine;
-      result[smallest] = sine - 1.;
-      return result;
-    }
-
-    void set_surface(const unsigned int s,
-                     const PrincipalNumbers<Number> &normal,
-                     const PrincipalNumbers<Number> &flow,
-                     const Number &limit,
-                     const double bulk,
-                     const double shear);
-
     /// Returns those of the points `todo` that meet the `n` surfaces of the set, and takes them out.
     template <unsigned int n>
     void try_set(const unsigned int (&&set)[n],
@@ -78,7 +57,7 @@ namespace scree
                  simd::Mask<Number> &todo) const;
 
     const double shear;
-    Surface surfaces[n_surfaces];
+    Surface surfaces[mohr_coulomb_surfaces::n_surfaces];
   };
 
 
@@ -89,38 +68,11 @@ namespace scree
                                                                                 const double shear)
       : shear(shear)
   {
-    constexpr unsigned int largest[3]  = { 0, 0, 1 };
-    constexpr unsigned int smallest[3] = { 2, 1, 2 };
-    for (unsigned int s = 0; s < 3; ++s)
-      set_surface(s,
-                  direction(largest[s], smallest[s], strength.sine),
-                  direction(largest[s], smallest[s], strength.dilation_sine),
-                  strength.limit,
-                  bulk,
-                  shear);
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        PrincipalNumbers<Number> axis;
-        for (unsigned int j = 0; j < 3; ++j)
-          axis[j] = simd::broadcast<Number>(i == j ? 1. : 0.);
-        set_surface(cut_1 + i, axis, axis, simd::broadcast<Number>(cut_off), bulk, shear);
-      }
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline void PointStrengthReturn<Number>::set_surface(const unsigned int s,
-                                                                             const PrincipalNumbers<Number> &normal,
-                                                                             const PrincipalNumbers<Number> &flow,
-                                                                             const Number &limit,
-                                                                             const double bulk,
-                                                                             const double shear)
-  {
-    const Number volume_part = (bulk - 2. / 3. * shear) * (flow[0] + flow[1] + flow[2]);
-    surfaces[s].normal       = normal;
-    surfaces[s].limit        = limit;
-    for (unsigned int i = 0; i < 3; ++i)
-      surfaces[s].relaxation[i] = volume_part + 2 * shear * flow[i];
+    using namespace mohr_coulomb_surfaces;
+    for (unsigned int s = 0; s < n_surfaces; ++s)
+      surfaces[s] = { direction(s, strength.sine),
+                      relaxation(direction(s, strength.dilation_sine), bulk, shear),
+                      s < cut_1 ? strength.limit : simd::broadcast<Number>(cut_off) };
   }
 
 
@@ -178,6 +130,7 @@ namespace scree
   DEAL_II_ALWAYS_INLINE inline void PointStrengthReturn<Number>::return_sorted(PrincipalNumbers<Number> &stress,
                                                                                simd::Mask<Number> &todo) const
   {
+    using namespace mohr_coulomb_surfaces;
     const PrincipalNumbers<Number> trial = stress;
     const Number tolerance =
         1e-12 * simd::max<Number>(surfaces[f13].limit,

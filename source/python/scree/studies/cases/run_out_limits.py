@@ -96,13 +96,17 @@ def depth(points, low, high):
     return np.array([(left_of(end) - left_of(start)) / (end - start) for start, end in zip(np.atleast_1d(low), np.atleast_1d(high))])
 
 
+def front_of_depth(points, least, start, width, step):
+    """The last place, each `step` from `start`, around which the deposit, averaged over `width`, is deeper than `least`."""
+    places = np.arange(start, points.positions[:, 0].max() + width, step)
+    return places[np.flatnonzero(depth(points, places, places + width) > least)[-1]] + width / 2
+
+
 def measure(run):
     points = run.points()
-    places = np.arange(1., points.positions[:, 0].max() + WIDTH, 0.0025)
     potential = run.statistics("Potential energy (J)")
     last = np.interp(5 / 6 * run.time[-1], run.time, run.statistics("Front 99 % (m)"))
-    depths = depth(points, places, places + WIDTH)
-    return {FRONT: places[np.flatnonzero(depths > 0.02)[-1]] + WIDTH / 2, MASS: run.statistics("Front 90 % (m)")[-1],
+    return {FRONT: front_of_depth(points, 0.02, 1., WIDTH, 0.0025), MASS: run.statistics("Front 90 % (m)")[-1],
             TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, 0., 2 * WIDTH)[0],
             "99 % in the last sixth": run.statistics("Front 99 % (m)")[-1] - last,
             "energy lost numerically": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}

@@ -24,7 +24,7 @@ Its uncertainty is half their distance and the RMS deviation of the worse one.
 import numpy as np
 
 from scree.studies.cases.run_out import Limit
-from scree.studies.cases.run_out_limits import HEIGHT, MASS, TIP, TRANSFERS, depth, halving_of
+from scree.studies.cases.run_out_limits import HEIGHT, MASS, TIP, TRANSFERS, depth, front_of_depth, halving_of
 from scree.studies.charts import Curves, name_lines
 from scree.studies.study import Claim, Study, Variant
 
@@ -53,10 +53,8 @@ def variants():
 
 def measure(run):
     points, height = run.points(), HEIGHTS[run.labels["scene"]]
-    places = np.arange(0.5 * height, points.positions[:, 0].max() + 0.05 * height, 0.0025 * height)
-    depths = depth(points, places, places + 0.05 * height)
     potential = run.statistics("Potential energy (J)")
-    return {FRONT: places[np.flatnonzero(depths > 0.02 * height)[-1]] + 0.025 * height, MASS: run.statistics("Front 90 % (m)")[-1],
+    return {FRONT: front_of_depth(points, 0.02 * height, 0.5 * height, 0.05 * height, 0.0025 * height), MASS: run.statistics("Front 90 % (m)")[-1],
             TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, 0., 0.1 * height)[0],
             "last point (m)": points.positions[:, 0].max(), "p oscillation": np.median(run.statistics("p oscillation (-)")[1:]),
             "energy lost numerically": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}

@@ -17,7 +17,7 @@ end of the record is within 10 %.
 import numpy as np
 
 from scree import results
-from scree.studies.cases.run_out_limits import depth
+from scree.studies.cases.run_out_limits import front_of_depth
 from scree.studies.charts import Curves, name_lines
 from scree.studies.study import Claim, Study, Variant, reference_rows
 
@@ -43,9 +43,7 @@ def measured(packing, quantity):
 
 
 def front(points, height):
-    places = np.arange(LENGTH / 2, points.positions[:, 0].max() + height / 16, height / 200)
-    depths = depth(points, places, places + height / 16)
-    return places[np.flatnonzero(depths > 0.02 * height)[-1]] + height / 32
+    return front_of_depth(points, 0.02 * height, LENGTH / 2, height / 16, height / 200)
 
 
 def measure(run):
