@@ -14,7 +14,7 @@ namespace scree
     bool goes_on = true;
     while (goes_on && clock.time() < maximum_time && control.stop_reason() == StopReason::none)
       {
-        const double step = clock.next_step(control.stable_step(), maximum_time);
+        const double step = clock.next_step(control.stable_step(clock), maximum_time);
         advance(step);
         clock.advance(step, maximum_time);
         if (clock.step() % steps_between_looks == 0 || clock.time() >= maximum_time)

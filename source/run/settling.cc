@@ -99,7 +99,10 @@ namespace scree
     scene.forcing.set_damping(settling.drainage() == Drainage::drained ? 0. : settling.damping_rate);
     scheme.set_drainage(settling.drainage());
 
-    TimeStepper settling_clock(parameters.time_step);
+    TimeStepper settling_clock(
+        settling.drainage() == Drainage::drained
+            ? parameters.time_step.with_held_pressure(scene.forcing.gravity().norm(), scene.grid.cell_size())
+            : parameters.time_step);
     const double ratio        = settle_down(settling.maximum_time, rest, control, advance, settling_clock, folder);
     const bool is_released    = control.stop_reason() == StopReason::none;
     const std::string release = ratio < rest.bound ? ". Released."

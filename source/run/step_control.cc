@@ -107,10 +107,10 @@ namespace scree
 
 
   template <int dim>
-  double StepControl<dim>::stable_step() const
+  double StepControl<dim>::stable_step(const TimeStepper &other_clock) const
   {
     const Speeds all = limiting_speeds();
-    return clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
+    return other_clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
   }
 
 

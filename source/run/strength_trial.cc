@@ -122,7 +122,7 @@ namespace scree
       Assert(body.layout.has_start, ExcMessage("A trial needs the displacement of the points."));
     const TrialBounds bounds = bounds_of_trial(scene, parameters.safety, displacement);
     TrialJudge judge(bounds);
-    TimeStepper clock(parameters.time_step);
+    TimeStepper clock(parameters.time_step.with_held_pressure(scene.forcing.gravity().norm(), scene.grid.cell_size()));
     Trial trial{ TrialEnd::undecided, 0., 0., 0 };
     scene.forcing.set_damping(parameters.safety.damping_rate(bounds.time_scale));
     scheme.set_drainage(Drainage::drained); // the pore pressure is held

@@ -41,8 +41,12 @@ namespace scree
     /// What limits the next step: of the points as they are, and of obstacles.
     Speeds limiting_speeds() const;
 
-    /// Largest step, s, of the points as they are.
-    double stable_step() const;
+    /// Largest step, s, of the points as they are, by the run's clock or another one.
+    double stable_step() const
+    {
+      return stable_step(clock);
+    }
+    double stable_step(const TimeStepper &other_clock) const;
 
     /// What makes it that large.
     StepLimit limit() const;

@@ -28,6 +28,14 @@ namespace scree
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m
     void choose_maximum(const bool has_water, const double gravity, const double cell_size);
+
+    /// The parameters while the pore pressure is held: an `auto` maximum is that of dry soil.
+    TimeStepParameters with_held_pressure(const double gravity, const double cell_size) const
+    {
+      TimeStepParameters held = *this;
+      held.choose_maximum(/* has_water */ false, gravity, cell_size);
+      return held;
+    }
   };
 
   /// What bounds a step.
