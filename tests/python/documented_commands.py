@@ -111,7 +111,7 @@ class Page:
         copy_of_cases(self.folder, self.factor, wanted)
         (self.folder / "build").symlink_to(self.build)
         # The quickstart without installation and build: the rest of the script runs.
-        (self.folder / "doc").mkdir()
+        shutil.copytree(ROOT / "doc" / "studies" / "reference", self.folder / "doc" / "studies" / "reference")
         shutil.copy(ROOT / "doc" / "quickstart.sh", self.folder / "doc")
         (self.folder / "doc" / "setup.sh").write_text(f'root="{self.folder}"\n', encoding="utf-8")
 

@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 
-from scree import variants
+from scree import command, variants
 from scree.fit import laboratory, problem, runs, solution
 
 PROGRAM = sys.argv[1]
@@ -117,9 +117,9 @@ def test_follow_up():
 
 def test_drained_softening():
     section = synthetic("softening", "drained triaxial", MOHR_COULOMB, 0.2, ["axial_strain", "deviator_stress", "volume_strain"], 0.01)
-    write("softening.toml", free({"Mohr-Coulomb/Friction angle": (36, 30, 50), "Mohr-Coulomb/Residual friction angle": (30, 20, 35),
-                                  "Mohr-Coulomb/Softening strain": (0.2, 0.01, 1, "logarithmic"), "Mohr-Coulomb/Dilation angle": (5, 0, 20),
-                                  "Mohr-Coulomb/Young's modulus": (1e7, 1e6, 1e9, "logarithmic")}) + section)
+    write("softening.toml", free({"Mohr-Coulomb/Friction angle": (39, 30, 50), "Mohr-Coulomb/Residual friction angle": (31, 20, 35),
+                                  "Mohr-Coulomb/Softening strain": (0.1, 0.01, 1, "logarithmic"), "Mohr-Coulomb/Dilation angle": (8, 0, 20),
+                                  "Mohr-Coulomb/Young's modulus": (1.5e7, 1e6, 1e9, "logarithmic")}) + section)
     found, told = fitted("softening.toml")
     check_recovered("softening Mohr-Coulomb", found, MOHR_COULOMB)
     assert re.search(r"softening +deviator_stress +60 +(0\.\d+|1\.0\d*) +% of the largest", told), told
@@ -127,6 +127,7 @@ def test_drained_softening():
     pasted = variants.read_entries("results/softening/fitted.prm")
     assert pasted["Material"] == "Mohr-Coulomb" and float(pasted["Mohr-Coulomb/Residual dilation angle"]) == 0
     np.testing.assert_allclose(float(pasted["Mohr-Coulomb/Friction angle"]), found["Mohr-Coulomb/Friction angle"][0], rtol=1e-5)
+    subprocess.run([PROGRAM, "results/softening/fitted.prm"], check=True, stdout=subprocess.DEVNULL)
     for file in ("report.txt", "fit.png", "cases/softening.prm", "residuals.csv"):
         assert pathlib.Path("results/softening", file).stat().st_size > 0, file
     with open("results/softening/residuals.csv", encoding="utf-8") as table:
@@ -137,8 +138,8 @@ def test_drained_softening():
 def test_undrained():
     section = synthetic("undrained", "undrained triaxial", {"Nor-Sand/Initial specific volume": 1.75}, 0.1,
                         ["axial_strain", "deviator_stress", "pore_pressure"], 0.01)
-    given = {"Nor-Sand/Critical stress ratio M": (0.9, 0.5, 1.5), "Nor-Sand/Hardening coefficient": (150, 20, 2000, "logarithmic"),
-             "Nor-Sand/Shear modulus": (1e7, 1e6, 1e8, "logarithmic")}
+    given = {"Nor-Sand/Critical stress ratio M": (0.8, 0.5, 1.5), "Nor-Sand/Hardening coefficient": (250, 20, 2000, "logarithmic"),
+             "Nor-Sand/Shear modulus": (5e6, 1e6, 1e8, "logarithmic")}
     write("undrained.toml", free(given) + section)
     check_recovered("undrained", fitted("undrained.toml")[0], {"Nor-Sand/Critical stress ratio M": 0.7097, "Nor-Sand/Hardening coefficient": 300,
                                                                "Nor-Sand/Shear modulus": 4e6})
@@ -148,12 +149,28 @@ def test_oedometer():
     """The sides yield. The result does not depend on the number of processes."""
     truth = {"Mohr-Coulomb/Friction angle": 30, "Mohr-Coulomb/Young's modulus": 2e7, "Mohr-Coulomb/Poisson's ratio": 0.1}
     section = synthetic("oedometer", "oedometer", {"Material": "Mohr-Coulomb", **truth}, 0.05, ["axial_strain", "vertical_stress", "lateral_stress"], 0.01)
-    write("oedometer.toml", free({"Mohr-Coulomb/Friction angle": (35, 20, 45), "Mohr-Coulomb/Young's modulus": (1e7, 1e6, 1e9, "logarithmic"),
-                                  "Mohr-Coulomb/Poisson's ratio": (0.15, 0.05, 0.3)}) + section)
+    write("oedometer.toml", free({"Mohr-Coulomb/Friction angle": (32, 20, 45), "Mohr-Coulomb/Young's modulus": (1.5e7, 1e6, 1e9, "logarithmic"),
+                                  "Mohr-Coulomb/Poisson's ratio": (0.12, 0.05, 0.3)}) + section)
     found, _ = fitted("oedometer.toml")
     check_recovered("oedometer", found, truth)
     again, _ = fitted("oedometer.toml", "2")
     assert again == found
+
+
+def test_erksak():
+    """The fit of the tutorial from its result on: both tests within the bounds, rms of q 6 % of the largest and of the volume strain 0.35 %."""
+    folder = command.ROOT / "prm" / "element"
+    text = re.sub('(data|case)( *= ")', rf"\1\2{folder}/", (folder / "erksak_fit.toml").read_text(encoding="utf-8"))
+    for entry, value in (("Critical void ratio", 1.), ("Compression index", 0.043033), ("Critical stress ratio M", 1.1865), ("Volumetric coupling N", 0.05),
+                         ("State dilatancy", 3.2478), ("Hardening modulus", 56.445), ("Hardening slope", 794.07)):
+        text, n_found = re.subn(rf'({entry}" *= {{ start = )[^,]*', rf"\g<1>{value}", text)
+        assert n_found == 1, entry
+    write("erksak_fit.toml", "evaluations = 1\n" + text.replace("results/element/erksak_fit", "results/erksak_fit"))
+    told = fitted("erksak_fit.toml")[1]
+    rms = [float(number) for number in re.findall(r"^G6\d\d +\w+ +10\d +([\d.]+) +%", told, re.MULTILINE)]
+    print("Erksak: rms", rms)
+    assert len(rms) == 4 and max(rms[0::2]) <= 6 and max(rms[1::2]) <= 0.35, told
+    assert re.search("FLAG  AT A BOUND: .*Volumetric coupling N", told), told
 
 
 # Flags and failures ---------------------------------------------------------------------------------------------------

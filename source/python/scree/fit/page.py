@@ -101,14 +101,14 @@ def snippet(problem, solution):
     law = cases[0].get("Material", "Nor-Sand")
     fitted = {one.entry: (f"{value:.6g}", f"  # sigma {sigma:.2g}") for one, value, sigma in zip(problem.parameters, solution.values, solution.sigma)}
     shared = {entry: (value, "") for entry, value in cases[0].items() if entry.startswith(law + "/") and all(case.get(entry) == value for case in cases)}
-    lines = [f"# Fitted to {', '.join(test.name for test in problem.tests)} by scree-element --fit {problem.file.name}.", *(f"# FLAG {flag}." for flag in solution.flags),
-             f"set Material = {law}"]
+    lines = [f"# Fitted to {', '.join(test.name for test in problem.tests)} by scree-element --fit {problem.file.name}.",
+             *(f"# FLAG {flag}." for flag in solution.flags), f"set Material = {law}"]
     different = sorted({entry for case in cases for entry in case if entry.startswith(law + "/")} - set(shared) - set(fitted))
     lines += [f"# Differs between the tests: {entry} = {', '.join(case.get(entry, 'default') for case in cases)}." for entry in different]
     body = "\n".join(lines) + "\n"
     for entry, (value, comment) in {**shared, **fitted}.items():
         body = variants.set_entry(body, entry, value + comment)
-    return body
+    return body.rstrip("\n") + "\n"
 
 
 # Picture --------------------------------------------------------------------------------------------------------------

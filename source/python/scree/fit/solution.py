@@ -162,8 +162,8 @@ def _flags(problem, found, values, deviations, sigma, correlation):
     for number, (parameter, value) in enumerate(zip(problem.parameters, values)):
         for bound, distance in (("low", found.x[number]), ("high", 1 - found.x[number])):
             if distance < NEAR and not np.isnan(sigma[number]):
-                flags.append(f"AT A BOUND: {parameter.entry} = {value:.4g} is at {bound} = {getattr(parameter, bound):g}. The tests draw it further: "
-                             "its sigma has no meaning")
+                flags.append(f"AT A BOUND: {parameter.entry} = {value:.4g} is at {bound} = {getattr(parameter, bound):g}. Least squares would leave "
+                             "the bounds: its sigma has no meaning")
         if np.isnan(sigma[number]):
             flags.append(f"NO INFLUENCE: {parameter.entry} does not change these tests. Hold it in [set]")
         elif deviations[number] > 0.25:
