@@ -76,6 +76,22 @@ def check_recovered(name, found, truth, sigmas=2):
     assert all(abs(distance) <= sigmas for distance in distances.values()), (name, found, distances)
 
 
+# Command line ---------------------------------------------------------------------------------------------------------
+
+
+def test_command_line():
+    """Paths in a row, of which one fails; options at the wrong place."""
+    for name in ("one", "two"):
+        write(f"{name}.prm", f"set Path = oedometer\nset Final strain = 0.001\nset Number of steps = 5\nset Output directory = row/{name}\n")
+    done = subprocess.run([PROGRAM, "one.prm", "missing.prm", "two.prm"], capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and "missing.prm" in done.stderr and done.stdout.count("oedometer") == 2, done
+    assert pathlib.Path("row/one/table.txt").exists() and pathlib.Path("row/two/table.txt").exists()
+    for arguments, text in ((["one.prm", "--fit"], "--fit stands first"), (["--fti"], 'Did you mean "--fit"'), ([], "needs an argument"),
+                            (["--fit"], "the following arguments are required"), (["--fit", "no.toml"], "no.toml: No such file")):
+        done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
+        assert done.returncode == 1 and text in done.stderr and done.stderr.count("\n") == 1, done
+
+
 # Tables ---------------------------------------------------------------------------------------------------------------
 
 
