@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Completion of the command lines of scree, scree-element and scree-scenarios, for bash, and for zsh after `autoload -U bashcompinit; bashcompinit`:
+# Completion of the command lines of scree, scree-element, scree-fit and scree-scenarios, for bash, and for zsh after `autoload -U bashcompinit; bashcompinit`:
 # options, case files, scenes of --new, subsections of --print-parameters. The program itself lists scenes and subsections.
 
 # The replies that begin with the word before the cursor, from lines of standard input; blanks are quoted.
@@ -71,10 +71,23 @@ _scree_element()
 {
   local word=${COMP_WORDS[COMP_CWORD]}
   COMPREPLY=()
-  if [[ $word == -* ]]; then
-    _scree_reply <<<$'--version\n--help'
+  if [[ ${COMP_WORDS[1]} == --fit && $COMP_CWORD -gt 1 ]]; then
+    _scree_of_fit
+  elif [[ $word == -* ]]; then
+    _scree_reply <<<$'--fit\n--version\n--help'
   else
     _scree_case_files
+  fi
+}
+
+_scree_of_fit()
+{
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}
+  COMPREPLY=()
+  if [[ $word == -* ]]; then
+    _scree_reply <<<$'--cores\n--help'
+  elif [[ $before != --cores ]]; then
+    _scree_case_files toml
   fi
 }
 
@@ -92,3 +105,4 @@ _scree_scenarios()
 complete -F _scree scree
 complete -F _scree_element scree-element
 complete -F _scree_scenarios scree-scenarios
+complete -F _scree_of_fit scree-fit

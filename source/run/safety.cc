@@ -25,7 +25,7 @@ namespace scree
                     parameters.settling.type,
                     "--safety holds the pore pressure. Write drained, and a \"Maximum time\" above 0.");
       for (const BodyParameters &body : parameters.bodies)
-        require_entry(body.material.law != "Nor-Sand",
+        require_entry(body.material.law != "Nor-Sand" && body.material.law != "Nor-Sand (Jefferies-Been)",
                       body.name,
                       "Material",
                       body.material.law,

@@ -49,5 +49,8 @@ touch study.toml
 studies=$(bash --norc -c '. "$0"; COMP_WORDS=(scree-scenarios "$1"); COMP_CWORD=1; _scree_scenarios; printf "%s " "${COMPREPLY[@]}"' "$script" s)
 [ "$studies" = 'study.toml sub.d ' ] || { echo "scree-scenarios s: $studies"; exit 1; }
 
+of_element=$(bash --norc -c '. "$0"; COMP_WORDS=(scree-element --fit "$1"); COMP_CWORD=2; _scree_element; printf "%s " "${COMPREPLY[@]}"' "$script" s)
+[ "$of_element" = 'study.toml sub.d ' ] || { echo "scree-element --fit s: $of_element"; exit 1; }
+
 # The file loads with the name of each command, as it is installed.
-bash --norc -c ". '$script'; complete -p scree scree-element scree-scenarios"
+bash --norc -c ". '$script'; complete -p scree scree-element scree-fit scree-scenarios"

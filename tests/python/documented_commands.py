@@ -35,7 +35,7 @@ NOT_RUN = {
 }
 SHORTENED = {"README.md": 2, "doc/installation.md": 20, "doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4, "doc/tutorials/scenarios.md": 20,
              "doc/tutorials/bore.md": 2, "doc/tutorials/dry_slope.md": 2}
-LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report|scenarios)|gdal|mpirun -np 4")
+LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report|scenarios|element --fit)|gdal|mpirun -np 4")
 LONG_PAGES = {"doc/tutorials/bore.md"}  # 50 pictures of 51 200 points
 # What a reader replaces by something of his own.
 PLACES = {"FOLDER": "installed", "XMIN YMIN XMAX YMAX": "100 100 500 800"}
@@ -111,7 +111,7 @@ class Page:
         copy_of_cases(self.folder, self.factor, wanted)
         (self.folder / "build").symlink_to(self.build)
         # The quickstart without installation and build: the rest of the script runs.
-        (self.folder / "doc").mkdir()
+        shutil.copytree(ROOT / "doc" / "studies" / "reference", self.folder / "doc" / "studies" / "reference")
         shutil.copy(ROOT / "doc" / "quickstart.sh", self.folder / "doc")
         (self.folder / "doc" / "setup.sh").write_text(f'root="{self.folder}"\n', encoding="utf-8")
 

@@ -339,7 +339,7 @@ namespace scree
   template <int dim, typename Law>
   double HenckyMaterial<dim, Law>::plane_friction() const
   {
-    if constexpr (HasInertialFriction<Law>())
+    if constexpr (HasPlaneFriction<Law>())
       return law.plane_friction();
     else
       return Material<dim>::plane_friction();

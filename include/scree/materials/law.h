@@ -20,6 +20,9 @@ namespace scree
   ///   respond(strain, internal variables, stress)                   the return map of all points
   /// PrincipalBatchMaterial makes a Material of it that updates several points at a time.
   ///
+  /// A law whose strength depends on the volume, or whose moduli on the stress, has
+  ///   respond(strain, J, internal variables, stress)                the same with a VolumeResponse
+  ///
   /// A law whose yield surface has no corners needs the invariants of strain only. It has the members of NorSand that
   /// are templates of `Number`, and BatchMaterial makes a Material of it that updates several points at a time:
   ///   trial(volume strain, |dev strain|^2, J, internal variables)   state before the return
@@ -74,6 +77,44 @@ namespace scree
     simd::Mask<Number> is_vertex;     ///< As counted in UpdateReport, like the next two
     simd::Mask<Number> is_separated;  ///< see UpdateReport::n_separated
     simd::Mask<Number> is_unresolved; ///< see UpdateReport::n_unresolved
+  };
+
+  /// The same of a law that depends on the volume.
+  template <typename Number>
+  struct VolumeResponse : PrincipalResponse<Number>
+  {
+    simd::Mask<Number> is_left; ///< Left to return_map()
+    Number bulk_modulus;        ///< With 4/3 of the law's shear modulus the modulus of waves, Pa
+  };
+
+  /// Whether a law in principal values depends on the volume.
+  template <typename Law, typename = void>
+  struct DependsOnVolume : std::false_type
+  {
+  };
+
+  /// It has the member.
+  template <typename Law>
+  struct DependsOnVolume<
+      Law,
+      std::void_t<decltype(std::declval<const Law &>().template respond<double>(std::declval<PrincipalValues &>(),
+                                                                                std::declval<const double &>(),
+                                                                                std::declval<double *>(),
+                                                                                std::declval<PrincipalValues &>()))>>
+      : std::true_type
+  {
+  };
+
+  /// Whether a law has friction on a plane of shear.
+  template <typename Law, typename = void>
+  struct HasPlaneFriction : std::false_type
+  {
+  };
+
+  /// It has the member.
+  template <typename Law>
+  struct HasPlaneFriction<Law, std::void_t<decltype(std::declval<const Law &>().plane_friction())>> : std::true_type
+  {
   };
 
   /// Invariants of a state on the yield surface.

@@ -55,15 +55,14 @@ namespace scree
 
       const Mask is_finite =
           simd::abs<Batch>(trial_strain[0] + trial_strain[1] + trial_strain[2]) <= std::numeric_limits<double>::max();
-      const Mask is_served =
-          Records::is_possible(input) & is_finite & (Records::largest_change_of(input) <= largest_change);
-      const unsigned int used = (1u << n) - 1, served = simd::bits_of(is_served) & used;
+      Mask is_served = Records::is_possible(input) & is_finite & (Records::largest_change_of(input) <= largest_change);
 
       PrincipalNumbers<Batch> strain = trial_strain, kirchhoff_stress;
       Batch before[Law::n_internal_variables + 1];
       std::copy_n(input.internal_variables, Law::n_internal_variables, before);
-      const PrincipalResponse<Batch> response = law.respond(strain, input.internal_variables, kirchhoff_stress);
-      const unsigned int plastic              = simd::bits_of(response.is_plastic) & served;
+      const auto response     = respond(strain, input, kirchhoff_stress, is_served, report);
+      const unsigned int used = (1u << n) - 1, served = simd::bits_of(is_served) & used;
+      const unsigned int plastic = simd::bits_of(response.is_plastic) & served;
       if (plastic != 0)
         {
           if constexpr (HasInertialFriction<Law>())
@@ -98,6 +97,28 @@ namespace scree
 
       for (unsigned int others = used & ~served; others != 0; others &= others - 1)
         this->update_point(indices[__builtin_ctz(others)], points, motion, report);
+    }
+
+    /// The law's response; points that it leaves are no longer served.
+    PrincipalResponse<Batch> respond(PrincipalNumbers<Batch> &strain,
+                                     typename Records::Input &input,
+                                     PrincipalNumbers<Batch> &stress,
+                                     Mask &is_served,
+                                     UpdateReport &report) const
+    {
+      if constexpr (DependsOnVolume<Law>())
+        {
+          const VolumeResponse<Batch> response =
+              law.respond(strain, input.volume_ratio, input.internal_variables, stress);
+          is_served           = is_served & !response.is_left;
+          const Mask is_large = is_served & (response.bulk_modulus > report.largest_bulk_modulus);
+          if (simd::any(is_large))
+            report.largest_bulk_modulus = simd::largest_lane<Batch>(
+                simd::select<Batch>(is_large, response.bulk_modulus, simd::broadcast<Batch>(0.)));
+          return response;
+        }
+      else
+        return law.respond(strain, input.internal_variables, stress);
     }
 
     /// As HenckyMaterial::keep_part(), of the points that yield.

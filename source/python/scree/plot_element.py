@@ -29,7 +29,7 @@ def plot(directory):
         raise ValueError(f"{directory / 'table.txt'} has no column {missing[0]}: is {directory} a folder of scree-element?")
     pressure = columns["mean_pressure"] / 1000
     # Laws without pores: the volume ratio stands in for the specific volume.
-    volume = "specific_volume" if "specific_volume" in columns else "volume_ratio"
+    volume = next(name for name in ("specific_volume", "void_ratio", "volume_ratio") if name in columns)
     curves = [
         (100 * columns["strain"], columns["stress_ratio"], "strain, %", "q/p', -"),
         (pressure, columns[volume], "p', kPa", volume.replace("_", " ") + ", -"),

@@ -8,6 +8,7 @@ from TARGET.prm. Entries that BASE.prm does not have are looked up in what the p
 """
 
 import difflib
+import functools
 import os
 import pathlib
 import re
@@ -134,14 +135,19 @@ def write_variant(base_prm, target_prm, entries):
         file.write(text + "\n")
 
 
+@functools.lru_cache
+def _listed(asked, option):
+    """The entries that a program lists."""
+    return frozenset(_entries_of(subprocess.run([asked, option], capture_output=True, text=True, check=True).stdout))
+
+
 def known_entries(base):
     """The entries that a case like `base` may have, where bodies have its names; None if no program is there to ask."""
     is_element = "Path" in base  # a case of scree-element
     asked = program("scree-element" if is_element else "scree")
     if asked is None:
         return None
-    listed = subprocess.run([asked, "--help" if is_element else "--print-parameters"], capture_output=True, text=True, check=True).stdout
-    known = set(_entries_of(listed))
+    known = _listed(asked, "--help" if is_element else "--print-parameters")
     if not is_element:
         of_a_body = [name.split("/", 1)[1] for name in known if name.startswith("Soil/")]
         bodies = [name.strip() for name in base.get("Bodies", "Soil").split(",")]

@@ -4,6 +4,7 @@
 // to the last bit wherever it stands among the others. Argument: states of each kind.
 
 #include <scree/materials/batch_material.h>
+#include <scree/materials/jefferies_been/return.h>
 #include <scree/materials/laws/linear_elastic.h>
 #include <scree/materials/laws/mohr_coulomb_return.h>
 #include <scree/materials/laws/nor_sand_return.h>
@@ -254,6 +255,21 @@ void test_mohr_coulomb(const unsigned int n, RandomNumbers &random)
 }
 
 
+template <int dim>
+void test_jefferies_been(const unsigned int n, RandomNumbers &random)
+{
+  const auto test_law = [&](const JefferiesBeenParameters &parameters, const Kind &kind) {
+    test<dim, PrincipalBatchMaterial>(JefferiesBeen(parameters), kind, n, 1e-6, random);
+  };
+  JefferiesBeenParameters parameters;
+  test_law(parameters, { "Jefferies-Been, inside the yield surface", 1e-9, 1e-6, 1e3, 1e6, 0.3, 3, 0 });
+  test_law(parameters, { "Jefferies-Been, yielding", 1e-6, 4e-4, 1e3, 1e6, 0.7, 1, 0.1 });
+  test_law(parameters, { "Jefferies-Been, pulled apart and to the vertex", 1e-5, 4e-4, 1., 1e3, 0.5, 1, 0.1 });
+  parameters.critical_line = "curve";
+  test_law(parameters, { "Jefferies-Been, curve", 1e-6, 4e-4, 1e3, 1e6, 0.7, 1, 0.1 });
+}
+
+
 /// Denormal numbers, exact unity, and one point alone.
 template <int dim, template <int, typename> class Batches, typename Law>
 void test_odd(const Law &law)
@@ -285,6 +301,7 @@ void test_odd()
 {
   test_odd<dim, BatchMaterial>(NorSand{ NorSandParameters() });
   test_odd<dim, PrincipalBatchMaterial>(MohrCoulomb{ MohrCoulombParameters() });
+  test_odd<dim, PrincipalBatchMaterial>(JefferiesBeen{ JefferiesBeenParameters() });
   std::cout << dim << "D, odd states: OK" << std::endl;
 }
 
@@ -297,6 +314,8 @@ void run()
   test_laws<3>(n, random);
   test_mohr_coulomb<2>(n, random);
   test_mohr_coulomb<3>(n, random);
+  test_jefferies_been<2>(n, random);
+  test_jefferies_been<3>(n, random);
   test_odd<2>();
   test_odd<3>();
 }
