@@ -62,8 +62,13 @@ namespace scree
       PrincipalNumbers<Batch> strain = trial_strain, kirchhoff_stress;
       Batch before[Law::n_internal_variables + 1];
       std::copy_n(input.internal_variables, Law::n_internal_variables, before);
-      const PrincipalResponse<Batch> response = law.respond(strain, input.internal_variables, kirchhoff_stress);
-      const unsigned int plastic              = simd::bits_of(response.is_plastic) & served;
+      const PrincipalResponse<Batch> response = [&] {
+        if constexpr (HasRateOfStrength<Law>())
+          return law.respond(motion.time_step, strain, input.internal_variables, kirchhoff_stress);
+        else
+          return law.respond(strain, input.internal_variables, kirchhoff_stress);
+      }();
+      const unsigned int plastic = simd::bits_of(response.is_plastic) & served;
       if (plastic != 0)
         {
           if constexpr (HasInertialFriction<Law>())
