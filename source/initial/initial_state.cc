@@ -17,11 +17,12 @@ namespace scree
                       "Stress at the start. none: no stress. K0: vertical stress from the weight above the point, "
                       "horizontal stress K0 times that. isotropic: \"Pressure\".",
                       Patterns::Selection("none|K0|isotropic"));
-    prm.add_parameter("K0",
-                      k0,
-                      "Ratio of horizontal to vertical effective stress, from 0 to 10. auto: 1 - sin(phi) with the "
-                      "friction angle of the law (Nor-Sand: the critical one), 0.5 if it has none.",
-                      Patterns::Anything());
+    prm.add_parameter(
+        "K0",
+        k0,
+        "Ratio of horizontal to vertical effective stress, from 0 to 10. auto: 1 - sin(phi) with the "
+        "friction angle of the law (Nor-Sand: the critical one; Tresca, Herschel-Bulkley: 0), 0.5 if it has none.",
+        Patterns::Anything());
     prm.add_parameter("Pressure", pressure, "Pa; isotropic stress, compression positive.", Patterns::Double(0));
     prm.leave_subsection();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
 #include <scree/initial/water_start.h>
+#include <scree/materials/place_values.h>
 #include <scree/seeding/seeding.h>
 #include <scree/seeding/water_seeding.h>
 #include <scree/model/scene.h>
@@ -197,6 +198,37 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Gives the points of a body what its law has from the place, with the depth along the last axis below the soil's
+    /// surface. `subsection` is the law's.
+    template <int dim>
+    void set_place_values(SoilBody<dim> &body,
+                          const std::string &subsection,
+                          const std::vector<SoilRegion> &soil,
+                          const BackgroundGrid<dim> &grid)
+    {
+      const PlaceVariable variable = body.material->place_variable();
+      if (variable.expression.empty())
+        return;
+      const PlaceValues<dim> values(variable, subsection);
+      std::vector<typename Overburden<dim>::Layer> layers;
+      for (const SoilRegion &part : soil)
+        layers.emplace_back(part.template places<dim>(), 1.); // a weight per depth of 1
+      Tensor<1, dim> down;
+      down[dim - 1] = -1.;
+      Overburden<dim> depth(grid, std::move(layers), down, grid.cell_size() / 4);
+      on_all_ranks(grid.triangulation().get_communicator(), [&] {
+        for_each_point(body.points, [&](const auto &point) {
+          values.set(point.location,
+                     variable.gradient > 0 ? depth.weight_above(point.location) : 0.,
+                     point.properties + body.layout.internal_variables);
+        });
+      });
+    }
+  } // namespace
+
+
   template <int dim>
   void Scene<dim>::set_initial_state()
   {
@@ -208,6 +240,7 @@ namespace scree
         const InitialStateParameters &state = entries->initial_state;
         const std::string modulus           = entries->material.modulus_text(body.name);
         const double k0                     = entries->k0();
+        set_place_values(body, entries->material.path(body.name), soil, grid);
         ++entries;
         if (state.stress_kind() != InitialStress::k0)
           {

@@ -52,6 +52,23 @@ def factor():
     check(other == (rests, fails), f"two ranks give {other}")
 
 
+def clay(case, expected, bound, **entries):
+    """The factor of a slope in clay within a bound of that of limit analysis or of slip circles."""
+    rests, fails = bracket(trials(run(case, slope(HERE.parents[1] / f"prm/clay/{case}.prm", **entries), "--safety")))
+    print(f"{case}: between {rests:g} and {fails:g}")
+    check(abs(0.5 * (rests + fails) / expected - 1) < bound, f"the factor deviates from {expected:g} by {100 * bound:g} % or more")
+
+
+def clay_cut():
+    """A vertical cut falls at gamma H = 3.776 s_u."""
+    clay("cut", 3.776 * 32e3 / (2000 * 9.81 * 5), 0.03, **{"Mesh/Cell size": 0.25, "Safety/Lower factor": 1.2, "Safety/Upper factor": 1.32, "Safety/Tolerance": 0.015})
+
+
+def clay_graded_slope():
+    """Strength that grows with depth: slip circles give 5.653 k/gamma at 45 degrees with a quarter of k H at the crest."""
+    clay("graded_slope", 5.653 * 4.5e3 / (2000 * 9.81), 0.05, **{"Mesh/Cell size": 0.5, "Safety/Lower factor": 1.24, "Safety/Upper factor": 1.4, "Safety/Tolerance": 0.015})
+
+
 def range_and_stop():
     """A range that does not hold the factor is an error; a search that is stopped keeps its trials."""
     for entries, words in (({"Safety/Lower factor": 1.5}, "does not come to rest"), ({"Safety/Upper factor": 1.2}, "still comes to rest")):

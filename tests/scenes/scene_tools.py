@@ -38,6 +38,14 @@ def at(table, column, time):
     return table[column][index]
 
 
+def mean_load(table):
+    """Force on the platen between shortenings of 0.95 and 1.05 %, over the width of 1 m, kPa."""
+    shortening = -table["Obstacle Platen displacement y (m)"] / 2
+    time, impulse = table["Time (s)"], table["Obstacle Platen impulse y (N s)"]
+    first, last = (np.interp(part, shortening, time) for part in (0.0095, 0.0105))
+    return (np.interp(last, time, impulse) - np.interp(first, time, impulse)) / (last - first) / 1e3
+
+
 def largest_fall(values):
     """By how much a column falls below what it was in a row before."""
     return np.max(np.maximum.accumulate(values) - values)

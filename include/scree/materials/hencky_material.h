@@ -37,6 +37,10 @@ namespace scree
     double plane_friction() const override;
     double grain_diameter() const override;
     NonlocalVariable nonlocal_variable() const override;
+    PlaceVariable place_variable() const override
+    {
+      return place_variable_of(law);
+    }
     std::vector<Quantity> internal_quantities() const override;
     std::vector<Quantity> output_quantities() const override;
     void output(const double *left_cauchy_green,
@@ -152,7 +156,9 @@ namespace scree
     std::copy_n(internal_variables, Law::n_internal_variables, internal_variables_before);
     const double largest_modulus = report.largest_bulk_modulus;
     ++report.n_substeps;
-    if (law.return_map(strain, internal_variables, volume_ratio, kirchhoff_stress, report) == Response::elastic)
+    const Response response =
+        return_map_of(law, time_step, strain, internal_variables, volume_ratio, kirchhoff_stress, report);
+    if (response == Response::elastic)
       std::copy(trial, trial + n_components, left_cauchy_green);
     else
       {

@@ -37,7 +37,11 @@ namespace scree
   ///   stress_of(strain)                                             elastic principal stress, Pa
   ///   mean_stress_of(volume strain)                                 of laws in invariants
   ///
-  /// A law with a member nonlocal_variable() may have an internal variable that is averaged over space.
+  /// A law with a member nonlocal_variable() may have an internal variable that is averaged over space, one with
+  /// place_variable() an internal variable that each point has from its place. The return map of a law with a member
+  /// `rate_of_strength`, see RateOfStrength, also asks for the time step:
+  ///   respond(time step, strain, internal variables, stress)        of all points
+  ///   return_map(time step, strain, internal variables, J, stress, report)
   enum class Response
   {
     elastic, ///< The trial strain stands
@@ -68,6 +72,56 @@ namespace scree
       : std::true_type
   {
   };
+
+  /// Whether a law has a variable from the place of a point.
+  template <typename Law, typename = void>
+  struct HasPlaceVariable : std::false_type
+  {
+  };
+
+  /// It has the member.
+  template <typename Law>
+  struct HasPlaceVariable<Law, std::void_t<decltype(std::declval<const Law &>().place_variable())>> : std::true_type
+  {
+  };
+
+  /// Whether the return of a law asks for the time step.
+  template <typename Law, typename = void>
+  struct HasRateOfStrength : std::false_type
+  {
+  };
+
+  /// It has the member.
+  template <typename Law>
+  struct HasRateOfStrength<Law, std::void_t<decltype(std::declval<const Law &>().rate_of_strength)>> : std::true_type
+  {
+  };
+
+  /// What a law has from the place of a point; nothing if it has no such member.
+  template <typename Law>
+  PlaceVariable place_variable_of(const Law &law)
+  {
+    if constexpr (HasPlaceVariable<Law>())
+      return law.place_variable();
+    else
+      return {};
+  }
+
+  /// The return map of a law that does, or does not, ask for the time step, s.
+  template <typename Law>
+  Response return_map_of(const Law &law,
+                         const double time_step,
+                         PrincipalValues &strain,
+                         double *internal_variables,
+                         const double volume_ratio,
+                         PrincipalValues &stress,
+                         UpdateReport &report)
+  {
+    if constexpr (HasRateOfStrength<Law>())
+      return law.return_map(time_step, strain, internal_variables, volume_ratio, stress, report);
+    else
+      return law.return_map(strain, internal_variables, volume_ratio, stress, report);
+  }
 
   /// What became of points in a return in principal values.
   template <typename Number>

@@ -91,6 +91,17 @@ namespace scree
     unsigned int averaged = 0; ///< number of the one that is set
   };
 
+  /// An internal variable that each point has from its place at the start: an expression plus gradient times depth.
+  struct PlaceVariable
+  {
+    std::string entry;                                             ///< name of the entry of the expression
+    std::string expression;                                        ///< of x, y (z), in m; empty: there is no variable
+    double gradient     = 0;                                       ///< per metre below the surface of the soil
+    unsigned int number = 0;                                       ///< of the variable
+    double largest      = std::numeric_limits<double>::infinity(); ///< largest value that the law can follow
+    std::string remedy;                                            ///< what helps beyond that
+  };
+
   /// A constitutive law of a point in finite strain: logarithmic elastic strain, Kirchhoff stress tau = J sigma.
   ///
   /// One virtual call serves the points of several cells. A law holds no state of points, so threads may share it.
@@ -126,8 +137,9 @@ namespace scree
     virtual double elastic_energy(const double *left_cauchy_green) const = 0;
 
     /// State of one point that has the Cauchy stress `wanted_stress` (Pa, components) at J = 1: fills
-    /// `left_cauchy_green`, `stress` and `internal_variables`. `stress` may be `wanted_stress`, and equals it but where
-    /// the law holds it for separated (no stress). Throws dealii::ExcMessage if the law cannot bear the stress.
+    /// `left_cauchy_green`, `stress` and `internal_variables`, of which that of place_variable() is set before.
+    /// `stress` may be `wanted_stress`, and equals it but where the law holds it for separated (no stress). Throws
+    /// dealii::ExcMessage if the law cannot bear the stress.
     virtual void initialise(const double *wanted_stress,
                             double *left_cauchy_green,
                             double *stress,
@@ -169,6 +181,12 @@ namespace scree
                         const double *internal_variables,
                         const double volume_ratio,
                         double *values) const = 0;
+
+    /// What each point has from its place, before initialise(); its expression is empty if there is nothing.
+    virtual PlaceVariable place_variable() const
+    {
+      return {};
+    }
   };
 } // namespace scree
 

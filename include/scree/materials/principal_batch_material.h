@@ -60,7 +60,7 @@ namespace scree
       PrincipalNumbers<Batch> strain = trial_strain, kirchhoff_stress;
       Batch before[Law::n_internal_variables + 1];
       std::copy_n(input.internal_variables, Law::n_internal_variables, before);
-      const auto response     = respond(strain, input, kirchhoff_stress, is_served, report);
+      const auto response     = respond(motion.time_step, strain, input, kirchhoff_stress, is_served, report);
       const unsigned int used = (1u << n) - 1, served = simd::bits_of(is_served) & used;
       const unsigned int plastic = simd::bits_of(response.is_plastic) & served;
       if (plastic != 0)
@@ -100,7 +100,8 @@ namespace scree
     }
 
     /// The law's response; points that it leaves are no longer served.
-    PrincipalResponse<Batch> respond(PrincipalNumbers<Batch> &strain,
+    PrincipalResponse<Batch> respond(const double time_step,
+                                     PrincipalNumbers<Batch> &strain,
                                      typename Records::Input &input,
                                      PrincipalNumbers<Batch> &stress,
                                      Mask &is_served,
@@ -117,6 +118,8 @@ namespace scree
                 simd::select<Batch>(is_large, response.bulk_modulus, simd::broadcast<Batch>(0.)));
           return response;
         }
+      else if constexpr (HasRateOfStrength<Law>())
+        return law.respond(time_step, strain, input.internal_variables, stress);
       else
         return law.respond(strain, input.internal_variables, stress);
     }

@@ -155,6 +155,15 @@ namespace scree
   }
 
 
+  /// Plastic shear strain of the plane that shears, e_1 - e_3 of a deviator e: gamma in simple shear.
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number plane_shear_of(const PrincipalNumbers<Number> &deviator)
+  {
+    return simd::max<Number>(deviator[0], simd::max<Number>(deviator[1], deviator[2])) -
+           simd::min<Number>(deviator[0], simd::min<Number>(deviator[1], deviator[2]));
+  }
+
+
   template <typename Number>
   __attribute__((noinline)) void MohrCoulomb::plastic_return(PrincipalNumbers<Number> &strain,
                                                              Number *internal_variables,

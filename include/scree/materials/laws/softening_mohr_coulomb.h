@@ -143,8 +143,7 @@ namespace scree
         response,
         strength.limit <= least_limit,
         [&](PrincipalNumbers<Number> &sorted, simd::Mask<Number> &todo) { surfaces.return_sorted(sorted, todo); });
-    const Number increment = simd::max<Number>(deviator[0], simd::max<Number>(deviator[1], deviator[2])) -
-                             simd::min<Number>(deviator[0], simd::min<Number>(deviator[1], deviator[2]));
+    const Number increment = plane_shear_of<Number>(deviator);
     internal_variables[plastic_shear] += shear_strain_of<Number>(deviator);
     internal_variables[own_kappa] += increment;
     internal_variables[acting_kappa] += increment;

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <scree/input/input_error.h>
+#include <scree/materials/undrained/tresca.h>
+#include <scree/materials/principal_batch_material.h>
+
+#include <sstream>
+
+using namespace dealii;
+
+namespace scree
+{
+  namespace
+  {
+    constexpr char cut_off_text[] = "Pa; largest principal stress. 0: soil in tension comes apart.";
+
+    MohrCoulombParameters mohr_coulomb(const TrescaParameters &parameters)
+    {
+      MohrCoulombParameters law;
+      law.young_modulus   = parameters.young_modulus;
+      law.poisson_ratio   = parameters.poisson_ratio;
+      law.friction_angle  = 0;
+      law.cohesion        = 1; // not read: each point has its own
+      law.tension_cut_off = parameters.tension_cut_off;
+      return law;
+    }
+
+
+    /// A text that reads as the number.
+    std::string text_of(const double value)
+    {
+      std::ostringstream text;
+      text.precision(17);
+      text << value;
+      return text.str();
+    }
+
+
+    PlaceVariable strength_of_place(const TrescaParameters &parameters, const double shear, const unsigned int number)
+    {
+      PlaceVariable variable;
+      variable.entry      = parameters.strength_entry;
+      variable.expression = parameters.strength;
+      variable.gradient   = parameters.strength_gradient;
+      variable.number     = number;
+      if (parameters.sensitivity > 1)
+        variable.largest = shear * parameters.remoulding_strain / (3 * (1 - 1 / parameters.sensitivity));
+      variable.remedy =
+          "strength falls faster with strain than elastic stress can. Write a larger \"Remoulding strain\" "
+          "or \"Young's modulus\".";
+      return variable;
+    }
+  } // namespace
+
+
+  void TrescaParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Young's modulus", young_modulus, "Pa; Young's modulus.", Patterns::Double(0));
+    prm.add_parameter("Poisson's ratio",
+                      poisson_ratio,
+                      "Poisson's ratio; of clay without drainage, nearly 0.5.",
+                      Patterns::Double(-1, 0.5));
+    prm.add_parameter(
+        "Undrained strength",
+        strength,
+        "Pa; undrained shear strength s_u, half of the largest difference of principal stresses, at slow "
+        "shear before any softening: an expression of x, y (z) of the place at the start, such as 10e3 or "
+        "10e3 + 2e3*(5 - y).",
+        Patterns::Anything());
+    prm.add_parameter(
+        "Strength gradient",
+        strength_gradient,
+        "Pa/m; added to \"Undrained strength\" for each metre of soil above the place at the start, along "
+        "the last axis. 0 for soil of an inflow.",
+        Patterns::Double(0));
+    prm.add_parameter("Tension cut-off", tension_cut_off, cut_off_text, Patterns::Double(0));
+    prm.add_parameter("Sensitivity",
+                      sensitivity,
+                      "Strength before shear over that of remoulded clay, S_t. 1: strength does not fall.",
+                      Patterns::Double(1));
+    prm.add_parameter(
+        "Remoulding strain",
+        remoulding_strain,
+        "Plastic shear strain (engineering strain: gamma in simple shear) at which strength has fallen by "
+        "95 % of the way to that of remoulded clay: 1/S_t + (1 - 1/S_t) exp(-3 strain/this).",
+        Patterns::Double(0));
+    prm.add_parameter(
+        "Nonlocal length",
+        nonlocal_length,
+        "m; length l over which the strain that softens the clay is averaged; cells must not be wider than "
+        "l/2. 0: shear bands are one to two cells wide.",
+        Patterns::Double(0));
+    prm.add_parameter(
+        "Rate increase",
+        rate_increase,
+        "Part by which strength grows if shear is ten times faster; of clay 0.05 to 0.2. 0: strength does "
+        "not depend on the rate. Element tests are slow and do not depend on it.",
+        Patterns::Double(0, 1));
+    prm.add_parameter(
+        "Reference rate",
+        reference_rate,
+        "1/s; rate of plastic shear up to which strength is \"Undrained strength\". 1 % per hour is 3e-6.",
+        Patterns::Double(1e-12));
+  }
+
+
+  void TrescaParameters::check(const std::string &subsection) const
+  {
+    LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
+    const TrescaParameters defaults;
+    const bool softens = sensitivity > 1;
+    require_entry(softens || remoulding_strain == 0,
+                  subsection,
+                  "Remoulding strain",
+                  remoulding_strain,
+                  "this entry has no effect without \"Sensitivity\" above 1. Add one, or remove the entry.");
+    require_entry(!softens || remoulding_strain > 0,
+                  subsection,
+                  "Sensitivity",
+                  sensitivity,
+                  "strength falls with strain. Add a \"Remoulding strain\", such as 1.");
+    require_entry(softens || nonlocal_length == 0,
+                  subsection,
+                  "Nonlocal length",
+                  nonlocal_length,
+                  "this entry has no effect without \"Sensitivity\" above 1. Add one, or remove the entry.");
+    require_entry(rate_increase > 0 || reference_rate == defaults.reference_rate,
+                  subsection,
+                  "Reference rate",
+                  reference_rate,
+                  "this entry has no effect without \"Rate increase\". Add one, or remove the entry.");
+  }
+
+
+  LawEntry TrescaParameters::modulus() const
+  {
+    return { "Young's modulus", young_modulus };
+  }
+
+
+  void TrescaParameters::divide_strength(const double factor)
+  {
+    reduction *= factor;
+    tension_cut_off /= factor;
+  }
+
+
+  std::vector<UsualRange> TrescaParameters::usual_ranges() const
+  {
+    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
+             { "Strength gradient", strength_gradient, 50, 1e5, "Pa/m (1 kPa/m = 1e3 Pa/m)" },
+             { "Sensitivity", sensitivity, 1, 1000, "-" },
+             { "Remoulding strain", remoulding_strain, 1e-2, 1e3, "- (10 % = 0.1)" } };
+  }
+
+
+  TrescaParameters HerschelBulkleyParameters::tresca() const
+  {
+    TrescaParameters law;
+    law.young_modulus   = young_modulus;
+    law.poisson_ratio   = poisson_ratio;
+    law.strength        = text_of(yield_stress);
+    law.tension_cut_off = tension_cut_off;
+    law.consistency     = consistency;
+    law.index           = index;
+    law.strength_entry  = "Yield stress";
+    law.reduction       = reduction;
+    return law;
+  }
+
+
+  void HerschelBulkleyParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Young's modulus",
+                      young_modulus,
+                      "Pa; Young's modulus below the yield stress. A small one allows long steps.",
+                      Patterns::Double(0));
+    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
+    prm.add_parameter("Yield stress",
+                      yield_stress,
+                      "Pa; shear stress tau_y that mud bears at rest, half of the largest difference of principal "
+                      "stresses.",
+                      Patterns::Double(0));
+    prm.add_parameter("Consistency",
+                      consistency,
+                      "Pa s^n; K of tau = tau_y + K gamma_dot^n with the rate of plastic shear gamma_dot in 1/s. With "
+                      "index 1 the viscosity in Pa s. Element tests are slow and do not depend on it.",
+                      Patterns::Double(0));
+    prm.add_parameter(
+        "Flow index", index, "n; 1: Bingham. Below 1, mud thins with the rate of shear.", Patterns::Double(0.05, 3));
+    prm.add_parameter("Tension cut-off", tension_cut_off, cut_off_text, Patterns::Double(0));
+  }
+
+
+  void HerschelBulkleyParameters::check(const std::string &subsection) const
+  {
+    LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
+    require_entry(yield_stress > 0, subsection, "Yield stress", yield_stress, "a positive stress is needed, in Pa.");
+    require_entry(consistency > 0 || index == HerschelBulkleyParameters().index,
+                  subsection,
+                  "Flow index",
+                  index,
+                  "this entry has no effect without \"Consistency\". Write one above 0, or remove the entry.");
+  }
+
+
+  LawEntry HerschelBulkleyParameters::modulus() const
+  {
+    return { "Young's modulus", young_modulus };
+  }
+
+
+  void HerschelBulkleyParameters::divide_strength(const double factor)
+  {
+    reduction *= factor;
+    tension_cut_off /= factor;
+  }
+
+
+  std::vector<UsualRange> HerschelBulkleyParameters::usual_ranges() const
+  {
+    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
+             { "Yield stress", yield_stress, 1, 1e6, unit_of_pressure },
+             { "Consistency", consistency, 1e-2, 1e6, "Pa s^n" } };
+  }
+
+
+  namespace
+  {
+    const RegisterLaw
+        registered_tresca("Tresca",
+                          "Tresca",
+                          std::make_unique<EntriesOf<TrescaParameters, PrincipalBatchMaterial, Tresca>>());
+    const RegisterLaw registered_herschel_bulkley(
+        "Herschel-Bulkley",
+        "Herschel-Bulkley",
+        std::make_unique<EntriesOf<HerschelBulkleyParameters, PrincipalBatchMaterial, Tresca>>());
+  } // namespace
+
+
+  Tresca::Tresca(const TrescaParameters &parameters)
+      : MohrCoulomb(mohr_coulomb(parameters))
+      , rate_of_strength(parameters.rate_increase, parameters.reference_rate, parameters.consistency, parameters.index)
+      , variable(strength_of_place(parameters, shear, of_place))
+      , scale(1 / parameters.reduction)
+      , nonlocal_length(parameters.nonlocal_length)
+      , residual(1 / parameters.sensitivity)
+      , decay(parameters.sensitivity > 1 ? 3 / parameters.remoulding_strain : 0)
+  {
+  }
+
+
+  Response Tresca::return_map(const double time_step,
+                              PrincipalValues &strain,
+                              double *internal_variables,
+                              const double,
+                              PrincipalValues &stress,
+                              UpdateReport &report) const
+  {
+    return count(respond<double>(time_step, strain, internal_variables, stress), report);
+  }
+
+
+  void Tresca::initialise(const PrincipalValues &wanted_stress,
+                          PrincipalValues &strain,
+                          PrincipalValues &stress,
+                          double *internal_variables) const
+  {
+    internal_variables[plastic_shear] = internal_variables[own_kappa] = internal_variables[acting_kappa] = 0;
+    const auto [smallest, largest] = std::minmax_element(wanted_stress.begin(), wanted_stress.end());
+    const double strength = slow_strength(internal_variables), shear_stress = 0.5 * (*largest - *smallest);
+    const double rounding = 1e-9 * (strength - *smallest);
+    AssertThrow(shear_stress <= strength + rounding && *largest <= largest_principal_stress + rounding,
+                ExcMessage("Tresca cannot bear the initial stress: shear stress " + std::to_string(shear_stress) +
+                           " Pa, and strength " + std::to_string(strength) + " Pa. Remedy: a K0 nearer to 1."));
+    elastic.initialise(wanted_stress, strain, stress, nullptr);
+  }
+
+
+  std::vector<Quantity> Tresca::internal_quantities()
+  {
+    return { { "plastic_shear_strain", "-" },
+             { "softening_strain", "-" },
+             { "nonlocal_softening_strain", "-" },
+             { "undrained_strength", "Pa" } };
+  }
+
+
+  NonlocalVariable Tresca::nonlocal_variable() const
+  {
+    return { nonlocal_length, own_kappa, acting_kappa };
+  }
+
+
+  PlaceVariable Tresca::place_variable() const
+  {
+    return variable;
+  }
+} // namespace scree

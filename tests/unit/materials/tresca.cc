@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Tresca and Herschel-Bulkley: random returns against the equations of the strength, in lanes and point by point;
+// shear against tau = s_u(gamma - tau/G) and at several rates; strength of the place; strength divided by a factor.
+
+#include <scree/input/input_error.h>
+#include <scree/materials/undrained/tresca.h>
+#include <scree/materials/place_values.h>
+#include <scree/materials/principal_batch_material.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "../expect.h"
+#include "../random_numbers.h"
+#include "../unit_test.h"
+
+namespace test_tresca
+{
+using namespace dealii;
+using namespace scree;
+
+constexpr unsigned int of_place = 3; // internal variable
+constexpr double slow           = std::numeric_limits<double>::infinity();
+
+TrescaParameters clay()
+{
+  TrescaParameters parameters;
+  parameters.strength          = "20e3";
+  parameters.sensitivity       = 5;
+  parameters.remoulding_strain = 0.15;
+  return parameters;
+}
+
+
+TrescaParameters fast_clay()
+{
+  TrescaParameters parameters = clay();
+  parameters.rate_increase    = 0.1;
+  return parameters;
+}
+
+
+TrescaParameters mud(const double consistency, const double index)
+{
+  HerschelBulkleyParameters parameters;
+  parameters.yield_stress = 6e3;
+  parameters.consistency  = consistency;
+  parameters.index        = index;
+  return parameters.tresca();
+}
+
+
+/// Strength of a point that shears at this rate, Pa.
+double strength_at(const TrescaParameters &parameters, const double slow_strength, const double rate)
+{
+  return slow_strength * (1 + parameters.rate_increase * std::log10(std::max(1., rate / parameters.reference_rate))) +
+         parameters.consistency * std::pow(rate, parameters.index);
+}
+
+
+double shear_stress(const PrincipalValues &stress)
+{
+  return 0.5 * (*std::max_element(stress.begin(), stress.end()) - *std::min_element(stress.begin(), stress.end()));
+}
+
+
+/// Every return meets the equation of the strength at its own plastic shear and creates no energy.
+void test_random(const std::string &name, const TrescaParameters &parameters, RandomNumbers &random)
+{
+  const Tresca law(parameters);
+  UpdateReport report;
+  double largest_error = 0, largest_tension = 0, smallest_dissipation = 0;
+  unsigned int n_sheared = 0;
+  for (unsigned int i = 0; i < 1000000; ++i)
+    {
+      const double size = random.log_uniform(1e-6, 1e-1), mean = random.uniform(-1, 0.3) * size;
+      PrincipalValues trial;
+      for (double &value : trial)
+        value = mean + size * random.uniform(-1, 1);
+      const double kappa = random.uniform(-0.01, 0.5), time_step = random.log_uniform(1e-7, 1e3);
+      double internal[4]     = { 0, 0, kappa, random.log_uniform(1e2, 1e5) };
+      const double strength  = law.slow_strength(internal);
+      const double scale     = law.bulk_modulus(0) * size + strength;
+      PrincipalValues strain = trial, stress;
+      const bool is_plastic  = law.return_map(time_step, strain, internal, 1, stress, report) == Response::plastic;
+      const double tension   = *std::max_element(stress.begin(), stress.end()) - parameters.tension_cut_off;
+      largest_tension        = std::max(largest_tension, tension / scale);
+      double dissipation     = 0;
+      for (unsigned int k = 0; k < 3; ++k)
+        dissipation += stress[k] * (trial[k] - strain[k]);
+      smallest_dissipation = std::min(smallest_dissipation, dissipation / (scale * size));
+      if (!is_plastic || tension > -1e-9 * scale) // the cut-off shears, too
+        continue;
+      ++n_sheared;
+      // Plastic shear is a difference of stresses, which bounds what is known of it.
+      const double found = shear_stress(stress), rounding = 1e-14 * scale / law.shear_modulus();
+      const auto at    = [&](const double shear) { return strength_at(parameters, strength, shear / time_step); };
+      const double low = at(std::max(0., internal[1] - rounding)), high = at(internal[1] + rounding);
+      largest_error = std::max({ largest_error, (low - found) / scale, (found - high) / scale });
+    }
+  expect(largest_error, 0, 1e-10, name + ": strength");
+  expect(largest_tension, 0, 1e-10, name + ": tension");
+  expect(smallest_dissipation, 0, 1e-12, name + ": energy made");
+  AssertThrow(report.n_unresolved == 0, ExcMessage(name + ": unresolved"));
+  AssertThrow(n_sheared > 100000, ExcMessage(name + ": plastic states were not visited"));
+  std::cout << name << ": OK" << std::endl;
+}
+
+
+/// 20 points side by side on a path of random increments: lanes and the path point by point agree.
+template <int dim>
+void test_lanes(const std::string &name, const TrescaParameters &parameters, RandomNumbers &random)
+{
+  constexpr unsigned int n = n_symmetric_components<dim>, n_points = 20, stride = 2 * n + 4;
+  const Tresca law(parameters);
+  const HenckyMaterial<dim, Tresca> one_by_one(law);
+  const PrincipalBatchMaterial<dim, Tresca> in_lanes(law);
+  std::vector<double> lanes(n_points * stride);
+  for (unsigned int p = 0; p < n_points; ++p)
+    {
+      double *record = &lanes[p * stride], stress[6] = { -1e4, -1e4, -1e4 };
+      record[2 * n + of_place] = 1e4 + 1e3 * p;
+      in_lanes.initialise(stress, record, record + n, record + 2 * n);
+    }
+  std::vector<double> points = lanes, increment(dim * dim * n_points), one(n_points, 1.);
+  UpdateReport report;
+  double largest = 0, largest_kappa = 0;
+  for (unsigned int step = 0; step < 2000; ++step)
+    {
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        for (unsigned int p = 0; p < n_points; ++p)
+          increment[c * n_points + p] = (c % (dim + 1) == 0 ? 1 : 0) + 5e-3 * random.uniform(-1, 1);
+      const MaterialMotion<dim> motion{ increment.data(), one.data(), one.data(), one.data(), n_points, 1e-3 };
+      const auto update = [&](const Material<dim> &material, std::vector<double> &records) {
+        material.update({ n_points, stride, &records[0], &records[n], &records[2 * n] }, motion, report);
+      };
+      update(in_lanes, lanes);
+      update(one_by_one, points);
+    }
+  for (unsigned int i = 0; i < lanes.size(); ++i)
+    {
+      const unsigned int c = i % stride;
+      const double scale   = c < n ? 1 : c < 2 * n ? 1e5 : 1;
+      largest              = std::max(largest, std::abs(lanes[i] - points[i]) / scale);
+      largest_kappa        = c == 2 * n + 1 ? std::max(largest_kappa, lanes[i]) : largest_kappa;
+    }
+  AssertThrow(report.n_unresolved == 0, ExcMessage(name + ": unresolved"));
+  AssertThrow(largest_kappa > 0.1, ExcMessage(name + ": the points did not shear"));
+  expect(largest, 0, 1e-7, name + ": difference of lanes");
+  std::cout << dim << "D, " << name << ", in lanes: OK" << std::endl;
+}
+
+
+/// Pure shear to `gamma` in `n` steps at a rate, 1/s: shear stress after each, Pa.
+std::vector<double>
+shear(const TrescaParameters &parameters, const double gamma, const unsigned int n, const double rate)
+{
+  const Tresca law(parameters);
+  PrincipalValues strain{}, stress;
+  double internal[4]    = { 0, 0, 0, std::stod(parameters.strength) };
+  const double pressure = 1e6; // the law has no friction
+  UpdateReport report;
+  std::vector<double> result;
+  for (double &value : strain)
+    value = -pressure / (3 * law.bulk_modulus(0));
+  for (unsigned int step = 0; step < n; ++step)
+    {
+      strain[0] += 0.5 * gamma / n;
+      strain[2] -= 0.5 * gamma / n;
+      law.return_map(rate > 0 ? gamma / n / rate : slow, strain, internal, 1, stress, report);
+      result.push_back(shear_stress(stress));
+    }
+  return result;
+}
+
+
+/// Largest error over s_u against tau = s_u(gamma - tau/G) of slow clay.
+double error_of_softening(const unsigned int n)
+{
+  const TrescaParameters parameters = clay();
+  const double gamma = 0.5, G = Tresca(parameters).shear_modulus(), peak = 2e4, St = parameters.sensitivity;
+  const std::vector<double> found = shear(parameters, gamma, n, 0);
+  double largest = 0, exact = 0;
+  for (unsigned int step = 0; step < n; ++step)
+    {
+      const double now = gamma * (step + 1) / n;
+      if (G * now < peak)
+        exact = G * now;
+      else
+        for (unsigned int i = 0; i < 200; ++i)
+          exact = peak * (1 / St + (1 - 1 / St) * std::exp(-3 * (now - exact / G) / parameters.remoulding_strain));
+      largest = std::max(largest, std::abs(found[step] - exact) / peak);
+    }
+  return largest;
+}
+
+
+void test_shear()
+{
+  const double coarse = error_of_softening(1000), fine = error_of_softening(4000);
+  expect(coarse, 0, 1e-2, "error of tau in 1000 steps");
+  expect(coarse / fine, 4, 0.3, "gain of four times as many steps"); // first order
+  std::cout << "Softening in shear: OK" << std::endl;
+}
+
+
+void test_rates()
+{
+  TrescaParameters parameters = fast_clay();
+  parameters.sensitivity      = 1;
+  for (const double rate : { 3e-6, 3e-4, 3. })
+    expect(shear(parameters, 0.2, 1000, rate).back(), 2e4 * (1 + 0.1 * std::log10(rate / 3e-6)), 2., "clay");
+  expect(shear(parameters, 0.2, 1000, 1e-8).back(), 2e4, 1e-6, "clay slower than the reference");
+  for (const double index : { 0.5, 1., 1.5 })
+    for (const double rate : { 0.01, 1. })
+      expect(shear(mud(2e3, index), 100 * rate, 10000, rate).back(), 6e3 + 2e3 * std::pow(rate, index), 1e-3, "mud");
+  // Viscous beyond all steps: elastic.
+  const TrescaParameters stiff = mud(1e15, 1);
+  expect(shear(stiff, 0.2, 10, 1).back(), Tresca(stiff).shear_modulus() * 0.2, 1e-3, "stiff mud");
+  std::cout << "Rates of shear: OK" << std::endl;
+}
+
+
+void test_place()
+{
+  TrescaParameters parameters  = clay();
+  parameters.strength          = "1e3 + 2e3*(5 - y)";
+  parameters.strength_gradient = 100;
+  double internal[4]           = {};
+  const PlaceValues<2> values(Tresca(parameters).place_variable(), "Soil/Tresca");
+  values.set(Point<2>(1., 2.), 3., internal);
+  expect(internal[of_place], 7300, 1e-9, "strength of the place");
+  parameters.divide_strength(1.6);
+  expect(Tresca(parameters).slow_strength(internal), 7300 / 1.6, 1e-9, "divided strength of the place");
+  TrescaParameters of_mud = mud(2e3, 1);
+  of_mud.divide_strength(2);
+  expect(Tresca(of_mud).slow_strength(internal), 7300 / 2., 1e-9, "divided yield stress");
+  for (const double y : { 6., -1e3 }) // negative, and too strong for the strain at which it falls
+    try
+      {
+        values.set(Point<2>(1., y), 0., internal);
+      }
+    catch (const ValueError &error)
+      {
+        std::cout << error.what() << '\n';
+      }
+  std::cout << "Strength of the place: OK" << std::endl;
+}
+
+
+void run()
+{
+  RandomNumbers random;
+  TrescaParameters with_cut_off = fast_clay();
+  with_cut_off.tension_cut_off  = 2e3;
+  test_random("slow clay", clay(), random);
+  test_random("clay", fast_clay(), random);
+  test_random("clay with cut-off", with_cut_off, random);
+  test_random("mud, n = 0.5", mud(2e3, 0.5), random);
+  test_random("mud, n = 1", mud(2e3, 1), random);
+  test_random("mud, n = 1.5", mud(2e3, 1.5), random);
+  test_lanes<2>("clay", fast_clay(), random);
+  test_lanes<3>("clay", with_cut_off, random);
+  test_lanes<2>("mud, n = 0.5", mud(2e3, 0.5), random);
+  test_shear();
+  test_rates();
+  test_place();
+}
+
+const UnitTest registered("tresca", run);
+} // namespace test_tresca
