@@ -203,8 +203,9 @@ def _number(value):
 
 def draw_release(axes, raster, least):
     x, y = terrain.places(raster)
-    axes.contour(x, y, raster.values, levels=[least], colors="white", linewidths=2.2, zorder=5)
-    axes.contour(x, y, raster.values, levels=[least], colors="black", linewidths=1.1, linestyles="--", zorder=6)
+    values = np.nan_to_num(raster.values)
+    axes.contour(x, y, values, levels=[least], colors="white", linewidths=2.2, zorder=5)
+    axes.contour(x, y, values, levels=[least], colors="black", linewidths=1.1, linestyles="--", zorder=6)
 
 
 def draw_scale_bar(axes, window):
@@ -292,9 +293,14 @@ def render_maps(run, names, output):
     render_sheet(run, maps, source, notes + ([f"soil of at least {least:g} m"] if least > 1e-9 else []), output)
 
 
-def render_sheet(run, maps, source, notes, output):
-    """Maps over the terrain of a run in one PNG; `source`: thickness of the release or None, `notes`: what stands below them."""
-    least, window = max(least_thickness(run), 1e-9), window_of(run, maps, source)
+def render_sheet(run, maps, source, notes, output, observed=None):
+    """Maps over the terrain of a run in one PNG; `source`: thickness of the release or None, `notes`: what stands below them.
+
+    `observed`: {name of a map: raster}, whose areas above 0 get an outline.
+    """
+    least, areas = max(least_thickness(run), 1e-9), [Map("", "", Kind("", ""), area._replace(values=np.where(area.values > 0, 1., np.nan)))
+                                                      for area in (observed or {}).values()]
+    window = window_of(run, maps + areas, source)
     try:
         ground = terrain.ground(run, window)
     except (OSError, ValueError) as error:
@@ -313,6 +319,9 @@ def render_sheet(run, maps, source, notes, output):
             terrain.draw_contours(panel, ground, 3)
         if source:
             draw_release(panel, source, least)
+        if observed and one.name in observed:
+            area = observed[one.name]
+            panel.contour(*terrain.places(area), np.nan_to_num(area.values) > 0, levels=[0.5], colors="#c00020", linewidths=1.4, zorder=7)
         _finish(panel, window, number % sheet.columns == 0)
         draw_scale_bar(panel, window)
         if has_north:
