@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/map_system.h>
+#include <scree/geometry/outline.h>
 #include <scree/geometry/raster_formats/coordinate_system.h>
 #include <scree/geometry/raster.h>
 #include <scree/input/input_error.h>
@@ -36,6 +37,27 @@ namespace scree
   } // namespace
 
 
+  namespace
+  {
+    /// Throws EntryError if an outline has another coordinate system than the maps; without one of theirs it has none.
+    void check_outlines(const Parameters &parameters,
+                        const std::string &system,
+                        const std::string &source,
+                        const dealii::Point<2> &place)
+    {
+      for (const BodyParameters &body : parameters.bodies)
+        if (const std::string &file = body.seeding.source.outline; !file.empty())
+          {
+            const std::string entry = entry_name(body.name, "Outline"), of_outline = read_outline_system(file, entry);
+            if (!system.empty() && !of_outline.empty() && !is_same_system(system, of_outline, place))
+              throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_outline) +
+                               ", but that of " + source + " is " + name_of_system(system) +
+                               ". All maps of a case must have the same one: convert the outline with ogr2ogr -t_srs.");
+          }
+    }
+  } // namespace
+
+
   std::string system_of_maps(const Parameters &parameters)
   {
     if (parameters.dimension != 3)
@@ -61,6 +83,7 @@ namespace scree
                            ", but that of " + source + " is " + name_of_system(system) +
                            ". All maps of a case must have the same one: convert the raster with gdalwarp -t_srs.");
       }
+    check_outlines(parameters, system, source, place);
     if (parameters.output.maps.write && parameters.output.maps.writes_geo_tiff() && !system.empty())
       require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
     return system;

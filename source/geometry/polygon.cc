@@ -74,13 +74,9 @@ namespace scree
   }
 
 
-  Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
+  Polygon checked_polygon(std::vector<Point<2>> corners, const std::string &name)
   {
-    const std::string name = where + " = " + file + ": ";
-    std::vector<Point<2>> corners;
-    for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
-      corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
-    if (corners.front() == corners.back())
+    if (corners.size() > 1 && corners.front() == corners.back())
       corners.pop_back();
     if (corners.size() < 3)
       throw EntryError(name + "it has " + std::to_string(corners.size()) +
@@ -91,5 +87,15 @@ namespace scree
       throw EntryError(name + "its edge from " + number_text(corners[edge]) +
                        " m is crossed or touched by another. Write the corners in their order around the place.");
     return polygon;
+  }
+
+
+  Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
+  {
+    const std::string name = where + " = " + file + ": ";
+    std::vector<Point<2>> corners;
+    for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
+      corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
+    return checked_polygon(std::move(corners), name);
   }
 } // namespace scree

@@ -33,7 +33,8 @@ namespace scree
     add_file_entry(prm,
                    "Outline",
                    outline,
-                   "m; 3D. File of the corners x, y of a polygon on the map that encloses the body, one per line.");
+                   "m; 3D. Areas on the map that enclose the body: polygons of a GeoJSON file (.geojson, .json) or "
+                   "shapefile (.shp), or a text file of the corners x, y of one polygon, one per line.");
     add_file_entry(
         prm, "Closed surface", closed_surface, "m; 3D. STL file of the surface of the solid that the body occupies.");
   }
@@ -137,11 +138,22 @@ namespace scree
       , lower_surface(read(body, "Lower surface", parameters.lower_surface, origin))
   {
     if (!parameters.outline.empty())
-      outline = read_polygon(parameters.outline, entry_name(body, "Outline"), origin);
+      outline = read_outline(parameters.outline, entry_name(body, "Outline"), origin);
     if (!parameters.closed_surface.empty())
       solid = read_solid(body, parameters.closed_surface, lower, upper);
     if (thickness || upper_surface)
       check(body, { lower[0], lower[1], lower[2] }, { upper[0], upper[1], upper[2] });
+    else if (outline)
+      {
+        const auto [first, last] = outline->bounds();
+        require_entry(first[0] >= lower[0] && first[1] >= lower[1] && last[0] <= upper[0] && last[1] <= upper[1],
+                      body,
+                      "Outline",
+                      parameters.outline,
+                      "it reaches from " + number_text(first) + " to " + number_text(last) +
+                          " m, beyond the box of subsection Mesh. Look at its coordinate system, or write a larger "
+                          "box.");
+      }
   }
 
 

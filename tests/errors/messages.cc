@@ -120,7 +120,7 @@ namespace
       fs::create_directories(folder);
       for (const auto &entry : fs::directory_iterator(source))
         if (const std::string type = entry.path().extension();
-            type == ".prm" || type == ".part" || type == ".tif" || type == ".prj")
+            type == ".prm" || type == ".part" || type == ".tif" || type == ".prj" || type == ".geojson")
           {
             originals[entry.path().filename()] = entry.path();
             copy(entry.path());

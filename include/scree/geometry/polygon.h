@@ -5,6 +5,7 @@
 #include <deal.II/base/point.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scree
@@ -19,6 +20,12 @@ namespace scree
     /// Whether a place, m, is inside.
     bool contains(const dealii::Point<2> &x) const;
 
+    /// Lower and upper corner of the box around it, m.
+    std::pair<dealii::Point<2>, dealii::Point<2>> bounds() const
+    {
+      return { lower, upper };
+    }
+
     /// The first edge that one beyond its neighbours crosses or touches; the number of edges if there is none.
     unsigned int first_crossing() const;
 
@@ -31,6 +38,10 @@ namespace scree
     std::vector<dealii::Point<2>> corners;
     dealii::Point<2> lower, upper; // of the box around it
   };
+
+  /// The polygon of these corners, m; the last may repeat the first. Throws EntryError, which begins with `name`, if
+  /// they are fewer than three, or if edges cross.
+  Polygon checked_polygon(std::vector<dealii::Point<2>> corners, const std::string &name);
 
   /// Reads the corners "x, y", m, one a line; the last may repeat the first. Throws EntryError, which begins with
   /// `where` (see entry_name()), if they are fewer than three, or if edges cross.

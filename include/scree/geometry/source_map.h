@@ -4,7 +4,7 @@
 
 #include <scree/geometry/bed_parameters.h>
 #include <scree/geometry/level_set.h>
-#include <scree/geometry/polygon.h>
+#include <scree/geometry/outline.h>
 #include <scree/geometry/raster.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -23,7 +23,7 @@ namespace scree
     std::string thickness, ///< file of thicknesses, m, above bed or lower surface
         upper_surface,     ///< file of heights, m
         lower_surface,     ///< file of heights, m, in place of the bed
-        outline,           ///< file of a polygon's corners on the map, m
+        outline,           ///< file of polygons on the map, m
         closed_surface;    ///< file (STL) of a solid
 
     /// Declares the entries in the subsection that the handler is in.
@@ -97,8 +97,8 @@ namespace scree
 
     const std::shared_ptr<const LevelSet<3>> ground;
     std::optional<Raster> thickness, upper_surface, lower_surface;
-    std::optional<Polygon> outline;
     std::unique_ptr<LevelSet<3>> solid; // null without
+    std::optional<Outline> outline;
   };
 } // namespace scree
 

@@ -105,6 +105,20 @@ namespace scree
     return wkt;
   }
 
+
+  std::string text_of_system(const OGRSpatialReference &system)
+  {
+    const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
+    if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
+      return std::string("EPSG:") + code;
+    char *text            = nullptr;
+    const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
+    const bool is_known   = system.exportToWkt(&text, options) == OGRERR_NONE;
+    const std::string wkt = is_known ? text : "";
+    CPLFree(text);
+    return wkt;
+  }
+
 #else
   void require_system_in_metres(const std::string &, const std::string &name)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/raster_format.h>
+#include <scree/geometry/raster_formats/coordinate_system.h>
 #include <scree/input/input_error.h>
 
 #include <cmath>
@@ -45,23 +46,12 @@ namespace scree
     }
 
 
-    /// The code of the EPSG if the file has it, else the text of a .prj file.
     std::string system_of_gdal_raster(const std::string &file, const std::string &name)
     {
       const QuietGdal quiet;
       const auto data                   = open(file, name);
       const OGRSpatialReference *system = data->GetSpatialRef();
-      if (system == nullptr)
-        return "";
-      const char *authority = system->GetAuthorityName(nullptr), *code = system->GetAuthorityCode(nullptr);
-      if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
-        return std::string("EPSG:") + code;
-      char *text            = nullptr;
-      const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
-      const bool is_known   = system->exportToWkt(&text, options) == OGRERR_NONE;
-      const std::string wkt = is_known ? text : "";
-      CPLFree(text);
-      return wkt;
+      return system == nullptr ? "" : text_of_system(*system);
     }
 
 

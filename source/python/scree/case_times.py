@@ -16,7 +16,7 @@ PAGE = ROOT / "prm" / "README.md"
 ROW = re.compile(r"^(\| `([\w-]+)` \|.*\| )([^|]*)( \|)$", re.MULTILINE)
 # Processor time of whole runs, s; with other programs on the machine.
 BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_lane_water": 38, "phreatic": 6, "vertical_cut": 9, "biaxial": 2, "submerged_beads": 150,
-           "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "debris_flow": 9}
+           "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "mountain_outline": 5, "acheron": 31, "entrainment": 3, "debris_flow": 9}
 
 
 def rounded(seconds):

@@ -7,6 +7,8 @@ scree-maps results/mountain_dry --maps largest_speed,deposit --times 5,10,20
 Without --maps and --times it draws the largest thickness, speed and impact pressure, the arrival time, the deposit and, if there is one, the depth of
 the scour. --times adds the thickness at the times of pictures. A map shows only places with soil: at least `Least thickness` of the case. In 2D it
 draws the profiles instead. Writes maps.png into the run folder; the names of --maps and --times are part of the picture's name.
+
+--scour BODY writes the map scour_BODY, the body's thickness at the first picture less that at the last one, and prints the balance of its volume.
 """
 
 import pathlib
@@ -203,8 +205,9 @@ def _number(value):
 
 def draw_release(axes, raster, least):
     x, y = terrain.places(raster)
-    axes.contour(x, y, raster.values, levels=[least], colors="white", linewidths=2.2, zorder=5)
-    axes.contour(x, y, raster.values, levels=[least], colors="black", linewidths=1.1, linestyles="--", zorder=6)
+    values = np.nan_to_num(raster.values)
+    axes.contour(x, y, values, levels=[least], colors="white", linewidths=2.2, zorder=5)
+    axes.contour(x, y, values, levels=[least], colors="black", linewidths=1.1, linestyles="--", zorder=6)
 
 
 def draw_scale_bar(axes, window):
@@ -292,9 +295,14 @@ def render_maps(run, names, output):
     render_sheet(run, maps, source, notes + ([f"soil of at least {least:g} m"] if least > 1e-9 else []), output)
 
 
-def render_sheet(run, maps, source, notes, output):
-    """Maps over the terrain of a run in one PNG; `source`: thickness of the release or None, `notes`: what stands below them."""
-    least, window = max(least_thickness(run), 1e-9), window_of(run, maps, source)
+def render_sheet(run, maps, source, notes, output, observed=None):
+    """Maps over the terrain of a run in one PNG; `source`: thickness of the release or None, `notes`: what stands below them.
+
+    `observed`: {name of a map: raster}, whose areas above 0 get an outline.
+    """
+    least, areas = max(least_thickness(run), 1e-9), [Map("", "", Kind("", ""), area._replace(values=np.where(area.values > 0, 1., np.nan)))
+                                                      for area in (observed or {}).values()]
+    window = window_of(run, maps + areas, source)
     try:
         ground = terrain.ground(run, window)
     except (OSError, ValueError) as error:
@@ -313,6 +321,9 @@ def render_sheet(run, maps, source, notes, output):
             terrain.draw_contours(panel, ground, 3)
         if source:
             draw_release(panel, source, least)
+        if observed and one.name in observed:
+            area = observed[one.name]
+            panel.contour(*terrain.places(area), np.nan_to_num(area.values) > 0, levels=[0.5], colors="#c00020", linewidths=1.4, zorder=7)
         _finish(panel, window, number % sheet.columns == 0)
         draw_scale_bar(panel, window)
         if has_north:
@@ -407,7 +418,20 @@ def render(run, names, output):
     (render_profiles if results.read_box(run).dim == 2 else render_maps)(run, names, output)
 
 
+def _write_scour(run, body):
+    """Writes the scour of a body and prints its balance."""
+    from scree import scour  # pylint: disable=import-outside-toplevel  # it needs this module
+    path, found = scour.write(run, body)
+    unit = "m^3" if results.read_box(run).dim == 3 else "m^3/m"
+    print(f"{body}, at its density of the start: {found.start:.6g} {unit}; taken {found.taken:.6g}, laid down elsewhere {found.laid_down:.6g}, "
+          f"left the box {found.left:.6g}")
+    print(f"Wrote {path}")
+
+
 def _draw(arguments):
+    if arguments.scour:
+        _write_scour(arguments.run, arguments.scour)
+        return
     names = arguments.maps.split(",") if arguments.maps else []
     try:
         names += [f"thickness_{float(word):.15g}s" for word in arguments.times.split(",")] if arguments.times else []
@@ -423,5 +447,6 @@ def main():
     parser.add_argument("run", type=pathlib.Path, help="run folder with a folder maps, for instance results/mountain_dry")
     parser.add_argument("--maps", help=f"separated by commas: {', '.join(KINDS)}, or any other of the folder without its ending")
     parser.add_argument("--times", help="times of pictures in s, separated by commas: the thickness at each")
+    parser.add_argument("--scour", metavar="BODY", help="write the map of what has been taken from a body, and its balance")
     parser.add_argument("--output", type=pathlib.Path, help="picture; default: in the run folder, named after what it shows")
     parser.run(_draw)

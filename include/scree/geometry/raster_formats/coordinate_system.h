@@ -6,6 +6,8 @@
 
 #include <string>
 
+class OGRSpatialReference;
+
 namespace scree
 {
   /// Throws EntryError unless a text such as `EPSG:2056` is a projected system of coordinates in m that GDAL knows.
@@ -21,6 +23,9 @@ namespace scree
 
   /// The text of a .prj file.
   std::string prj_text(const std::string &system);
+
+  /// The code of the EPSG if the system has it, else the text of a .prj file. With GDAL only.
+  std::string text_of_system(const OGRSpatialReference &system);
 } // namespace scree
 
 #endif

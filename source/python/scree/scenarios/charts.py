@@ -29,6 +29,14 @@ def draw_probabilities(run, probabilities, source, word, n_runs, output):
     maps.render_sheet(run, sheet, source, notes, output)
 
 
+def draw_nearest(run, event, output):
+    """Largest thickness and deposit of a run in 3D over the terrain, with the outlines of what was observed."""
+    observed = {name: area for name, area in (("largest_thickness", event.impact), ("thickness", event.deposit)) if area is not None}
+    source = maps.release(run)
+    notes = ["red: observed area"] + (["dashed: outline of the release"] if source else [])
+    maps.render_sheet(run, [maps.read_map(run, name) for name in observed], source, notes, output, observed)
+
+
 def draw_profiles(probabilities, word, n_runs, output):
     """Probabilities in 2D against x."""
     quantities = list(dict.fromkeys(quantity for quantity, _ in probabilities))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scree import maps, report, results, variants
-from scree.scenarios import charts, evaluation, runs
+from scree.scenarios import charts, evaluation, observed, runs
 
 
 class Evaluated(NamedTuple):
@@ -26,7 +26,8 @@ def evaluate(study):
     for number, one in verdicts.items():
         if one.word == "finished":
             try:
-                numbers[number] = evaluation.numbers_of(study, study.run(number))
+                of_event = observed.numbers(study.event, study.run(number)) if study.event else {}
+                numbers[number] = {**evaluation.numbers_of(study, study.run(number)), **of_event}
             except (OSError, ValueError) as error:
                 verdicts[number] = runs.Verdict("failed", (), f"its results cannot be read: {error}")
     return Evaluated(verdicts, numbers, list(dict.fromkeys(one for row in numbers.values() for one in row)))
@@ -114,9 +115,18 @@ def series(done, study, result):
     return [row for row, _ in found], [value for _, value in found]
 
 
+def nearest(done):
+    """The number of the run with the largest critical success index of the impact; None without an event."""
+    index = next((one for one in done.results if one.key == "impact_index"), None)
+    return max(done.numbers, key=lambda number: done.numbers[number].get(index, -1.)) if index else None
+
+
 def draw(study, done, probabilities):
     """{name: caption} of the pictures that have been drawn."""
     folder, drawn = study.folder, {}
+    if nearest(done):
+        charts.draw_nearest(study.run(nearest(done)), study.event, folder / "nearest.png")
+        drawn["nearest"] = f"Run {nearest(done)}, with the largest critical success index of the impact, and the observed areas"
     first = study.run(next(iter(done.numbers)))
     if probabilities and results.read_box(first).dim == 3:
         sources = [one for one in (maps.release(study.run(number)) for number in done.numbers) if one]
@@ -172,6 +182,12 @@ def summary(study, done):
     n_lost = sum(row.get(evaluation.Result("mass_lost", "Mass lost", "kg"), 0.) > 0 for row in done.numbers.values())
     if n_lost:
         lines.append((False, "Box", f"in {n_lost} of {n_done} runs soil has left through open walls: their run-out is a lower bound. Enlarge the box"))
+    number = nearest(done)
+    if number:
+        index = next(one for one in done.results if one.key == "impact_index")
+        row = study.rows[study.numbers.index(number)]
+        values = ", ".join(f"{one.label} = {_short(value)}" for one, value in zip(study.parameters, row))
+        lines.append((True, "Nearest", f"run {number} has the largest critical success index of the impact, {done.numbers[number][index]:.3f}: {values}"))
     for quantity, thresholds in study.thresholds.items():
         largest = max((row.get(one, 0.) for row in done.numbers.values() for one in row if one.key == evaluation.MAPS[quantity]), default=0.)
         unit, factor = charts.UNITS[quantity]
@@ -232,6 +248,7 @@ def page(study, done, probabilities, pictures):
                                          for is_good, label, text in summary(study, done))),
         ("parameters", "Parameters", f"<p>Sampling: {html.escape(study.sampling)}, {len(study.rows)} runs.</p>\n" + _parameters(study)),
         ("maps", "Maps" if probabilities else "", figures("probability")),
+        ("event", "Comparison with the event" if "nearest" in pictures else "", figures("nearest")),
         ("run_out", "Run-out and other results", figures("run_out") + _quantile_table(study, done)),
         ("influence", "Influence of the parameters", figures("tornado", "correlation", "values")),
         ("failed", "Failed runs", report.table(failed, ("run", "verdict", "message")) if failed else ""),

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from scree import command, results, variants
-from scree.scenarios import sampling
+from scree.scenarios import observed, sampling
 
-TABLES = ("set", "parameters", "factors", "thresholds")
+TABLES = ("set", "parameters", "factors", "thresholds", "observed")
 KEYS = ("case", "results", "sampling", "runs", "seed", "quantiles", "levels", "run_out", "run_out_thickness", *TABLES)
 QUANTITIES = {"thickness": "m", "speed": "m/s", "pressure": "Pa"}
 
@@ -42,6 +42,7 @@ class Study(NamedTuple):
     thresholds: dict
     run_out: str
     run_out_thickness: float
+    event: observed.Observed | None = None
 
     @property
     def numbers(self):
@@ -88,7 +89,7 @@ def read(file):
     fixed = {"Output/Maps/Write": "true", "Output/Graphics": "none", **fixed}
     kind = given.get("sampling", "Sobol")
     study = Study(file, case, pathlib.Path(given.get("results", f"results/{file.stem}")), kind, fixed, parameters, _rows(file, given, kind, parameters),
-                  _thresholds(file, given), given.get("run_out", "distance"), _run_out_thickness(file, given, {**base, **fixed}))
+                  _thresholds(file, given), given.get("run_out", "distance"), _run_out_thickness(file, given, {**base, **fixed}), _observed(file, given))
     _check_values(study, base)
     return study
 
@@ -182,6 +183,15 @@ def _run_out_thickness(file, given, entries):
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < np.inf:
         raise _fault(file, "run_out_thickness", value, "write a number of at least 0, in m")
     return value
+
+
+def _observed(file, given):
+    if "observed" not in given:
+        return None
+    try:
+        return observed.read(file.parent, given["observed"])
+    except ValueError as error:
+        raise ValueError(f"{file}: [observed], {error}") from error
 
 
 # Entries and values, as the program knows them ------------------------------------------------------------------------
