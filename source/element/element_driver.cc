@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/element/element_driver.h>
-#include <scree/materials/place_values.h>
+#include <scree/materials/place_variable_values.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -53,7 +53,8 @@ namespace scree
     State state;
     state.internal_variables.resize(material->internal_quantities().size());
     if (const PlaceVariable variable = material->place_variable(); !variable.expression.empty())
-      PlaceValues<3>(variable, parameters.material.path("")).set(Point<3>(), 0., state.internal_variables.data());
+      PlaceVariableValues<3>(variable, parameters.material.path(""))
+          .set(Point<3>(), 0., state.internal_variables.data());
     std::array<double, 6> wanted{};
     set_k0_components(parameters.confining_pressure, parameters.K0, /* axis */ 1, wanted.data());
     material->initialise(

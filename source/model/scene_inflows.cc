@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/materials/place_values.h>
+#include <scree/materials/place_variable_values.h>
 #include <scree/model/scene.h>
 
 #include <deal.II/base/mpi.h>
@@ -81,10 +81,10 @@ namespace scree
         *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
     const auto surfaces = parameters.has_water ? std::vector<RigidSurface<dim>>() : rigid_surfaces();
     const auto &layout  = body.layout;
-    std::unique_ptr<PlaceValues<dim>> of_place; // what the law has from the place; null: nothing
+    std::unique_ptr<PlaceVariableValues<dim>> of_place; // what the law has from the place; null: nothing
     if (const PlaceVariable variable = body.material->place_variable(); !variable.expression.empty())
-      of_place =
-          std::make_unique<PlaceValues<dim>>(variable, parameters.find_body(body.name)->material.path(body.name));
+      of_place = std::make_unique<PlaceVariableValues<dim>>(variable,
+                                                            parameters.find_body(body.name)->material.path(body.name));
     return add_layer(
         inflow,
         back,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
 #include <scree/initial/water_start.h>
-#include <scree/materials/place_values.h>
+#include <scree/materials/place_variable_values.h>
 #include <scree/seeding/seeding.h>
 #include <scree/seeding/water_seeding.h>
 #include <scree/model/scene.h>
@@ -211,7 +211,7 @@ namespace scree
       const PlaceVariable variable = body.material->place_variable();
       if (variable.expression.empty())
         return;
-      const PlaceValues<dim> values(variable, subsection);
+      const PlaceVariableValues<dim> values(variable, subsection);
       std::vector<typename Overburden<dim>::Layer> layers;
       for (const SoilRegion &part : soil)
         layers.emplace_back(part.template places<dim>(), 1.); // a weight per depth of 1

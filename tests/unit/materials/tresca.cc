@@ -5,7 +5,7 @@
 
 #include <scree/input/input_error.h>
 #include <scree/materials/undrained/tresca.h>
-#include <scree/materials/place_values.h>
+#include <scree/materials/place_variable_values.h>
 #include <scree/materials/principal_batch_material.h>
 
 #include <algorithm>
@@ -228,7 +228,7 @@ void test_place()
   parameters.strength          = "1e3 + 2e3*(5 - y)";
   parameters.strength_gradient = 100;
   double internal[4]           = {};
-  const PlaceValues<2> values(Tresca(parameters).place_variable(), "Soil/Tresca");
+  const PlaceVariableValues<2> values(Tresca(parameters).place_variable(), "Soil/Tresca");
   values.set(Point<2>(1., 2.), 3., internal);
   expect(internal[of_place], 7300, 1e-9, "strength of the place");
   parameters.divide_strength(1.6);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
-#include <scree/materials/place_values.h>
+#include <scree/materials/place_variable_values.h>
 
 namespace scree
 {
   using namespace dealii;
 
   template <int dim>
-  PlaceValues<dim>::PlaceValues(const PlaceVariable &variable, const std::string &subsection)
+  PlaceVariableValues<dim>::PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection)
       : variable(variable)
       , name(entry_name(subsection, variable.entry) + " = " + variable.expression)
       , expression(
@@ -17,7 +17,7 @@ namespace scree
 
 
   template <int dim>
-  void PlaceValues<dim>::set(const Point<dim> &place, const double depth, double *internal_variables) const
+  void PlaceVariableValues<dim>::set(const Point<dim> &place, const double depth, double *internal_variables) const
   {
     const double value = expression->value(place) + variable.gradient * depth;
     const auto fault   = [&](const std::string &remedy) {
@@ -30,6 +30,6 @@ namespace scree
     internal_variables[variable.number] = value;
   }
 
-  template class PlaceValues<2>;
-  template class PlaceValues<3>;
+  template class PlaceVariableValues<2>;
+  template class PlaceVariableValues<3>;
 } // namespace scree

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_materials_place_values_h
-#define scree_materials_place_values_h
+#ifndef scree_materials_place_variable_values_h
+#define scree_materials_place_variable_values_h
 
 #include <scree/input/expression.h>
 #include <scree/materials/material.h>
@@ -12,11 +12,11 @@ namespace scree
 {
   /// Gives points the variable of their law that depends on the place, see PlaceVariable.
   template <int dim>
-  class PlaceValues
+  class PlaceVariableValues
   {
   public:
     /// Reads the expression. Throws EntryError, which names the entry in this subsection, if it is none.
-    PlaceValues(const PlaceVariable &variable, const std::string &subsection);
+    PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection);
 
     /// Sets the variable at a place. Throws ValueError if the value is not positive, or beyond what the law can follow.
     /// @param depth below the surface, m
