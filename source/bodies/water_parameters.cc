@@ -60,6 +60,13 @@ namespace scree
                       "m/s; velocity of the water at the start, one expression per axis, separated by semicolons. "
                       "Empty: at rest. Double-point only.",
                       Patterns::Anything());
+    prm.add_parameter("Air entry pressure",
+                      air_entry_pressure,
+                      "Pa; suction that menisci in the pores bear before air enters them: the pressure at the surface "
+                      "of water in soil is its negative, and at the face of full soil it lies between that and 0. With "
+                      "\"Phreatic surface\" the pores above it are full up to the height where the suction is that "
+                      "large. 0: no suction. Double-point only.",
+                      Patterns::Double(0));
     suspension.add_parameters(prm);
   }
 
@@ -133,6 +140,8 @@ namespace scree
 
     if (has_levels())
       check_levels(gravity, n_bodies);
+    if (air_entry_pressure > 0)
+      check_air_entry(n_bodies);
     if (point_sets_kind() == PointSets::single_point)
       check_single_point();
     if (n_bodies == 0)
@@ -195,6 +204,21 @@ namespace scree
                   viscosity,
                   "the drag of grains of " + grains + (subsection == "Water" ? "" : " in subsection " + subsection) +
                       " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
+  }
+
+
+  void WaterParameters::check_air_entry(const unsigned int n_bodies) const
+  {
+    const auto require = [&](const bool possible, const std::string &remedy) {
+      require_entry(possible, "Water", "Air entry pressure", air_entry_pressure, remedy);
+    };
+    require(n_bodies > 0, "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
+    require(point_sets_kind() == PointSets::double_point,
+            "single-point water does not leave the soil, and no air enters it. Remove the entry, or write "
+            "\"Point sets = double\".");
+    require(phreatic_file.empty(),
+            "the pores above \"Phreatic surface file\" = " + phreatic_file +
+                " would not be full. Remove the entry, or write the elevation as \"Phreatic surface\".");
   }
 
 
@@ -309,7 +333,9 @@ namespace scree
   {
     if (!phreatic_file.empty())
       return "1";
-    return has_levels() ? below(place().second, dim) : region;
+    if (has_levels())
+      return below(place().second + (fringe > 0. ? " + " + number_text(fringe) : ""), dim);
+    return region;
   }
 
 

@@ -73,6 +73,7 @@ namespace scree
         read_maps();
         if (has_water)
           water.read_table(dimension, bed.map_origin, grid.lower_corner, grid.upper_corner);
+        water.find_fringe(size_of_gravity());
         if (safety.strength_factor != 1.)
           reduce_strength(safety.strength_factor);
         time_step.choose_maximum(has_water, size_of_gravity(), grid.cell_size);

@@ -157,14 +157,19 @@ namespace scree
 
 
   template <int dim>
-  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0, const std::string &modulus)
+  void set_k0_stress(SoilBody<dim> &body,
+                     Overburden<dim> &overburden,
+                     const double k0,
+                     const std::string &modulus,
+                     const SuctionAbove<dim> &suction)
   {
     set_stress(body,
                entry_name(body.name + "/Initial state", "K0") + " = " + number_text(k0),
                modulus,
                overburden.communicator(),
                [&](const Point<dim> &x, double *stress) {
-                 set_k0_components(overburden.weight_above(x), k0, overburden.vertical_axis(), stress);
+                 const double vertical = overburden.weight_above(x) + (suction ? suction(x) : 0.);
+                 set_k0_components(vertical, k0, overburden.vertical_axis(), stress);
                });
   }
 
@@ -184,8 +189,10 @@ namespace scree
 
   template class Overburden<2>;
   template class Overburden<3>;
-  template void set_k0_stress(SoilBody<2> &, Overburden<2> &, const double, const std::string &);
-  template void set_k0_stress(SoilBody<3> &, Overburden<3> &, const double, const std::string &);
+  template void
+  set_k0_stress(SoilBody<2> &, Overburden<2> &, const double, const std::string &, const SuctionAbove<2> &);
+  template void
+  set_k0_stress(SoilBody<3> &, Overburden<3> &, const double, const std::string &, const SuctionAbove<3> &);
   template void set_isotropic_stress(SoilBody<2> &, const double, const std::string &, const MPI_Comm);
   template void set_isotropic_stress(SoilBody<3> &, const double, const std::string &, const MPI_Comm);
 } // namespace scree

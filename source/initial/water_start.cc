@@ -14,10 +14,16 @@ namespace scree
     std::vector<typename Overburden<dim>::Layer> layers;
     for (const SoilRegion &body : soil)
       layers.emplace_back(body.template places<dim>(), body.bulk_density);
-    if (water && water->initial_pressure_kind() == InitialPressure::hydrostatic)
+    if (!water || water->initial_pressure_kind() != InitialPressure::hydrostatic)
+      return layers;
+    const bool has_fringe = water->fringe > 0.;
+    for (auto &part : water_parts<dim>(water->without_fringe(), soil))
+      if (part.soil)
+        layers.emplace_back(std::move(part.region), -(has_fringe ? 1. : 1. - part.porosity) * water->density);
+    if (has_fringe)
       for (auto &part : water_parts<dim>(*water, soil))
         if (part.soil)
-          layers.emplace_back(std::move(part.region), -(1. - part.porosity) * water->density);
+          layers.emplace_back(std::move(part.region), part.porosity * water->density);
     return layers;
   }
 
@@ -33,12 +39,28 @@ namespace scree
     if (!water.is_where_soil_is() && !water.has_levels())
       layers.emplace_back(Region<dim>(entry_name("Water", "Region"), water.region), water.density);
     else
-      for (auto &part : water_parts<dim>(water, soil))
+      for (auto &part : water_parts<dim>(water.without_fringe(), soil))
         if (water.has_levels())
           layers.front().regions.push_back(std::move(part.region));
         else
           layers.emplace_back(std::move(part.region), water.density);
     return layers;
+  }
+
+
+  template <int dim>
+  SuctionAbove<dim> suction_above_table(const WaterParameters &water, const Tensor<1, dim> &gravity)
+  {
+    if (water.fringe == 0. || water.initial_pressure_kind() == InitialPressure::none)
+      return {};
+    const auto [entry, elevation] = water.place();
+    const std::shared_ptr<const Expression<dim>> table =
+        parse_expression<dim>(entry_name("Water", entry), elevation, 1);
+    const double unit_weight = water.density * gravity.norm(), fringe = water.fringe;
+    return [table, unit_weight, fringe](const Point<dim> &x) {
+      const double height = x[dim - 1] - table->value(x);
+      return height > 0. && height <= fringe ? unit_weight * height : 0.; // Above it the soil is dry.
+    };
   }
 
 
@@ -66,7 +88,10 @@ namespace scree
 
 
   template <int dim>
-  void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden, const double reach)
+  void set_hydrostatic_pressure(WaterPhase<dim> &water,
+                                Overburden<dim> &water_overburden,
+                                const SuctionAbove<dim> &suction,
+                                const double reach)
   {
     const Tensor<1, dim> weight = water.density * water_overburden.gravity_vector();
     const auto &layout          = water.layout;
@@ -77,6 +102,8 @@ namespace scree
         Tensor<1, dim> gradient           = weight;
         if (reach > 0)
           gradient += horizontal_gradient(water_overburden, point.location, pressure, reach);
+        if (suction)
+          point.properties[layout.pressure] -= suction(point.location);
         for (unsigned int a = 0; a < dim; ++a)
           point.properties[layout.pressure_gradient + a] = gradient[a];
       });
@@ -89,6 +116,8 @@ namespace scree
                                                                         const WaterParameters *);
   template std::vector<Overburden<2>::Layer> water_layers<2>(const WaterParameters &, const std::vector<SoilRegion> &);
   template std::vector<Overburden<3>::Layer> water_layers<3>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template void set_hydrostatic_pressure(WaterPhase<2> &, Overburden<2> &, const double);
-  template void set_hydrostatic_pressure(WaterPhase<3> &, Overburden<3> &, const double);
+  template SuctionAbove<2> suction_above_table(const WaterParameters &, const Tensor<1, 2> &);
+  template SuctionAbove<3> suction_above_table(const WaterParameters &, const Tensor<1, 3> &);
+  template void set_hydrostatic_pressure(WaterPhase<2> &, Overburden<2> &, const SuctionAbove<2> &, const double);
+  template void set_hydrostatic_pressure(WaterPhase<3> &, Overburden<3> &, const SuctionAbove<3> &, const double);
 } // namespace scree

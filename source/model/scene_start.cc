@@ -53,8 +53,10 @@ namespace scree
       const auto [entry, value] = parameters.place();
       if (entry.rfind("Phreatic", 0) != 0)
         return;
-      const Region<dim> wet(
-          entry_name("Water", entry), parameters.region_in_soil(dim), nullptr, parameters.table<dim>());
+      const Region<dim> wet(entry_name("Water", entry),
+                            parameters.without_fringe().region_in_soil(dim),
+                            nullptr,
+                            parameters.table<dim>());
       const double top = grid.upper_corner()[dim - 1], bottom = grid.lower_corner()[dim - 1];
       const double rounding = 1e-6 * grid.cell_size();
       on_all_ranks(grid.triangulation().get_communicator(), [&] {
@@ -234,6 +236,8 @@ namespace scree
   {
     const auto soil = parameters.soil_regions();
     std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
+    const SuctionAbove<dim> suction =
+        parameters.has_water ? suction_above_table<dim>(parameters.water, forcing.gravity()) : SuctionAbove<dim>();
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       {
@@ -254,7 +258,7 @@ namespace scree
               effective_weight_layers<dim>(soil, parameters.has_water ? &parameters.water : nullptr),
               forcing.gravity(),
               grid.cell_size() / 4);
-        set_k0_stress(body, *overburden, k0, modulus);
+        set_k0_stress(body, *overburden, k0, modulus, suction);
       }
     if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
         forcing.gravity().norm() > 0)
@@ -262,7 +266,8 @@ namespace scree
         Overburden<dim> water_above(
             grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);
         for (auto &part : water)
-          set_hydrostatic_pressure(part, water_above, parameters.water.has_levels() ? 1e-2 * grid.cell_size() : 0.);
+          set_hydrostatic_pressure(
+              part, water_above, suction, parameters.water.has_levels() ? 1e-2 * grid.cell_size() : 0.);
       }
   }
 

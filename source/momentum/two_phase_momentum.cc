@@ -276,18 +276,23 @@ namespace scree
                                                     const double time_step)
   {
     pressure_impulses.clear();
+    const bool has_menisci = pressure.has_menisci();
     for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       {
         const MixtureCell<dim> &cell = mixture.cells()[record];
         pressure_impulses.activate_cell(cell.cell);
-        if (cell.water_volume > 0)
-          mixture.add_pressure_gradient(record,
-                                        multilinear_of<dim>(pressure.change_of(cell.cell)),
-                                        -time_step,
-                                        pressure_impulses,
-                                        0,
-                                        pressure_impulses,
-                                        dim);
+        if (cell.water_volume <= 0)
+          continue;
+        mixture.add_pressure_gradient(record,
+                                      multilinear_of<dim>(pressure.change_of(cell.cell)),
+                                      -time_step,
+                                      pressure_impulses,
+                                      0,
+                                      pressure_impulses,
+                                      dim);
+        if (has_menisci)
+          mixture.add_soil_gradient(
+              record, multilinear_of<dim>(pressure.change_of_pull(cell.cell)), time_step, pressure_impulses, 0);
       }
     pressure_impulses.add_contributions();
   }

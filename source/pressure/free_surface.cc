@@ -23,7 +23,8 @@ namespace scree
                                 const NodeNumbering<dim> &vertices,
                                 const WaterBoundaryConditions<dim> &walls,
                                 const Tensor<1, dim> &gravity,
-                                const CutCells<dim> *cut_cells)
+                                const CutCells<dim> *cut_cells,
+                                const double air_entry)
       : grid(grid)
       , vertices(vertices)
       , walls(walls)
@@ -31,6 +32,7 @@ namespace scree
       , cut_cells(cut_cells)
       , filling(vertices)
       , neighbours(vertices)
+      , menisci(vertices, air_entry)
       , sides(vertices)
   {
     reinit();
@@ -46,6 +48,7 @@ namespace scree
     const auto &nodes = *vertices.partitioner();
     kinds.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), PressureDofType::dry);
     distances.assign(kinds.size(), -1.);
+    menisci.reinit(kinds.size());
     if (cut_cells)
       find_closed();
   }
@@ -204,6 +207,8 @@ namespace scree
         pressure.local_element(vertex) = 0.;
       }
     sum_filling(mixture);
+    if (menisci.exist())
+      menisci.find_soil(mixture);
     const auto classify = [&](const unsigned int vertex) {
       const double *sums = filling[vertex];
       // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
@@ -212,12 +217,15 @@ namespace scree
       distances[vertex]     = distance_from_fill(fill_with_ground(vertex, fill));
       kind                  = PressureDofType::dry;
       double value          = 0.;
+      if (menisci.exist())
+        menisci.find_behind(vertex, distances[vertex], volume_under(vertex));
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(vertices.faces(vertex)))
         {
           kind  = PressureDofType::prescribed;
           value = walls.pressure(vertices.faces(vertex));
         }
-      else if (sums[water] > 0. && distances[vertex] >= closures::least_vertex_depth - 1e-9)
+      else if (sums[water] > 0. &&
+               (distances[vertex] >= closures::least_vertex_depth - 1e-9 || (menisci.exist() && keeps_water(vertex))))
         {
           kind  = PressureDofType::unknown;
           value = pressure_of_points(vertex);
@@ -251,12 +259,24 @@ namespace scree
 
 
   template <int dim>
+  bool FreeSurface<dim>::keeps_water(const unsigned int vertex)
+  {
+    if (distances[vertex] < -1e-9 || !menisci.end_soil(vertex) || !is_in_soil(vertex) ||
+        pressure_of_points(vertex) >= 0.)
+      return false;
+    menisci.close(vertex);
+    distances[vertex] = closures::least_vertex_depth;
+    return true;
+  }
+
+
+  template <int dim>
   void FreeSurface<dim>::close_gaps(const Mixture<dim> &mixture, VertexVector &pressure)
   {
     const auto may_be_in_gap = [&](const unsigned int vertex) {
       const double *sums = filling[vertex];
       return kinds[vertex] == PressureDofType::dry && distances[vertex] >= -1e-9 && sums[water] > 0. &&
-             sums[filled] - sums[water] >= closures::least_solid_fraction * sums[filled];
+             is_in_soil(vertex);
     };
     const auto presses = [&](const unsigned int vertex) { // Across a gap nothing pulls.
       return kinds[vertex] == PressureDofType::unknown && pressure_of_points(vertex) >= 0.;
@@ -332,6 +352,41 @@ namespace scree
         pressure.local_element(vertex) = distances[vertex] * sums[sum_of_pressures] / sums[sum_of_distances];
       });
     };
+    spread(PressureDofType::unknown, PressureDofType::surface);
+    spread(PressureDofType::surface, PressureDofType::beyond);
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::extrapolate_with_menisci(const Mixture<dim> &mixture,
+                                                  const bool is_start,
+                                                  VertexVector &pressure,
+                                                  VertexVector &pull)
+  {
+    const auto spread = [&](const PressureDofType source, const PressureDofType target) {
+      neighbours.clear_ghosts();
+      for (const unsigned int vertex : neighbours.active_nodes())
+        neighbours[vertex][sum_of_pressures] = neighbours[vertex][sum_of_pulls] = 0.;
+      for_pairs(mixture, target, source, [&](const unsigned int vertex, const unsigned int neighbour) {
+        neighbours[vertex][sum_of_pressures] += pressure.local_element(neighbour);
+        neighbours[vertex][sum_of_pulls] += pull.local_element(neighbour);
+      });
+      neighbours.add_contributions();
+      neighbours.update_ghosts();
+      for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
+        if (kinds[vertex] != target)
+          return;
+        const double *sums = neighbours[vertex];
+        const double slope = distances[vertex] / sums[sum_of_distances];
+        const double mean  = sums[sum_of_pressures] / sums[number];
+        const double face =
+            is_start ? menisci.start_pressure(vertex, mean, is_in_soil(vertex)) : menisci.change(vertex, mean);
+        const double own_pull          = face * (1. - slope * sums[number]) + slope * sums[sum_of_pulls];
+        pressure.local_element(vertex) = slope * (sums[sum_of_pressures] - sums[sum_of_pulls]) + own_pull;
+        pull.local_element(vertex)     = own_pull;
+      });
+    };
+    for_all_wet_vertices(mixture, [&](const unsigned int vertex) { pull.local_element(vertex) = 0.; });
     spread(PressureDofType::unknown, PressureDofType::surface);
     spread(PressureDofType::surface, PressureDofType::beyond);
   }

@@ -87,7 +87,7 @@ namespace scree
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
       , vertices(numbered(grid))
-      , surface(grid, vertices, walls, gravity, cut_cells)
+      , surface(grid, vertices, walls, gravity, cut_cells, water.air_entry_pressure)
       , gaps(grid, vertices, surface)
       , divergence(grid, vertices, surface, gravity.norm(), cut_cells, ground_gaps)
       , solver(grid, vertices, parameters)
@@ -123,6 +123,9 @@ namespace scree
   {
     for (VertexVector *vector : { &pressure, &change, &source })
       reinit(*vector);
+    if (has_menisci())
+      for (VertexVector *vector : { &pull, &pull_change })
+        reinit(*vector);
   }
 
 
@@ -132,7 +135,17 @@ namespace scree
     surface.locate(mixture, pressure);
     memory.fade(surface, pressure);
     pressure.update_ghost_values();
-    surface.extrapolate(mixture, pressure);
+    extrapolate(mixture, true, pressure);
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::extrapolate(const Mixture<dim> &mixture, const bool is_start, VertexVector &values)
+  {
+    if (has_menisci())
+      surface.extrapolate_with_menisci(mixture, is_start, values, is_start ? pull : pull_change);
+    else
+      surface.extrapolate(mixture, values);
   }
 
 
@@ -208,11 +221,14 @@ namespace scree
     const SolveReport report = solver.solve(source, pressure, relative_tolerance, change);
     solver.update_preconditioner_age(report);
     count(report, balance);
-    const auto [more, n_cavitating] = solver.enforce_cavitation_bound(cavitation_pressure, pressure, change);
+    const auto [more, n_cavitating] = solver.enforce_least_pressure(
+        [&](const unsigned int vertex) { return surface.least_pressure(vertex, cavitation_pressure); },
+        pressure,
+        change);
     count(more, balance);
     balance.n_cavitating += n_cavitating;
     change.update_ghost_values();
-    surface.extrapolate(mixture, change);
+    extrapolate(mixture, false, change);
   }
 
 

@@ -214,14 +214,19 @@ namespace scree
 
   template <int dim>
   std::pair<SolveReport, unsigned int>
-  PressureSolver<dim>::enforce_cavitation_bound(const double least, const VertexVector &pressure, VertexVector &change)
+  PressureSolver<dim>::enforce_least_pressure(const std::function<double(unsigned int vertex)> &least,
+                                              const VertexVector &pressure,
+                                              VertexVector &change)
   {
     constexpr unsigned int most_sweeps = 5; // Vertices below after them are held without another solve.
     const MPI_Comm communicator        = grid.triangulation().get_communicator();
     std::pair<SolveReport, unsigned int> result;
     std::vector<char> is_held(system.n_owned(), false);
     VertexVector residual;
-    const auto bound = [&](const unsigned int i) { return least - pressure.local_element(numbering.vertex(i)); };
+    const auto bound = [&](const unsigned int i) {
+      const unsigned int vertex = numbering.vertex(i);
+      return least(vertex) - pressure.local_element(vertex);
+    };
     for (unsigned int sweep = 0;; ++sweep)
       {
         bool has_changed = false;

@@ -136,15 +136,21 @@ namespace scree
   template <int dim>
   void TwoPhaseScheme<dim>::add_pressure_forces()
   {
+    const bool has_menisci = pressure.has_menisci();
     for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       if (const unsigned int cell = mixture.cells()[record].cell; mixture.cells()[record].water_volume > 0)
-        mixture.add_pressure_gradient(record,
-                                      multilinear_of<dim>(pressure.pressure_of(cell)),
-                                      -1.,
-                                      soil.field,
-                                      NodalField<dim>::force,
-                                      water_field,
-                                      NodalField<dim>::force);
+        {
+          mixture.add_pressure_gradient(record,
+                                        multilinear_of<dim>(pressure.pressure_of(cell)),
+                                        -1.,
+                                        soil.field,
+                                        NodalField<dim>::force,
+                                        water_field,
+                                        NodalField<dim>::force);
+          if (has_menisci)
+            mixture.add_soil_gradient(
+                record, multilinear_of<dim>(pressure.pull_of(cell)), 1., soil.field, NodalField<dim>::force);
+        }
   }
 
 

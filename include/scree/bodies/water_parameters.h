@@ -59,6 +59,8 @@ namespace scree
     std::string phreatic_surface = "";             ///< expression of its elevation, m; empty: not given
     std::string phreatic_file    = "";             ///< profile (2D) or raster (3D) of it; empty: not given
     std::string reservoir_level  = "";             ///< expression of the elevation, m; empty: no reservoir
+    double air_entry_pressure    = 0;              ///< suction at which air enters the soil, Pa; 0: none
+    double fringe                = 0;              ///< height above given levels up to which it fills the pores, m
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -83,6 +85,22 @@ namespace scree
 
     /// Whether the region is wherever soil is, and not an expression.
     bool is_where_soil_is() const;
+
+    /// Sets `fringe` from the air entry pressure, where levels say where water is.
+    /// @param gravity m/s^2
+    void find_fringe(const double gravity)
+    {
+      if (air_entry_pressure > 0. && gravity > 0. && has_levels())
+        fringe = air_entry_pressure / (density * gravity);
+    }
+
+    /// The same water with pores that are full up to the water table only.
+    WaterParameters without_fringe() const
+    {
+      WaterParameters result = *this;
+      result.fringe          = 0.;
+      return result;
+    }
 
     /// Whether a phreatic surface or a reservoir level say where water is, in place of the region.
     bool has_levels() const;
@@ -113,6 +131,7 @@ namespace scree
   private:
     void add_level_parameters(dealii::ParameterHandler &prm);
     void add_drag_parameters(dealii::ParameterHandler &prm);
+    void check_air_entry(const unsigned int n_bodies) const;
     void check_single_point() const;
     void check_without_soil() const;
     void check_levels(const std::vector<double> &gravity, const unsigned int n_bodies) const;

@@ -18,7 +18,7 @@
 #include <scree/contact/contact_parameters.h>
 #include <scree/momentum/explicit_update.h>
 #include <scree/boundary/inflow/inflow_parameters.h>
-#include <scree/pressure/pressure_parameters.h>
+#include <scree/bodies/pressure_parameters.h>
 #include <scree/schemes/time_step.h>
 #include <scree/transfer/transfer_parameters.h>
 

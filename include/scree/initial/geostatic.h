@@ -8,11 +8,16 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <functional>
 #include <map>
 #include <vector>
 
 namespace scree
 {
+  /// Suction of water at rest at a place, Pa: 0 below the water table. Empty: none anywhere.
+  template <int dim>
+  using SuctionAbove = std::function<double(const dealii::Point<dim> &)>;
+
   /// The weight that lies above a place: bodies are taken as stacked along gravity, each with its bulk density.
   template <int dim>
   class Overburden
@@ -90,8 +95,13 @@ namespace scree
   /// Gives the points the geostatic stress of their depth: vertical from the weight above, horizontal K0 times that.
   /// Collective; throws EntryError if the law cannot bear that.
   /// @param modulus entry and value of the soil's stiffness, for messages
+  /// @param suction that adds to the weight; empty: none
   template <int dim>
-  void set_k0_stress(SoilBody<dim> &body, Overburden<dim> &overburden, const double k0, const std::string &modulus);
+  void set_k0_stress(SoilBody<dim> &body,
+                     Overburden<dim> &overburden,
+                     const double k0,
+                     const std::string &modulus,
+                     const SuctionAbove<dim> &suction = {});
 
   /// Gives the points an isotropic stress, Pa, compression positive. Collective; throws EntryError if the law cannot
   /// bear that.

@@ -13,22 +13,31 @@ namespace scree
 {
   /// The layers whose weight is the effective vertical stress of the soil: each body with its dry bulk density, and,
   /// where it is under water, less that of the water its grains displace, (1 - n) rho_w: total stress less hydrostatic
-  /// pressure.
+  /// pressure. The water of a fringe above the table weighs, and lifts nothing.
   /// @param water null: a dry scene; with "Initial pressure = none" nothing lifts the soil either
   template <int dim>
   std::vector<typename Overburden<dim>::Layer> effective_weight_layers(const std::vector<SoilRegion> &soil,
                                                                        const WaterParameters *water);
 
-  /// The layers whose weight is the hydrostatic pressure: the water's region with its density, in soil and outside.
+  /// The layers whose weight is the hydrostatic pressure: the water's region with its density, in soil and outside,
+  /// without a fringe above the table.
   template <int dim>
   std::vector<typename Overburden<dim>::Layer> water_layers(const WaterParameters &water,
                                                             const std::vector<SoilRegion> &soil);
 
-  /// Gives the points of water the weight of the water above them as pressure, Pa, and density times gravity as its
-  /// gradient, Pa/m. Collective.
+  /// Suction of water at rest above the levels of the water, in the fringe; empty without one.
+  /// @param gravity m/s^2, along the last axis
+  template <int dim>
+  SuctionAbove<dim> suction_above_table(const WaterParameters &water, const dealii::Tensor<1, dim> &gravity);
+
+  /// Gives the points of water the weight of the water above them, less the suction above the table, as pressure, Pa,
+  /// and density times gravity as its gradient, Pa/m. Collective.
   /// @param reach of the differences that give the horizontal gradient below an oblique surface, m; 0: it is 0
   template <int dim>
-  void set_hydrostatic_pressure(WaterPhase<dim> &water, Overburden<dim> &water_overburden, const double reach = 0.);
+  void set_hydrostatic_pressure(WaterPhase<dim> &water,
+                                Overburden<dim> &water_overburden,
+                                const SuctionAbove<dim> &suction = {},
+                                const double reach               = 0.);
 } // namespace scree
 
 #endif

@@ -45,6 +45,11 @@ namespace scree
     /// jet. Without it water between bodies of soil makes energy, 13.5 %.
     constexpr double least_solid_fraction = 0.2;
 
+    /// Dry soil about a vertex beside the water's surface, over the volume there: up to the first by the scatter of
+    /// points, from the second on the surface lies in soil.
+    constexpr double least_dry_soil = 0.1,  ///< less is scatter of points
+        surely_dry_soil             = 0.25; ///< more is soil behind the surface
+
     /// Fill about a vertex on the ground below which there is no depth of water.
     constexpr double least_fill_above_ground = 0.25;
 

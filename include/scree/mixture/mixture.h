@@ -232,6 +232,15 @@ namespace scree
                                WaterNodes &water_nodes,
                                const unsigned int first_water) const;
 
+    /// Adds `factor` sum S (V_grains + V_pores) phi_i grad p to `dim` components of the soil's nodes of a cell, from
+    /// `first` on (N at factor 1): what a pressure does to grains that bear all of it.
+    template <typename Nodes>
+    void add_soil_gradient(const unsigned int record,
+                           const Multilinear<dim> &pressure,
+                           const double factor,
+                           Nodes &nodes,
+                           const unsigned int first) const;
+
   private:
     template <int n, typename Nodes>
     void add_gradient(const NodeRow *moments,
@@ -270,6 +279,28 @@ namespace scree
           for (unsigned int i = 0; i < n; ++i)
             values[nodes[r * n + i]][first + a] += force[i];
         }
+  }
+
+
+  template <int dim>
+  template <typename Nodes>
+  inline void Mixture<dim>::add_soil_gradient(const unsigned int record,
+                                              const Multilinear<dim> &pressure,
+                                              const double factor,
+                                              Nodes &nodes,
+                                              const unsigned int first) const
+  {
+    const MixtureCell<dim> &cell = records[record];
+    if (!(cell.grain_volume > 0.))
+      return;
+    Multilinear<dim> slopes = pressure;
+    for (double &slope : slopes)
+      slope *= factor * cell.effective_saturation * (1. + cell.pore_volume / cell.grain_volume) / grid.cell_size();
+    const NodeRow *moments = &grains[std::size_t(record) * moments_per_cell];
+    if (grid.n_nodes_1d() == 2)
+      add_gradient<2>(moments, grid.nodes(cell.cell), slopes, nodes, first);
+    else
+      add_gradient<3>(moments, grid.nodes(cell.cell), slopes, nodes, first);
   }
 
 

@@ -3,7 +3,8 @@
 #define scree_pressure_free_surface_h
 
 #include <scree/boundary/water_walls.h>
-#include <scree/pressure/pressure_parameters.h>
+#include <scree/mixture/menisci.h>
+#include <scree/bodies/pressure_parameters.h>
 #include <scree/mixture/closures.h>
 #include <scree/mixture/mixture.h>
 
@@ -40,11 +41,13 @@ namespace scree
     /// @param vertices the numbering of linear functions on the grid
     /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
+    /// @param air_entry pressure of the soil, Pa; 0: its water has no suction at the surface
     FreeSurface(const BackgroundGrid<dim> &grid,
                 const NodeNumbering<dim> &vertices,
                 const WaterBoundaryConditions<dim> &walls,
                 const dealii::Tensor<1, dim> &gravity,
-                const CutCells<dim> *cut_cells);
+                const CutCells<dim> *cut_cells,
+                const double air_entry = 0.);
 
     /// Fits the surface to the grid's current vertices. Collective.
     void reinit();
@@ -61,6 +64,28 @@ namespace scree
 
     /// Sets a pressure (or its change) at the vertices beside the surface. Collective; ghosts hold values afterwards.
     void extrapolate(const Mixture<dim> &mixture, VertexVector &pressure);
+
+    /// Whether menisci in the pores make the pressure at the surface differ from 0.
+    bool has_menisci() const
+    {
+      return menisci.exist();
+    }
+
+    /// As extrapolate(), with the pressure of menisci at the surface.
+    /// @param is_start whether `pressure` is that of the start of a step, or its change
+    /// @param pull becomes what they add at each vertex: the grains bear a force of minus its gradient. Its ghosts hold
+    ///        values afterwards
+    void extrapolate_with_menisci(const Mixture<dim> &mixture,
+                                  const bool is_start,
+                                  VertexVector &pressure,
+                                  VertexVector &pull);
+
+    /// The least pressure that an unknown vertex can have, Pa.
+    /// @param cavitation pressure, Pa
+    double least_pressure(const unsigned int vertex, const double cavitation) const
+    {
+      return menisci.least_pressure(vertex, cavitation);
+    }
 
     /// Type of a vertex of this rank's cells, ghosts included, as locate() has found it.
     PressureDofType kind(const unsigned int vertex) const
@@ -146,7 +171,8 @@ namespace scree
     {
       number,
       sum_of_distances, // cells
-      sum_of_pressures  // Pa
+      sum_of_pressures, // Pa
+      sum_of_pulls      // Pa
     };
 
     /// Distance of a vertex from the surface that is beside its neighbour, cells. Fills near 1 tell it badly, and not
@@ -186,6 +212,16 @@ namespace scree
     bool is_among_wet_cells(const unsigned int vertex) const;
     void sum_filling(const Mixture<dim> &mixture);
 
+    /// Whether grains take a part of what fills a vertex's linear function that is no scatter.
+    bool is_in_soil(const unsigned int vertex) const
+    {
+      const double *sums = filling[vertex];
+      return sums[filled] - sums[water] >= closures::least_solid_fraction * sums[filled] && sums[filled] > 0.;
+    }
+
+    /// Whether menisci keep water with a suction at a vertex beside the surface.
+    bool keeps_water(const unsigned int vertex);
+
     /// The pressure of a vertex's points, Pa.
     double pressure_of_points(const unsigned int vertex) const
     {
@@ -215,8 +251,9 @@ namespace scree
     const dealii::Tensor<1, dim> down; // unit, or 0
     const CutCells<dim> *cut_cells;    // may be null
     NodeValues<dim, 6> filling;        // Filling
-    NodeValues<dim, 3> neighbours;     // Neighbours
-    NodeValues<dim, 2 * dim> sides;    // number of neighbours that press, on each side along each axis
+    NodeValues<dim, 4> neighbours;     // Neighbours
+    Menisci<dim> menisci;
+    NodeValues<dim, 2 * dim> sides; // number of neighbours that press, on each side along each axis
     std::vector<PressureDofType> kinds;
     std::vector<double> distances; // cells; positive in the water
 

@@ -98,6 +98,25 @@ namespace scree
       return at_vertices(change, cell);
     }
 
+    /// Whether menisci pull at the grains.
+    bool has_menisci() const
+    {
+      return surface.has_menisci();
+    }
+
+    /// What menisci add to the pressure at the vertices of a cell, and to its change over the step, Pa: the grains bear
+    /// a force of minus its gradient. To be asked for only if there are any.
+    AtVertices pull_of(const unsigned int cell) const
+    {
+      return at_vertices(pull, cell);
+    }
+
+    /// See pull_of().
+    AtVertices change_of_pull(const unsigned int cell) const
+    {
+      return at_vertices(pull_change, cell);
+    }
+
     /// Part of the pressure at the vertices of a cell that the next step does not start from, 0 to 1.
     AtVertices forgotten_of(const unsigned int cell) const
     {
@@ -129,6 +148,9 @@ namespace scree
     static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
     void reinit_vectors();
 
+    /// Sets the pressure, or its change, at the vertices beside the surface. Collective.
+    void extrapolate(const Mixture<dim> &mixture, const bool is_start, VertexVector &values);
+
     void compute_pressure_coefficients(Mixture<dim> &mixture,
                                        const NodalField<dim> &soil,
                                        const NodalField<dim> &water,
@@ -149,6 +171,7 @@ namespace scree
     PressureSolver<dim> solver;
     PressureMemory<dim> memory;
     VertexVector pressure, change, source;
+    VertexVector pull, pull_change; // of menisci; empty without these
   };
 } // namespace scree
 

@@ -54,13 +54,14 @@ namespace scree
     SolveReport
     solve(const VertexVector &rhs, const VertexVector &pressure, const double relative_tolerance, VertexVector &change);
 
-    /// Keeps the pressure from falling below `least`, Pa: where the solution of solve(), in `change`, would take it
-    /// there, it is prescribed, and the mixture opens; it is set free again where the mixture would close, L dp < b.
-    /// A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is below. To be
-    /// called right after solve(). Collective; throws as solve().
+    /// Keeps the pressure of a vertex from falling below `least(vertex)`, Pa: where the solution of solve(), in
+    /// `change`, would take it there, it is prescribed, and the mixture opens; it is set free again where the mixture
+    /// would close, L dp < b. A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is
+    /// below. To be called right after solve(). Collective; throws as solve().
     /// @return what the solves took; the owned vertices that are held at `least`
-    std::pair<SolveReport, unsigned int>
-    enforce_cavitation_bound(const double least, const VertexVector &pressure, VertexVector &change);
+    std::pair<SolveReport, unsigned int> enforce_least_pressure(const std::function<double(unsigned int vertex)> &least,
+                                                                const VertexVector &pressure,
+                                                                VertexVector &change);
 
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void update_preconditioner_age(const SolveReport &report);

@@ -4,6 +4,7 @@
 - consolidation at small strain: Terzaghi 1943; the same with the inertia of soil and water
 - consolidation at large strain of soil that is elastic in logarithmic strain: exact end state, course in time by
   finite differences
+- infiltration of a pond with suction: Green & Ampt 1911
 - hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
 - dam break on a wet bed in shallow water: Stoker 1957; of grains on a plane: Mangeney, Heinrich & Roche 2000
 - viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923), viscosity and settling of suspensions
@@ -296,6 +297,15 @@ def ergun_velocity(gravity, diameter, porosity, viscosity, density=1000):
     slow = 150 * viscosity * (1 - porosity)**2 / (porosity**3 * diameter**2)
     fast = 1.75 * density * (1 - porosity) / (porosity**3 * diameter)
     return 2 * density * gravity / (slow + math.sqrt(slow**2 + 4 * fast * density * gravity))
+
+
+def green_ampt_time(depth, pond, suction, porosity, conductivity):
+    """Time, s, at which the sharp front of a pond that sinks into dry soil is at a depth, m (Green & Ampt 1911).
+
+    n dz/dt = k (h + s + z)/z with the pond h = pond - n z and the suction s of the front, m of water.
+    """
+    head, rest = pond + suction, 1 - porosity
+    return porosity / conductivity * (depth / rest - head / rest**2 * np.log(1 + rest * depth / head))
 
 
 def dupuit_discharge(conductivity, upstream, downstream, length):

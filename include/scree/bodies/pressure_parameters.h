@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_pressure_pressure_parameters_h
-#define scree_pressure_pressure_parameters_h
+#ifndef scree_bodies_pressure_parameters_h
+#define scree_bodies_pressure_parameters_h
 
 #include <deal.II/base/parameter_handler.h>
 

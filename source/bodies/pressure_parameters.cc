@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
-#include <scree/pressure/pressure_parameters.h>
+#include <scree/bodies/pressure_parameters.h>
 
 namespace scree
 {

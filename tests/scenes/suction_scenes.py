@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""suction_scenes.py SCREE SCENE: suction up to the air entry pressure, as scenes.py.
+
+Bounds: p in the fringe 2 %, infiltration of a pond 3 %, fixed before the first run.
+"""
+
+import numpy as np
+
+from scree import closed_forms
+from scree.results import read_points
+
+from scene_tools import check, main, run
+
+WATER = 1000 * closed_forms.GRAVITY  # N/m^3
+
+
+def fringe(scree):
+    """The pores above a water table stay full up to the height of the air entry pressure, at rest, with the hydrostatic suction."""
+    table = run(scree, "seepage/capillary_fringe", "fringe", {"Output/Graphics": "points"})
+    entry, height, cell = 2943, 0.3, 0.05
+    water = read_points("fringe", None, "water")
+    y, p = water.positions[:, 1], water.arrays["pressure"]
+    check("fringe: highest water above the table, m", np.max(y) - 0.5, height - cell, height + cell)
+    check("fringe: largest error of p over the air entry pressure", np.max(np.abs(p - WATER * (0.5 - y))) / entry, 0, 0.02)
+    check("fringe: water volume over that of the start", np.sum(water.arrays["volume"]) / (0.4 * 0.8 * 0.2), 0.999, 1.001)
+    check("fringe: kinetic energy at the end, J", table["Kinetic energy (J)"][-1], 0, 1e-3)
+
+
+def green_ampt(scree):
+    """A pond sinks into dry sand with suction: the fall of the water is that of Green & Ampt's front."""
+    porosity, pond, top = 0.4, 0.2, 0.5
+    for suction in (0.3, 1.0):
+        depth = 0.3
+        end = closed_forms.green_ampt_time(depth, pond, suction, porosity, 1e-2)
+        run(scree, "seepage/green_ampt", "pond", {"Water/Air entry pressure": "%.8g" % (suction * WATER), "Output/Graphics": "points",
+                                                   "End time": "%.8g" % end, "Output/Interval": "%.8g" % end})
+        water = read_points("pond", None, "water")
+        fall = top + pond / 2 - np.average(water.positions[:, 1], weights=water.arrays["volume"])
+        rest = pond - porosity * depth
+        exact = pond / 2 - (rest * rest / 2 - porosity * depth * depth / 2) / pond
+        check("pond, suction %g m: fall over that of Green & Ampt" % suction, fall / exact, 0.97, 1.03)
+
+
+if __name__ == "__main__":
+    main(globals())
