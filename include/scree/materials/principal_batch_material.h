@@ -5,12 +5,16 @@
 
 #include <scree/materials/batch_records.h>
 #include <scree/materials/hencky_material.h>
+#include <scree/materials/principal_substeps.h>
+
+#include <utility>
 
 namespace scree
 {
   /// A law in principal values (see law.h), several points at a time, elastic ones and others in one pass: a return
   /// that is a few linear equations costs less than to gather the points that need it. Increments that HenckyMaterial
-  /// refuses are left to it, so that its messages tell of them; so are those beyond the law's sub-step strain.
+  /// refuses are left to it, so that its messages tell of them. Those beyond the law's sub-step strain are gathered to
+  /// full batches where the law depends on the volume, else left to it, too.
   template <int dim, typename Law>
   class PrincipalBatchMaterial : public HenckyMaterial<dim, Law>
   {
@@ -27,9 +31,12 @@ namespace scree
     update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const override
     {
       UpdateReport own;
+      Gathered in_substeps;
       for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
-        update_batch(indices, n, points, motion, own);
+        update_batch(indices, n, points, motion, in_substeps, own);
       });
+      if constexpr (DependsOnVolume<Law>())
+        update_in_substeps(in_substeps, points, motion, own);
       own.n_updates            = points.n_points;
       own.largest_bulk_modulus = std::max(own.largest_bulk_modulus, law.bulk_modulus(0));
       report.add(own);
@@ -41,10 +48,18 @@ namespace scree
 
     static constexpr unsigned int n_components = n_symmetric_components<dim>;
 
+    /// Points that wait until they fill a batch.
+    struct Gathered
+    {
+      unsigned int size = 0;
+      BatchIndices points{};
+    };
+
     void update_batch(const BatchIndices &indices,
                       const unsigned int n,
                       const MaterialPoints<dim> &points,
                       const MaterialMotion<dim> &motion,
+                      Gathered &in_substeps,
                       UpdateReport &report) const
     {
       typename Records::Input input = Records::read(indices, n, points, motion);
@@ -55,7 +70,9 @@ namespace scree
 
       const Mask is_finite =
           simd::abs<Batch>(trial_strain[0] + trial_strain[1] + trial_strain[2]) <= std::numeric_limits<double>::max();
-      Mask is_served = Records::is_possible(input) & is_finite & (Records::largest_change_of(input) <= largest_change);
+      const Mask is_possible = Records::is_possible(input);
+      const Batch change     = Records::largest_change_of(input);
+      Mask is_served         = is_possible & is_finite & (change <= largest_change);
 
       PrincipalNumbers<Batch> strain = trial_strain, kirchhoff_stress;
       Batch before[Law::n_internal_variables + 1];
@@ -95,8 +112,66 @@ namespace scree
       Records::template write<n_components>(b, indices, served, points, points.left_cauchy_green);
       Records::template write<n_components>(stress, indices, served, points, points.stress);
 
-      for (unsigned int others = used & ~served; others != 0; others &= others - 1)
-        this->update_point(indices[__builtin_ctz(others)], points, motion, report);
+      // As many sub-steps as the other way would take; its message tells of more.
+      const Mask is_cut = is_possible & (change > largest_change) & (change <= 1000. * largest_change);
+      update_others(indices, used & ~served, simd::bits_of(is_cut), points, motion, in_substeps, report);
+    }
+
+    /// Gathers the `others` whose bits are set in `cut`, and updates the rest point by point.
+    void update_others(const BatchIndices &indices,
+                       unsigned int others,
+                       const unsigned int cut,
+                       const MaterialPoints<dim> &points,
+                       const MaterialMotion<dim> &motion,
+                       Gathered &in_substeps,
+                       UpdateReport &report) const
+    {
+      for (; others != 0; others &= others - 1)
+        {
+          const unsigned int lane = __builtin_ctz(others);
+          if constexpr (DependsOnVolume<Law>())
+            if (cut >> lane & 1)
+              {
+                in_substeps.points[in_substeps.size++] = indices[lane];
+                if (in_substeps.size == batch_size)
+                  update_in_substeps(in_substeps, points, motion, report);
+                continue;
+              }
+          this->update_point(indices[lane], points, motion, report);
+        }
+    }
+
+    /// The points that were gathered; none are left.
+    void update_in_substeps(Gathered &gathered,
+                            const MaterialPoints<dim> &points,
+                            const MaterialMotion<dim> &motion,
+                            UpdateReport &report) const
+    {
+      const unsigned int n = std::exchange(gathered.size, 0u);
+      if (n == 0)
+        return;
+      BatchIndices indices = gathered.points;
+      for (unsigned int l = n; l < batch_size; ++l)
+        indices[l] = indices[0];
+      const typename Records::Input input = Records::read(indices, 0, points, motion);
+      const PrincipalSubsteps<dim, Law> path(law, input, simd::first_lanes(n), largest_change, report);
+
+      const unsigned int used = (1u << n) - 1, served = simd::bits_of(path.is_served) & used;
+      Records::template write<n_components>(path.left_cauchy_green, indices, served, points, points.left_cauchy_green);
+      Records::template write<n_components>(path.stress, indices, served, points, points.stress);
+      Records::template write<Law::n_internal_variables>(
+          path.internal_variables, indices, served, points, points.internal_variables);
+      report.n_separated += __builtin_popcount(simd::bits_of(path.is_separated) & served);
+      for (unsigned int l = 0; l < n; ++l)
+        if (served >> l & 1)
+          {
+            report.plastic_dissipation += input.reference_volume[l] * path.dissipation[l];
+            report.n_substeps += static_cast<unsigned int>(path.n_substeps[l]);
+            report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, path.largest_bulk_modulus[l]);
+            report.largest_compression  = std::max(report.largest_compression, path.largest_compression[l]);
+          }
+        else
+          this->update_point(indices[l], points, motion, report);
     }
 
     /// The law's response; points that it leaves are no longer served.

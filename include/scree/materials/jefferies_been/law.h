@@ -146,9 +146,11 @@ namespace scree
     template <typename Number>
     struct Image
     {
-      Number state,      ///< psi
-          ratio, ratio_, ///< M_i
-          limit, limit_; ///< L
+      Number state;  ///< psi
+      Number ratio;  ///< M_i
+      Number ratio_; ///< derivative of M_i
+      Number limit;  ///< L
+      Number limit_; ///< derivative of L
     };
 
     /// See Image.
@@ -163,21 +165,27 @@ namespace scree
     template <typename Number>
     struct Trial
     {
-      PrincipalNumbers<Number> deviator;      ///< of strain
-      Number volume_strain, shear_strain;     ///< e_v, e_s
-      Number X, log_pressure, eta;            ///< see PressureElasticity
-      Number log_image;                       ///< after the cap of an elastic step
-      Number void_ratio, lode_ratio;          ///< e, M(theta)
-      Number hardening;                       ///< H M(theta)/M_tc
-      simd::Mask<Number> is_apart, is_capped, ///< no stress; the cap lowered p_i
-          is_plastic;                         ///< has to return
+      PrincipalNumbers<Number> deviator; ///< of strain
+      Number volume_strain;              ///< e_v
+      Number shear_strain;               ///< e_s
+      Number X;                          ///< see PressureElasticity
+      Number log_pressure;               ///< ln p
+      Number eta;                        ///< q/p
+      Number log_image;                  ///< ln p_i, after the cap of an elastic step
+      Number void_ratio;                 ///< e
+      Number lode_ratio;                 ///< M(theta)
+      Number hardening;                  ///< H M(theta)/M_tc
+      simd::Mask<Number> is_apart;       ///< no stress
+      simd::Mask<Number> is_capped;      ///< the cap lowered p_i
+      simd::Mask<Number> is_plastic;     ///< has to return
     };
 
     /// Unknowns of a return.
     template <typename Number>
     struct Root
     {
-      Number log_pressure, log_ratio; ///< ln p, r
+      Number log_pressure; ///< ln p
+      Number log_ratio;    ///< r
     };
 
     /// The equations that a return solves.
@@ -191,9 +199,13 @@ namespace scree
     template <typename Number>
     struct Residual
     {
-      Number volume, volume_p, volume_r; ///< flow rule
-      Number image, image_p, image_r;    ///< hardening
-      Number multiplier;                 ///< d e_s^p
+      Number volume;     ///< of the flow rule
+      Number volume_p;   ///< its derivative in ln p
+      Number volume_r;   ///< its derivative in r
+      Number image;      ///< of the hardening
+      Number image_p;    ///< its derivative in ln p
+      Number image_r;    ///< its derivative in r
+      Number multiplier; ///< d e_s^p
     };
 
     /// Of a root with the trial state's X and e_s; for tests of the derivatives.

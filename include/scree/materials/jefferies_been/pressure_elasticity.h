@@ -100,7 +100,8 @@ namespace scree
     double n,    ///< exponent of both moduli
         p_r,     ///< Pa
         log_p_r, ///< ln p_r
-        g, k,    ///< moduli over p_r at p_r
+        g,       ///< G/p_r at p_r
+        k,       ///< K/p_r at p_r
         k_n,     ///< k (1 - n)
         a,       ///< k_n/(3 g)
         inverse; ///< 1/(1 - n)
