@@ -2,6 +2,7 @@
 #ifndef scree_bodies_water_parameters_h
 #define scree_bodies_water_parameters_h
 
+#include <scree/bodies/seepage_start.h>
 #include <scree/bodies/suspension.h>
 #include <scree/geometry/level_set.h>
 
@@ -59,6 +60,7 @@ namespace scree
     std::string phreatic_surface = "";             ///< expression of its elevation, m; empty: not given
     std::string phreatic_file    = "";             ///< profile (2D) or raster (3D) of it; empty: not given
     std::string reservoir_level  = "";             ///< expression of the elevation, m; empty: no reservoir
+    SeepageStart seepage_start;                    ///< steady flow at the start
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -84,7 +86,7 @@ namespace scree
     /// Whether the region is wherever soil is, and not an expression.
     bool is_where_soil_is() const;
 
-    /// Whether a phreatic surface or a reservoir level say where water is, in place of the region.
+    /// Whether a phreatic surface, a reservoir level or steady seepage say where water is, in place of the region.
     bool has_levels() const;
 
     /// Entry and value of what tells where water is, for messages.
@@ -103,11 +105,19 @@ namespace scree
                     const std::vector<double> &lower,
                     const std::vector<double> &upper);
 
-    /// The phreatic surface of that file: its open is dry. Null without a file.
+    /// What bounds the water in soil, as a surface whose open is dry: that of the file, or of steady seepage once it is
+    /// known. Null without.
     template <int dim>
     const std::shared_ptr<const LevelSet<dim>> &table() const
     {
       return std::get<dim - 2>(tables);
+    }
+
+    /// Sets table().
+    template <int dim>
+    void set_table(const std::shared_ptr<const LevelSet<dim>> &table)
+    {
+      std::get<dim - 2>(tables) = table;
     }
 
   private:
