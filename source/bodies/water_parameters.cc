@@ -91,6 +91,7 @@ namespace scree
                       "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
                       "8, 0.5). Without \"Phreatic surface\" it also fills the pores below it. Empty: no free water.",
                       Patterns::Anything());
+    seepage_start.add_parameters(prm);
   }
 
 
@@ -138,6 +139,11 @@ namespace scree
     if (!initial_velocity.empty() && dim == 3)
       parse_expression<3>(where_speed, initial_velocity, 3);
 
+    seepage_start.check(n_bodies,
+                        phreatic_surface.empty() ? std::make_pair(std::string("Phreatic surface file"), phreatic_file)
+                                                 : std::make_pair(std::string("Phreatic surface"), phreatic_surface),
+                        reservoir_level,
+                        initial_pressure);
     if (has_levels())
       check_levels(gravity, n_bodies);
     if (air_entry_pressure > 0)
@@ -219,6 +225,9 @@ namespace scree
     require(phreatic_file.empty(),
             "the pores above \"Phreatic surface file\" = " + phreatic_file +
                 " would not be full. Remove the entry, or write the elevation as \"Phreatic surface\".");
+    require(!seepage_start.is_steady,
+            "the pores above the water table of \"Steady seepage\" would not be full. Remove one of the two entries, or "
+            "write the elevation as \"Phreatic surface\".");
   }
 
 
@@ -304,12 +313,14 @@ namespace scree
 
   bool WaterParameters::has_levels() const
   {
-    return !(phreatic_surface.empty() && phreatic_file.empty() && reservoir_level.empty());
+    return seepage_start.is_steady || !(phreatic_surface.empty() && phreatic_file.empty() && reservoir_level.empty());
   }
 
 
   std::pair<std::string, std::string> WaterParameters::place() const
   {
+    if (seepage_start.is_steady)
+      return { "Steady seepage", "true" };
     if (!phreatic_surface.empty())
       return { "Phreatic surface", phreatic_surface };
     if (!phreatic_file.empty())
@@ -331,7 +342,7 @@ namespace scree
 
   std::string WaterParameters::region_in_soil(const unsigned int dim) const
   {
-    if (!phreatic_file.empty())
+    if (!phreatic_file.empty() || seepage_start.is_steady)
       return "1";
     if (has_levels())
       return below(place().second + (fringe > 0. ? " + " + number_text(fringe) : ""), dim);
@@ -352,6 +363,7 @@ namespace scree
                                    const std::vector<double> &lower,
                                    const std::vector<double> &upper)
   {
+    seepage_start.check_heads(lower, upper);
     if (phreatic_file.empty())
       return;
     const std::string where    = entry_name("Water", "Phreatic surface file");

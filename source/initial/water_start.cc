@@ -3,6 +3,9 @@
 #include <scree/input/input_error.h>
 #include <scree/seeding/water_seeding.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace scree
 {
   using namespace dealii;
@@ -110,6 +113,35 @@ namespace scree
     });
   }
 
+
+  template <int dim>
+  void set_seepage_pressure(WaterPhase<dim> &water,
+                            const SeepageField<dim> &field,
+                            const SeepageSurvey<dim> &survey,
+                            const double gravity,
+                            const MPI_Comm communicator)
+  {
+    const double unit_weight = water.density * gravity;
+    const auto &layout       = water.layout;
+    const auto up            = Point<dim>::unit_vector(dim - 1);
+    on_all_ranks(communicator, [&] {
+      for_each_point(water.points(), [&](const auto &point) {
+        const Point<dim> &x   = point.location;
+        const double depth    = survey.level(x) - x[dim - 1];
+        auto [head, gradient] = field.pressure_head(x);
+        const bool is_free    = !survey.is_in_soil(x) && depth > 0.;
+        if (is_free || std::isnan(head))
+          {
+            head     = std::isnan(depth) ? 0. : depth;
+            gradient = -up;
+          }
+        point.properties[layout.pressure] = unit_weight * std::max(0., head);
+        for (unsigned int a = 0; a < dim; ++a)
+          point.properties[layout.pressure_gradient + a] = unit_weight * gradient[a];
+      });
+    });
+  }
+
   template std::vector<Overburden<2>::Layer> effective_weight_layers<2>(const std::vector<SoilRegion> &,
                                                                         const WaterParameters *);
   template std::vector<Overburden<3>::Layer> effective_weight_layers<3>(const std::vector<SoilRegion> &,
@@ -120,4 +152,14 @@ namespace scree
   template SuctionAbove<3> suction_above_table(const WaterParameters &, const Tensor<1, 3> &);
   template void set_hydrostatic_pressure(WaterPhase<2> &, Overburden<2> &, const SuctionAbove<2> &, const double);
   template void set_hydrostatic_pressure(WaterPhase<3> &, Overburden<3> &, const SuctionAbove<3> &, const double);
+  template void set_seepage_pressure(WaterPhase<2> &,
+                                     const SeepageField<2> &,
+                                     const SeepageSurvey<2> &,
+                                     const double,
+                                     const MPI_Comm);
+  template void set_seepage_pressure(WaterPhase<3> &,
+                                     const SeepageField<3> &,
+                                     const SeepageSurvey<3> &,
+                                     const double,
+                                     const MPI_Comm);
 } // namespace scree

@@ -23,6 +23,7 @@ namespace scree
       , constraints(grid, walls, water_walls.get())
       , forcing(grid, parameters.gravity, parameters.body_forces)
       , parameters(parameters)
+      , water_at_start(parameters.water)
       , groups(parameters.contact_groups())
       , communicator(communicator)
   {
@@ -52,7 +53,7 @@ namespace scree
                              grid,
                              parameters.grid.cell_size / parameters.points_per_cell(inflow),
                              body == nullptr ? 1. : body->initial_porosity(),
-                             union_level_set ? union_level_set.get() : ground.get());
+                             ground_of_water());
       }
     hold_at_inflows();
     if (parameters.surface_load.is_set())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
+#include <scree/initial/steady_seepage.h>
 #include <scree/initial/water_start.h>
 #include <scree/materials/place_variable_values.h>
 #include <scree/seeding/seeding.h>
@@ -35,10 +36,28 @@ namespace scree
   template <int dim>
   void Scene<dim>::fill()
   {
+    if (parameters.has_water && water_at_start.seepage_start.is_steady)
+      {
+        seepage = SteadySeepage<dim>(grid, seepage_survey()).solve(forcing.gravity().norm());
+        water_at_start.set_table<dim>(seepage);
+      }
     fill_with_points();
     hold_rigid_nodes();
     hold_at_inflows();
     set_initial_state();
+  }
+
+
+  template <int dim>
+  SeepageSurvey<dim> Scene<dim>::seepage_survey() const
+  {
+    SeepageSoil soil{ parameters.soil_regions(), {} };
+    auto body = bodies.begin();
+    for (const SoilRegion &region : soil.bodies)
+      soil.conductivities.push_back(region.porosity > 0. ? (body++)->drag->conductivity(region.porosity)
+                                                         : (++body, 0.));
+    return SeepageSurvey<dim>(
+        grid, soil, water_at_start, *water_walls, water_at_start.density * forcing.gravity().norm(), ground_of_water());
   }
 
 
@@ -93,12 +112,7 @@ namespace scree
     if (parameters.has_water)
       require_phreatic_surface(parameters.water, bodies, grid);
     for (auto &part : water)
-      seed_water(part,
-                 parameters.water,
-                 soil,
-                 grid.triangulation(),
-                 grid.cell_size(),
-                 union_level_set ? union_level_set.get() : ground.get());
+      seed_water(part, water_at_start, soil, grid.triangulation(), grid.cell_size(), ground_of_water());
     for (const auto &load : loads)
       load.require_soil(bodies, communicator);
     // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.
@@ -238,14 +252,13 @@ namespace scree
     std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
     const SuctionAbove<dim> suction =
         parameters.has_water ? suction_above_table<dim>(parameters.water, forcing.gravity()) : SuctionAbove<dim>();
-    auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
       {
-        const InitialStateParameters &state = entries->initial_state;
-        const std::string modulus           = entries->material.modulus_text(body.name);
-        const double k0                     = entries->k0();
-        set_place_values(body, entries->material.path(body.name), soil, grid);
-        ++entries;
+        const BodyParameters &entries       = *parameters.find_body(body.name);
+        const InitialStateParameters &state = entries.initial_state;
+        const std::string modulus           = entries.material.modulus_text(body.name);
+        const double k0                     = entries.k0();
+        set_place_values(body, entries.material.path(body.name), soil, grid);
         if (state.stress_kind() != InitialStress::k0)
           {
             set_isotropic_stress(
@@ -255,13 +268,16 @@ namespace scree
         if (!overburden)
           overburden = std::make_unique<Overburden<dim>>(
               grid,
-              effective_weight_layers<dim>(soil, parameters.has_water ? &parameters.water : nullptr),
+              effective_weight_layers<dim>(soil, parameters.has_water ? &water_at_start : nullptr),
               forcing.gravity(),
               grid.cell_size() / 4);
         set_k0_stress(body, *overburden, k0, modulus, suction);
       }
-    if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
-        forcing.gravity().norm() > 0)
+    if (seepage)
+      for (auto &part : water)
+        set_seepage_pressure(part, *seepage, seepage_survey(), forcing.gravity().norm(), communicator);
+    else if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
+             forcing.gravity().norm() > 0)
       {
         Overburden<dim> water_above(
             grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);

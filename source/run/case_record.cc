@@ -93,6 +93,8 @@ namespace scree
       log_thin_bed(*scene.bed, folder, communicator);
     if (const std::string forces = scene.forcing.text(); !forces.empty())
       folder.record(forces);
+    if (scene.seepage)
+      folder.log(scene.seepage->report.text(dim));
     for (const std::string &text : scene.texts_of_inflows())
       folder.record(text);
   }

@@ -2,6 +2,7 @@
 #ifndef scree_bodies_water_parameters_h
 #define scree_bodies_water_parameters_h
 
+#include <scree/bodies/seepage_start.h>
 #include <scree/bodies/suspension.h>
 #include <scree/geometry/level_set.h>
 
@@ -61,6 +62,7 @@ namespace scree
     std::string reservoir_level  = "";             ///< expression of the elevation, m; empty: no reservoir
     double air_entry_pressure    = 0;              ///< suction at which air enters the soil, Pa; 0: none
     double fringe                = 0;              ///< height above given levels up to which it fills the pores, m
+    SeepageStart seepage_start;                    ///< steady flow at the start
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -102,7 +104,7 @@ namespace scree
       return result;
     }
 
-    /// Whether a phreatic surface or a reservoir level say where water is, in place of the region.
+    /// Whether a phreatic surface, a reservoir level or steady seepage say where water is, in place of the region.
     bool has_levels() const;
 
     /// Entry and value of what tells where water is, for messages.
@@ -121,11 +123,19 @@ namespace scree
                     const std::vector<double> &lower,
                     const std::vector<double> &upper);
 
-    /// The phreatic surface of that file: its open is dry. Null without a file.
+    /// What bounds the water in soil, as a surface whose open is dry: that of the file, or of steady seepage once it is
+    /// known. Null without.
     template <int dim>
     const std::shared_ptr<const LevelSet<dim>> &table() const
     {
       return std::get<dim - 2>(tables);
+    }
+
+    /// Sets table().
+    template <int dim>
+    void set_table(const std::shared_ptr<const LevelSet<dim>> &table)
+    {
+      std::get<dim - 2>(tables) = table;
     }
 
   private:

@@ -3,6 +3,8 @@
 #define scree_initial_water_start_h
 
 #include <scree/initial/geostatic.h>
+#include <scree/initial/seepage_cells.h>
+#include <scree/initial/seepage_field.h>
 #include <scree/seeding/seeding.h>
 #include <scree/bodies/water_parameters.h>
 #include <scree/bodies/water_phase.h>
@@ -38,6 +40,15 @@ namespace scree
                                 Overburden<dim> &water_overburden,
                                 const SuctionAbove<dim> &suction = {},
                                 const double reach               = 0.);
+
+  /// Gives the points of water the pressure of steady seepage in soil, and the hydrostatic one of the reservoir
+  /// outside, with their gradients. Collective.
+  template <int dim>
+  void set_seepage_pressure(WaterPhase<dim> &water,
+                            const SeepageField<dim> &field,
+                            const SeepageSurvey<dim> &survey,
+                            const double gravity,
+                            const MPI_Comm communicator);
 } // namespace scree
 
 #endif

@@ -3,6 +3,8 @@
 #define scree_model_scene_h
 
 #include <scree/boundary/constraints.h>
+#include <scree/initial/seepage_cells.h>
+#include <scree/initial/seepage_field.h>
 #include <scree/mesh/cut_cells.h>
 #include <scree/case/memory.h>
 #include <scree/postprocess/statistics.h>
@@ -112,6 +114,7 @@ namespace scree
     std::unique_ptr<LevelSet<dim>> joined_at_rest;  ///< those at rest; null if there is no more than the bed
     std::unique_ptr<DiscreteLevelSet<dim>> joined_samples; ///< the same as the mesh sees it
     std::unique_ptr<RigidBoundary<dim>> wet_ground;        ///< what water meets; null if there is nothing
+    std::shared_ptr<const SeepageField<dim>> seepage;      ///< steady, before the first step; null without
     std::unique_ptr<CutCells<dim>> cut_cells; ///< what ground leaves of the cells; null without water or ground
 
   private:
@@ -120,6 +123,15 @@ namespace scree
 
     void make_bodies();
     void join_ground();
+
+    /// What bounds the water: bed and obstacles as one, if there are any.
+    const LevelSet<dim> *ground_of_water() const
+    {
+      return union_level_set ? union_level_set.get() : ground.get();
+    }
+
+    /// The soil as steady seepage sees it. Collective.
+    SeepageSurvey<dim> seepage_survey() const;
 
     /// Holds the nodes of rigid bodies, for soil that sticks to them. Collective.
     void hold_rigid_nodes();
@@ -192,6 +204,7 @@ namespace scree
     std::vector<char> rigid_nodes() const;
 
     const Parameters &parameters;
+    WaterParameters water_at_start; // with the surface of steady seepage once it is known
     const ContactGroups groups;
     const MPI_Comm communicator;
   };
