@@ -225,9 +225,10 @@ namespace scree
     require(phreatic_file.empty(),
             "the pores above \"Phreatic surface file\" = " + phreatic_file +
                 " would not be full. Remove the entry, or write the elevation as \"Phreatic surface\".");
-    require(!seepage_start.is_steady,
-            "the pores above the water table of \"Steady seepage\" would not be full. Remove one of the two entries, or "
-            "write the elevation as \"Phreatic surface\".");
+    require(
+        !seepage_start.is_steady,
+        "the pores above the water table of \"Steady seepage\" would not be full. Remove one of the two entries, or "
+        "write the elevation as \"Phreatic surface\".");
   }
 
 

@@ -41,11 +41,13 @@ namespace scree
     /// What limits the next step: of the points as they are, and of obstacles.
     Speeds limiting_speeds() const;
 
-    /// Largest step, s, of the points as they are, by the run's clock or another one.
+    /// Largest step, s, of the points as they are, by the run's clock.
     double stable_step() const
     {
       return stable_step(clock);
     }
+
+    /// The same by another clock.
     double stable_step(const TimeStepper &other_clock) const;
 
     /// What makes it that large.
