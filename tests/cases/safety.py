@@ -105,4 +105,4 @@ def under_water():
     check(abs(sum(wet) / sum(buoyant) - 1) < 0.03, "the factors differ by 3 % or more")
 
 
-{"factor": factor, "range_and_stop": range_and_stop, "under_water": under_water}[sys.argv[3]]()
+{"factor": factor, "range_and_stop": range_and_stop, "under_water": under_water, "clay_cut": clay_cut, "clay_graded_slope": clay_graded_slope}[sys.argv[3]]()
