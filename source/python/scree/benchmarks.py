@@ -22,11 +22,17 @@ def read(path=FOLDER / "benchmarks.csv"):
         return list(csv.DictReader(file))
 
 
+def run(command):
+    """A command in the table: its last word without prm/, or all of it if it has several parts."""
+    parts = command.split(" && ")
+    return ", then ".join(f"`{part}`" for part in parts) if len(parts) > 1 else f"`{command.split()[-1].replace('prm/', '')}`"
+
+
 def table(rows):
-    """The rows as a table; `run` is the last word of the command, without prm/."""
+    """The rows as a table; `run` is the last word of a single command, without prm/."""
     lines = [COLUMNS, ("---",) * len(COLUMNS)]
     lines += [(row["quantity"], row["reference"], row["computed"], row["unit"], row["deviation_percent"],
-               f"`{row['command'].split()[-1].replace('prm/', '')}`", row["commit"], row["date"]) for row in rows]
+               run(row["command"]), row["commit"], row["date"]) for row in rows]
     return "".join(f"| {' | '.join(cells)} |\n".replace("| --- ", "|---").replace("--- |", "---|") for cells in lines)
 
 
