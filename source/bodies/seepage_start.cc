@@ -67,12 +67,19 @@ namespace scree
   {
     const double bottom = lower.back(), top = upper.back();
     for (const auto &[wall, head] : heads())
-      require_entry(head > bottom && head <= top,
-                    "Water",
-                    "Heads at walls",
-                    wall_heads,
-                    "the head of " + number_text(head) + " m is not in the box of subsection Mesh. Write one above " +
-                        number_text(bottom) + " and up to " + number_text(top) + " m, or a larger box.");
+      {
+        require_entry(wall != "Top",
+                      "Water",
+                      "Heads at walls",
+                      wall_heads,
+                      "no soil at the top wall is below a head in the box. Remove \"Top\".");
+        require_entry(head > bottom && head <= top,
+                      "Water",
+                      "Heads at walls",
+                      wall_heads,
+                      "the head of " + number_text(head) + " m is not in the box of subsection Mesh. Write one above " +
+                          number_text(bottom) + " and up to " + number_text(top) + " m, or a larger box.");
+      }
   }
 
 

@@ -346,7 +346,7 @@ namespace scree
     if (!phreatic_file.empty() || seepage_start.is_steady)
       return "1";
     if (has_levels())
-      return below(place().second + (fringe > 0. ? " + " + number_text(fringe) : ""), dim);
+      return below("(" + place().second + ')' + (fringe > 0. ? " + " + number_text(fringe) : ""), dim);
     return region;
   }
 

@@ -14,6 +14,7 @@ namespace scree
         if (body.initial_state.stress_kind() == InitialStress::k0)
           body.initial_state.k0 = exact_text({ body.k0() }); // of the soil as it is
         has_strength = body.material.divide_strength(factor) || has_strength;
+        body.material.check(body.name); // The law must be possible with that strength, too.
       }
     require_entry(has_strength,
                   "Safety",

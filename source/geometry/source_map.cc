@@ -146,7 +146,9 @@ namespace scree
     else if (outline)
       {
         const auto [first, last] = outline->bounds();
-        require_entry(first[0] >= lower[0] && first[1] >= lower[1] && last[0] <= upper[0] && last[1] <= upper[1],
+        const double rounding    = 1e-6 * first.distance(last); // of coordinates of the map
+        require_entry(first[0] >= lower[0] - rounding && first[1] >= lower[1] - rounding &&
+                          last[0] <= upper[0] + rounding && last[1] <= upper[1] + rounding,
                       body,
                       "Outline",
                       parameters.outline,

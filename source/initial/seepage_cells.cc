@@ -273,10 +273,13 @@ namespace scree
   template <int dim>
   std::optional<double> SeepageSurvey<dim>::head_of_wall(const unsigned int face, const double height) const
   {
-    if (!std::isnan(heads[face]))
-      return height < heads[face] ? std::optional<double>(heads[face]) : std::nullopt;
+    const bool has_head = !std::isnan(heads[face]);
+    if (has_head && height < heads[face])
+      return heads[face];
     if (!walls.is_drained(face))
       return {};
+    if (has_head)
+      return no_head; // Above it water may leave.
     const double pressure = walls.pressure(1u << face);
     return pressure == 0. ? no_head : height + pressure / unit_weight;
   }

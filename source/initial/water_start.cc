@@ -51,18 +51,42 @@ namespace scree
   }
 
 
-  template <int dim>
-  SuctionAbove<dim> suction_above_table(const WaterParameters &water, const Tensor<1, dim> &gravity)
+  namespace
   {
-    if (water.fringe == 0. || water.initial_pressure_kind() == InitialPressure::none)
+    /// Suction of water at rest above the levels of the water, in the fringe; empty without one.
+    template <int dim>
+    SuctionAbove<dim> suction_above_table(const WaterParameters &water, const Tensor<1, dim> &gravity)
+    {
+      if (water.fringe == 0. || water.initial_pressure_kind() == InitialPressure::none)
+        return {};
+      const auto [entry, elevation] = water.place();
+      const std::shared_ptr<const Expression<dim>> table =
+          parse_expression<dim>(entry_name("Water", entry), elevation, 1);
+      const double unit_weight = water.density * gravity.norm(), fringe = water.fringe;
+      return [table, unit_weight, fringe](const Point<dim> &x) {
+        const double height = x[dim - 1] - table->value(x);
+        return height > 0. && height <= fringe ? unit_weight * height : 0.; // Above it the soil is dry.
+      };
+    }
+  } // namespace
+
+
+  template <int dim>
+  SuctionAbove<dim> suction_at_start(const WaterParameters *water,
+                                     const std::shared_ptr<const SeepageField<dim>> &seepage,
+                                     const BackgroundGrid<dim> &grid,
+                                     const std::vector<SoilRegion> &soil,
+                                     const Tensor<1, dim> &gravity)
+  {
+    if (water == nullptr)
       return {};
-    const auto [entry, elevation] = water.place();
-    const std::shared_ptr<const Expression<dim>> table =
-        parse_expression<dim>(entry_name("Water", entry), elevation, 1);
-    const double unit_weight = water.density * gravity.norm(), fringe = water.fringe;
-    return [table, unit_weight, fringe](const Point<dim> &x) {
-      const double height = x[dim - 1] - table->value(x);
-      return height > 0. && height <= fringe ? unit_weight * height : 0.; // Above it the soil is dry.
+    if (!seepage)
+      return suction_above_table<dim>(*water, gravity);
+    const auto water_above =
+        std::make_shared<Overburden<dim>>(grid, water_layers<dim>(*water, soil), gravity, grid.cell_size() / 4);
+    return [water_above, seepage, unit_weight = water->density * gravity.norm()](const Point<dim> &x) {
+      const double head = seepage->pressure_head(x).first;
+      return std::isnan(head) ? 0. : water_above->weight_above(x) - unit_weight * std::max(0., head);
     };
   }
 
@@ -72,15 +96,18 @@ namespace scree
     /// Horizontal gradient, Pa/m, of the weight above a place with the weight `here`; one-sided beside a face, behind
     /// which there is no water.
     template <int dim>
-    Tensor<1, dim>
-    horizontal_gradient(Overburden<dim> &overburden, const Point<dim> &x, const double here, const double reach)
+    Tensor<1, dim> horizontal_gradient(const std::function<double(const Point<dim> &)> &weight_above,
+                                       const unsigned int vertical_axis,
+                                       const Point<dim> &x,
+                                       const double here,
+                                       const double reach)
     {
       Tensor<1, dim> gradient;
       for (unsigned int a = 0; a < dim; ++a)
-        if (a != overburden.vertical_axis())
+        if (a != vertical_axis)
           {
             const Tensor<1, dim> way = reach * Point<dim>::unit_vector(a);
-            const double before = overburden.weight_above(x - way), behind = overburden.weight_above(x + way);
+            const double before = weight_above(x - way), behind = weight_above(x + way);
             const double first = before > 0 ? before : here, last = behind > 0 ? behind : here;
             const int n_sides = (before > 0) + (behind > 0);
             gradient[a]       = n_sides > 0 ? (last - first) / (n_sides * reach) : 0.;
@@ -103,10 +130,17 @@ namespace scree
         const double pressure             = water_overburden.weight_above(point.location);
         point.properties[layout.pressure] = pressure;
         Tensor<1, dim> gradient           = weight;
-        if (reach > 0)
-          gradient += horizontal_gradient(water_overburden, point.location, pressure, reach);
-        if (suction)
-          point.properties[layout.pressure] -= suction(point.location);
+        const unsigned int vertical       = water_overburden.vertical_axis();
+        const double pull                 = suction ? suction(point.location) : 0.;
+        if (reach > 0 && pull == 0.)
+          gradient += horizontal_gradient<dim>([&](const Point<dim> &x) { return water_overburden.weight_above(x); },
+                                               vertical,
+                                               point.location,
+                                               pressure,
+                                               reach);
+        else if (reach > 0)
+          gradient -= horizontal_gradient<dim>(suction, vertical, point.location, pull, reach);
+        point.properties[layout.pressure] -= pull;
         for (unsigned int a = 0; a < dim; ++a)
           point.properties[layout.pressure_gradient + a] = gradient[a];
       });
@@ -148,8 +182,16 @@ namespace scree
                                                                         const WaterParameters *);
   template std::vector<Overburden<2>::Layer> water_layers<2>(const WaterParameters &, const std::vector<SoilRegion> &);
   template std::vector<Overburden<3>::Layer> water_layers<3>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template SuctionAbove<2> suction_above_table(const WaterParameters &, const Tensor<1, 2> &);
-  template SuctionAbove<3> suction_above_table(const WaterParameters &, const Tensor<1, 3> &);
+  template SuctionAbove<2> suction_at_start(const WaterParameters *,
+                                            const std::shared_ptr<const SeepageField<2>> &,
+                                            const BackgroundGrid<2> &,
+                                            const std::vector<SoilRegion> &,
+                                            const Tensor<1, 2> &);
+  template SuctionAbove<3> suction_at_start(const WaterParameters *,
+                                            const std::shared_ptr<const SeepageField<3>> &,
+                                            const BackgroundGrid<3> &,
+                                            const std::vector<SoilRegion> &,
+                                            const Tensor<1, 3> &);
   template void set_hydrostatic_pressure(WaterPhase<2> &, Overburden<2> &, const SuctionAbove<2> &, const double);
   template void set_hydrostatic_pressure(WaterPhase<3> &, Overburden<3> &, const SuctionAbove<3> &, const double);
   template void set_seepage_pressure(WaterPhase<2> &,

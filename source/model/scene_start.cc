@@ -250,8 +250,8 @@ namespace scree
   {
     const auto soil = parameters.soil_regions();
     std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
-    const SuctionAbove<dim> suction =
-        parameters.has_water ? suction_above_table<dim>(parameters.water, forcing.gravity()) : SuctionAbove<dim>();
+    const WaterParameters *wet = parameters.has_water ? &water_at_start : nullptr;
+    const auto suction         = suction_at_start(wet, seepage, grid, soil, forcing.gravity());
     for (auto &body : bodies)
       {
         const BodyParameters &entries       = *parameters.find_body(body.name);
@@ -267,10 +267,7 @@ namespace scree
           }
         if (!overburden)
           overburden = std::make_unique<Overburden<dim>>(
-              grid,
-              effective_weight_layers<dim>(soil, parameters.has_water ? &water_at_start : nullptr),
-              forcing.gravity(),
-              grid.cell_size() / 4);
+              grid, effective_weight_layers<dim>(soil, wet), forcing.gravity(), grid.cell_size() / 4);
         set_k0_stress(body, *overburden, k0, modulus, suction);
       }
     if (seepage)

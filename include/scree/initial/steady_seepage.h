@@ -83,6 +83,7 @@ namespace scree
     std::array<CellMatrix, Cell::n_parts> laplacian;         // of a part
 
     VertexVector heads, rows; // at the vertices; number of the row, -1 where there is none
+    VertexVector scales;      // of the rows
     double smallest_conductivity = std::numeric_limits<double>::max(); // at a face, m/s
     bool has_no_soil             = false;                              // of this rank: its one row stands for itself
     dealii::TrilinosWrappers::SparseMatrix matrix;

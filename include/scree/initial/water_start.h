@@ -27,10 +27,17 @@ namespace scree
   std::vector<typename Overburden<dim>::Layer> water_layers(const WaterParameters &water,
                                                             const std::vector<SoilRegion> &soil);
 
-  /// Suction of water at rest above the levels of the water, in the fringe; empty without one.
-  /// @param gravity m/s^2, along the last axis
+  /// How much less than the weight of the water above a place the pressure is, Pa: in the fringe above the levels of
+  /// the water, and of steady seepage everywhere. It adds to the effective stress that hydrostatic uplift would leave.
+  /// Empty where there is no difference.
+  /// @param water null: the scene is dry
+  /// @param seepage null: water is at rest
   template <int dim>
-  SuctionAbove<dim> suction_above_table(const WaterParameters &water, const dealii::Tensor<1, dim> &gravity);
+  SuctionAbove<dim> suction_at_start(const WaterParameters *water,
+                                     const std::shared_ptr<const SeepageField<dim>> &seepage,
+                                     const BackgroundGrid<dim> &grid,
+                                     const std::vector<SoilRegion> &soil,
+                                     const dealii::Tensor<1, dim> &gravity);
 
   /// Gives the points of water the weight of the water above them, less the suction above the table, as pressure, Pa,
   /// and density times gravity as its gradient, Pa/m. Collective.

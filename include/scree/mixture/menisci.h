@@ -5,6 +5,7 @@
 #include <scree/mesh/node_values.h>
 #include <scree/mixture/mixture.h>
 
+#include <memory>
 #include <vector>
 
 namespace scree
@@ -22,7 +23,6 @@ namespace scree
     Menisci(const NodeNumbering<dim> &vertices, const double air_entry)
         : vertices(vertices)
         , air_entry(air_entry)
-        , soil(vertices)
     {
     }
 
@@ -37,7 +37,9 @@ namespace scree
     {
       if (!exist())
         return;
-      soil.reinit();
+      if (!soil)
+        soil = std::make_unique<NodeValues<dim, 2>>(vertices);
+      soil->reinit();
       behind.assign(n_vertices, 0.);
       held.assign(n_vertices, 0.);
       closed.assign(n_vertices, false);
@@ -76,10 +78,10 @@ namespace scree
 
   private:
     const NodeNumbering<dim> &vertices;
-    const double air_entry;     // Pa
-    NodeValues<dim, 2> soil;    // grains and pores under a vertex's linear function, m^3
-    std::vector<double> behind, // part of what lies behind the surface that is dry soil
-        held;                   // part of the surface beside a vertex whose pressure follows that inside
+    const double air_entry;                   // Pa
+    std::unique_ptr<NodeValues<dim, 2>> soil; // [0]: grains and pores under a vertex's linear function, m^3; or null
+    std::vector<double> behind,               // part of what lies behind the surface that is dry soil
+        held;                                 // part of the surface beside a vertex whose pressure follows that inside
     std::vector<char> closed;
   };
 } // namespace scree

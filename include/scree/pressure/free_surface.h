@@ -73,8 +73,8 @@ namespace scree
 
     /// As extrapolate(), with the pressure of menisci at the surface.
     /// @param is_start whether `pressure` is that of the start of a step, or its change
-    /// @param pull becomes what they add at each vertex: the grains bear a force of minus its gradient. Its ghosts hold
-    ///        values afterwards
+    /// @param pull becomes what they add at each vertex: the grains bear a force of its gradient, the
+    ///        reaction of the menisci. Its ghosts hold values afterwards
     void extrapolate_with_menisci(const Mixture<dim> &mixture,
                                   const bool is_start,
                                   VertexVector &pressure,

@@ -105,7 +105,7 @@ namespace scree
     }
 
     /// What menisci add to the pressure at the vertices of a cell, and to its change over the step, Pa: the grains bear
-    /// a force of minus its gradient. To be asked for only if there are any.
+    /// a force of its gradient, the reaction of the menisci. To be asked for only if there are any.
     AtVertices pull_of(const unsigned int cell) const
     {
       return at_vertices(pull, cell);

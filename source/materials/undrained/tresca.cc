@@ -107,6 +107,8 @@ namespace scree
   void TrescaParameters::check(const std::string &subsection) const
   {
     LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
+    require_entry(
+        !strength.empty(), subsection, "Undrained strength", strength, "write a strength in Pa, such as 10e3.");
     const TrescaParameters defaults;
     const bool softens = sensitivity > 1;
     require_entry(softens || remoulding_strain == 0,

@@ -429,6 +429,8 @@ def _write_scour(run, body):
 
 
 def _draw(arguments):
+    if arguments.scour and (arguments.maps or arguments.times or arguments.output):
+        raise ValueError("--scour writes a map of its own. Remove --maps, --times and --output")
     if arguments.scour:
         _write_scour(arguments.run, arguments.scour)
         return

@@ -89,7 +89,8 @@ def read(file):
     fixed = {"Output/Maps/Write": "true", "Output/Graphics": "none", **fixed}
     kind = given.get("sampling", "Sobol")
     study = Study(file, case, pathlib.Path(given.get("results", f"results/{file.stem}")), kind, fixed, parameters, _rows(file, given, kind, parameters),
-                  _thresholds(file, given), given.get("run_out", "distance"), _run_out_thickness(file, given, {**base, **fixed}), _observed(file, given))
+                  _thresholds(file, given), given.get("run_out", "distance"), _run_out_thickness(file, given, {**base, **fixed}),
+                  _observed(file, given, {**base, **fixed}))
     _check_values(study, base)
     return study
 
@@ -185,9 +186,11 @@ def _run_out_thickness(file, given, entries):
     return value
 
 
-def _observed(file, given):
+def _observed(file, given, entries):
     if "observed" not in given:
         return None
+    if str(entries.get("Dimension", "2")) != "3":
+        raise ValueError(f"{file}: [observed] compares maps of a case in 3D. Remove the table")
     try:
         return observed.read(file.parent, given["observed"])
     except ValueError as error:
