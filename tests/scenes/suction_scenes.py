@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """suction_scenes.py SCREE SCENE: suction up to the air entry pressure, as scenes.py.
 
-Bounds: p in the fringe 2 %, infiltration of a pond 3 %, fixed before the first run.
+Bounds: p in the fringe 2 %, infiltration of a pond 3 %, fixed before the first run; those of the cut after it.
 """
 
 import numpy as np
@@ -39,6 +39,16 @@ def green_ampt(scree):
         rest = pond - porosity * depth
         exact = pond / 2 - (rest * rest / 2 - porosity * depth * depth / 2) / pond
         check("pond, suction %g m: fall over that of Green & Ampt" % suction, fall / exact, 0.97, 1.03)
+
+
+def wet_cut(scree):
+    """A vertical cut in sand without cohesion stands by suction, and falls when it is flooded."""
+    for name, entries, least, most in (("moist", {}, 0, 0.01), ("flooded", {"Water/Phreatic surface": "1.5", "Water/Reservoir level": "1.5"}, 0.05, 1)):
+        run(scree, "slopes/wet_cut", name, {"Output/Graphics": "points", "Output/Interval": 1.5, **entries})
+        first, last = (read_points(name, time) for time in (0., None))
+        order = [np.argsort(points.arrays["id"]) for points in (first, last)]
+        way = np.linalg.norm(last.positions[order[1]] - first.positions[order[0]], axis=1)
+        check("%s: part of the soil that has moved more than 0.1 m" % name, np.mean(way > 0.1), least, most)
 
 
 if __name__ == "__main__":
