@@ -83,6 +83,15 @@ namespace scree
     }
 
 
+    void check_what_enters(const Parameters &parameters)
+    {
+      for (const InflowParameters &inflow : parameters.inflows)
+        check_inflow(parameters, inflow);
+      const bool has_own_points = parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point;
+      parameters.rain.check(parameters.gravity, has_own_points, parameters.bodies.size());
+    }
+
+
     void check_contacts(const Parameters &parameters)
     {
       parameters.contact_groups();
@@ -193,8 +202,7 @@ namespace scree
         obstacle.check(parameters.dimension);
         check_type_for_water(parameters, obstacle.surface);
       }
-    for (const InflowParameters &inflow : parameters.inflows)
-      check_inflow(parameters, inflow);
+    check_what_enters(parameters);
     parameters.surface_load.check(parameters.grid, parameters.dimension);
     parameters.body_forces.check(parameters.dimension);
     parameters.settling.check(parameters.gravity);

@@ -60,6 +60,7 @@ namespace scree
         bed.map_origin = Point<2>(local_origin[0], local_origin[1]);
         for (ObstacleParameters &obstacle : obstacles)
           obstacle.surface.map_origin = bed.map_origin;
+        water.is_fed = rain.is_set();
         for (const InflowParameters &inflow : inflows)
           {
             water.is_fed = water.is_fed || inflow.is_water() || inflow.is_saturated;
@@ -214,6 +215,7 @@ namespace scree
       obstacle.add_parameters(prm);
     for (InflowParameters &inflow : inflows)
       inflow.add_parameters(prm);
+    rain.add_parameters(prm);
     for (ContactParameters &contact : contacts)
       contact.add_parameters(prm);
     surface_load.add_parameters(prm);

@@ -56,6 +56,8 @@ namespace scree
                              ground_of_water());
       }
     hold_at_inflows();
+    if (parameters.rain.is_set())
+      rain.emplace(parameters.rain, grid, parameters.grid.cell_size / parameters.water.points_per_cell, rained_soil());
     if (parameters.surface_load.is_set())
       loads.emplace_back(grid, parameters.surface_load, points_per_cell().second);
   }
@@ -216,6 +218,8 @@ namespace scree
       cut_cells->reinit();
     for (Inflow<dim> &inflow : inflows)
       inflow.reinit();
+    if (rain)
+      rain->reinit();
     hold_at_inflows();
   }
 

@@ -14,7 +14,10 @@ namespace scree
   // What enters a scene.
 
   template <int dim>
-  void Scene<dim>::let_in(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals)
+  void Scene<dim>::let_in(const double time,
+                          const double time_step,
+                          const PressureOfCell<dim> &pressure,
+                          RunTotals<dim> &totals)
   {
     for (const Inflow<dim> &inflow : inflows)
       if (inflow.water_share > 0.)
@@ -34,6 +37,84 @@ namespace scree
           AssertThrow(Utilities::MPI::sum(n_points, communicator) == n_sets * n_layers * inflow.places().size(),
                       ExcInternalError("Points entered beyond the cells of the section."));
         }
+    if (rain)
+      let_rain(time, time_step, pressure, totals);
+  }
+
+
+  template <int dim>
+  RainedSoil Scene<dim>::rained_soil() const
+  {
+    RainedSoil soil{ parameters.grid.cell_size / points_per_cell().first, 1., 1e300, 0. };
+    for (const SoilBody<dim> &body : bodies)
+      if (const double porosity = parameters.find_body(body.name)->initial_porosity(); !body.is_rigid && body.drag)
+        {
+          soil.porosity     = std::min(soil.porosity, std::max(porosity, 0.1));
+          soil.conductivity = std::min(soil.conductivity, body.drag->conductivity(porosity));
+        }
+    soil.suction = parameters.water.air_entry_pressure / (parameters.water.density * forcing.gravity().norm());
+    return soil;
+  }
+
+
+  template <int dim>
+  typename Rain<dim>::Columns Scene<dim>::columns_of_rain()
+  {
+    typename Rain<dim>::Columns columns = rain->no_columns();
+    const PointSet<dim> &of_water       = water.front().points();
+    for (const SoilBody<dim> &body : bodies)
+      for_each_point(body.points, [&](const auto &point) { rain->find_top(point.location, columns.soil); });
+    for_each_point(of_water, [&](const auto &point) { rain->find_top(point.location, columns.water); });
+    Utilities::MPI::max(columns.soil, communicator, columns.soil);
+    Utilities::MPI::max(columns.water, communicator, columns.water);
+
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid)
+        for_each_point(body.points, [&](const auto &point) { rain->fill_with_soil(point.location, columns); });
+    const unsigned int volume = water.front().layout.volume;
+    for_each_point(
+        of_water, [&](const auto &point) { rain->fill_with_water(point.location, point.properties[volume], columns); });
+    Utilities::MPI::max(columns.has_soil, communicator, columns.has_soil);
+    Utilities::MPI::sum(columns.filled, communicator, columns.filled);
+    return columns;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::let_rain(const double time,
+                            const double time_step,
+                            const PressureOfCell<dim> &pressure,
+                            RunTotals<dim> &totals)
+  {
+    if (!rain->count(time, time_step))
+      return;
+    const auto drops       = rain->drops(columns_of_rain());
+    WaterPhase<dim> &phase = water.front();
+    PointSet<dim> &points  = phase.points();
+    std::vector<double> properties(points.stride());
+    std::vector<int> has_cell(drops.size(), 0);
+    for (unsigned int i = 0; i < drops.size(); ++i)
+      if (const auto *cell = rain->cell_at(drops[i].location))
+        {
+          const Point<dim> &x      = drops[i].location;
+          const unsigned int index = (*cell)->active_cell_index();
+          std::fill(properties.begin(), properties.end(), 0.);
+          fill_entrant(Entrant{ rain->volume(), x, index, Point<dim>((x - (*cell)->vertex(0)) / grid.cell_size()) },
+                       phase,
+                       pressure(index),
+                       properties);
+          const double mass = properties[phase.layout.mass];
+          totals.entered_water_mass += mass;
+          totals.entered_energy -= mass * (forcing.gravity() * (x - Point<dim>()));
+          points.add(*cell, x, points.next_id + i, properties);
+          has_cell[i] = 1;
+        }
+    points.next_id += drops.size();
+    points.finish_adding();
+    Utilities::MPI::max(has_cell, communicator, has_cell);
+    for (unsigned int i = 0; i < drops.size(); ++i)
+      if (!has_cell[i])
+        rain->postpone(drops[i]);
   }
 
 
@@ -205,6 +286,9 @@ namespace scree
     for (const Inflow<dim> &inflow : inflows)
       texts.push_back("Inflow " + inflow.name + ": " + number_text(inflow.area()) + (dim == 2 ? " m" : " m^2") +
                       " are open; " + std::to_string(inflow.places().size()) + " points a layer of " + inflow.body);
+    if (rain)
+      texts.push_back("Rain: on " + number_text(rain->area()) + (dim == 2 ? " m" : " m^2") + ", in drops of " +
+                      number_text(rain->volume()) + (dim == 2 ? " m^2" : " m^3"));
     return texts;
   }
 

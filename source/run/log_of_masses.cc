@@ -98,7 +98,7 @@ namespace scree
           mass += of_body;
           volume += of_body / body.density;
         }
-    const bool has_inflows = !scene.inflows.empty();
+    const bool has_inflows = scene.is_fed();
     if (moves)
       folder.record("Soil at the end, at its density of the start: in the box " + volume_and_mass<dim>(volume, mass) +
                     "; lost through open walls " + volume_and_mass<dim>(all.lost_volume, all.lost_mass) + " (" +
@@ -108,6 +108,16 @@ namespace scree
       folder.record("Water at the end: in the box " + kilograms<dim>(water_mass(scene, communicator)) +
                     "; lost through open walls " + kilograms<dim>(all.lost_water_mass) +
                     (has_inflows ? "; entered " + kilograms<dim>(all.entered_water_mass) : ""));
+    if (scene.rain)
+      {
+        const RainBooks rain = scene.rain->account();
+        const double density = scene.water.front().density;
+        folder.record("Rain at the end: fell " + kilograms<dim>(density * rain.fell) + "; entered " +
+                      kilograms<dim>(density * rain.entered) + "; ran off at once " +
+                      kilograms<dim>(density * rain.ran_off) + "; beside the soil " +
+                      kilograms<dim>(density * rain.beside_soil) + "; waiting for a whole drop " +
+                      kilograms<dim>(density * rain.waiting));
+      }
   }
 
   template void log_released(const Parameters &, const Scene<2> &, RunFolder &, const MPI_Comm);

@@ -19,7 +19,7 @@ namespace scree
                    { !scene.loads.empty(),
                      parameters.water.volume_correction_rate > 0.,
                      parameters.water.viscosity > 0.,
-                     !parameters.inflows.empty(),
+                     !parameters.inflows.empty() || parameters.rain.is_set(),
                      parameters.contact_groups().n > 1,
                      scene.bed.get(),
                      &scene.obstacles })

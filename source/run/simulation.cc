@@ -233,8 +233,8 @@ namespace scree
   template <int dim>
   void Simulation<dim>::end_step(const double time_step)
   {
-    const std::unique_ptr<WaterView<dim>> water = scene.inflows.empty() ? nullptr : scheme->water_view();
-    scene.let_in(time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
+    const std::unique_ptr<WaterView<dim>> water = scene.is_fed() ? scheme->water_view() : nullptr;
+    scene.let_in(clock.time(), time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
     if (scene.wet_ground_moves())
       {
         const TimedPart part(timer, TimerSection::bed);
@@ -357,8 +357,7 @@ namespace scree
     results.serialize(archive);
     for (Obstacle<dim> &obstacle : scene.obstacles)
       archive &obstacle;
-    for (Inflow<dim> &inflow : scene.inflows)
-      archive &inflow;
+    scene.serialize_what_enters(archive);
     for (PointSet<dim> *points : point_sets())
       archive & points->next_id;
     clock.set(time, step);

@@ -18,6 +18,7 @@
 #include <scree/contact/contact_parameters.h>
 #include <scree/momentum/explicit_update.h>
 #include <scree/boundary/inflow/inflow_parameters.h>
+#include <scree/boundary/rain.h>
 #include <scree/bodies/pressure_parameters.h>
 #include <scree/schemes/time_step.h>
 #include <scree/transfer/transfer_parameters.h>
@@ -52,6 +53,7 @@ namespace scree
     BedParameters bed;                         ///< subsection Bed
     std::vector<ObstacleParameters> obstacles; ///< also those that are not set
     std::vector<InflowParameters> inflows;     ///< subsections Inflow NAME
+    RainParameters rain;                       ///< subsection Rain
     std::vector<ContactParameters> contacts;   ///< also those that are not set
     SurfaceLoadParameters surface_load;        ///< subsection Surface load
     SettlingParameters settling;               ///< subsection Settling

@@ -12,6 +12,7 @@
 #include <scree/schemes/explicit_scheme.h>
 #include <scree/boundary/body_forces.h>
 #include <scree/boundary/inflow/inflow.h>
+#include <scree/boundary/rain.h>
 #include <scree/schemes/scheme.h>
 
 #include <deal.II/base/timer.h>
@@ -37,9 +38,25 @@ namespace scree
     /// What acts on the soil in the step, s, that comes.
     void begin_step(const double time, const double time_step);
 
-    /// Puts in the layers that enter with a step, s, and books them. Collective.
+    /// Whether anything enters during the run.
+    bool is_fed() const
+    {
+      return !inflows.empty() || rain;
+    }
+
+    /// What a run that goes on needs of what enters.
+    template <class Archive>
+    void serialize_what_enters(Archive &archive)
+    {
+      for (Inflow<dim> &inflow : inflows)
+        archive &inflow;
+      if (rain)
+        archive &*rain;
+    }
+
+    /// Puts in the layers that enter with a step, s, from `time` on, and the drops of rain, and books them. Collective.
     /// @param pressure of the water, for its points that enter; read in scenes with water
-    void let_in(const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
+    void let_in(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
 
     /// Moves the obstacles to where they are after the step. Collective.
     void move_obstacles(const double time_step);
@@ -107,6 +124,7 @@ namespace scree
     std::list<SurfaceLoad<dim>> loads;             ///< surface loads, in the order of the case
     std::list<Obstacle<dim>> obstacles;            ///< obstacles, in the order of the case
     std::list<Inflow<dim>> inflows;                ///< inflows, in the order of the case
+    std::optional<Rain<dim>> rain;                 ///< on the soil; nothing if it does not rain
     std::optional<Raster> bed_friction;         ///< coefficients of friction; nothing if they are the same everywhere
     std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
     std::unique_ptr<DiscreteLevelSet<dim>> bed; ///< the same as the mesh sees it
@@ -178,6 +196,13 @@ namespace scree
                            const unsigned int mass_slot,
                            const Fill &fill,
                            RunTotals<dim> &totals) const;
+    /// What rain enters: the least porosity and conductivity of the bodies that take water.
+    RainedSoil rained_soil() const;
+    /// The soil and water under the rain. Collective.
+    typename Rain<dim>::Columns columns_of_rain();
+    /// The drops of rain of let_in().
+    void
+    let_rain(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
     unsigned int add_soil(const Inflow<dim> &inflow, const unsigned int back, RunTotals<dim> &totals);
     unsigned int add_water(const Inflow<dim> &inflow,
                            const unsigned int back,

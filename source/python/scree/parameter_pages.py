@@ -20,6 +20,7 @@ PAGES = {
     "Bed": ("bed", "Bed", "`subsection Bed`"),
     "Obstacle Wall": ("obstacle", "Obstacle", "`subsection Obstacle NAME`, for instance `subsection Obstacle Wall`; any number of them."),
     "Inflow Torrent": ("inflow", "Inflow", "`subsection Inflow NAME`, for instance `subsection Inflow Torrent`; any number of them."),
+    "Rain": ("rain", "Rain", "`subsection Rain`"),
     "Contact Base": ("contact", "Contact", "`subsection Contact NAME`, for instance `subsection Contact Base`; any number of them."),
     "Base motion": ("base_motion", "Base motion", "`subsection Base motion`"),
     "Surface load": ("surface_load", "Surface load", "`subsection Surface load`"),
