@@ -87,9 +87,10 @@ namespace scree
     /// What the columns hold.
     struct Columns
     {
-      std::vector<double> soil, water; ///< heights of the highest points, m; minus infinity: there are none
-      std::vector<int> has_soil;       ///< by column and slot, from the soil's surface down
-      std::vector<double> filled;      ///< the same, by water, as a part of the pores
+      std::vector<double> soil;   ///< heights of the highest points, m; minus infinity: there are none
+      std::vector<double> water;  ///< the same of the water
+      std::vector<int> has_soil;  ///< by column and slot, from the soil's surface down
+      std::vector<double> filled; ///< the same, by water, as a part of the pores
     };
 
     /// @param spacing of the water's points, m
