@@ -23,7 +23,7 @@ for case in pathlib.Path("prm").rglob("*.whole"):
 END
 
 for case in prm/*.prm prm/*/*.prm; do
-  case $case in prm/inflow/*) continue ;; esac
+  case $case in prm/inflow/* | prm/terrain/acheron.prm) continue ;; esac # the latter needs rasters that are not here
   "$scree" --advise "$case" >text
   for part in Scales Size "Estimated cost of this case" "Recommendation for a relative error of 0.05"; do
     grep -q "^$part" text || { echo "$case: no part \"$part\""; exit 1; }
