@@ -54,7 +54,7 @@ full go_on.prm 200 --resume
 
 printf '%s\n' "$(cat case.prm)" 'subsection Output' '  set Graphics = points' 'end' >pictures.prm
 rm -rf results
-full pictures.prm 42 # the pictures need more, parameters.prm less
+full pictures.prm 54 # the pictures need more, parameters.prm less
 cat error
 [ "$(cat code)" -eq 1 ]
 grep -q "^scree: pictures.prm: results/solution/points_0000[01].0.vtu: cannot be written: " error
