@@ -52,7 +52,7 @@ full go_on.prm 200 --resume
 [ "$(echo results/checkpoint/*)" = "$newest" ]
 "$PYTHON" "$cases/compare_statistics.py" whole results/statistics 1e-12
 
-printf '%s\n' "$(cat case.prm)" 'subsection Output' '  set Graphics = points' 'end' >pictures.prm
+printf '%s\n' "$(cat case.prm)" 'subsection Output' '  set Graphics = points' 'end' 'subsection Soil' '  set Points per cell = 5' 'end' >pictures.prm
 rm -rf results
 full pictures.prm 54 # the pictures need more, parameters.prm less
 cat error

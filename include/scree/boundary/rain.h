@@ -69,8 +69,7 @@ namespace scree
   /// counted, and a drop of the depth that fills the pores of one spacing falls as often as this depth is reached;
   /// columns take turns. A drop fills the highest empty pores that it can reach, or else lies on the soil or on the
   /// water there; from soil with suction it runs off at once, out of the scene. Suction brings it as deep as Green and
-  /// Ampt's front takes all rain, k (1 + s/L) >= i, but no deeper than two cells: below, the pressure at the mesh's
-  /// vertices does that.
+  /// Ampt's front takes all rain, k (1 + s/L) >= i, but no deeper than two cells: below, the mesh's pressure does that.
   template <int dim>
   class Rain
   {
