@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scree import maps, results, terrain
+from scree import maps, results, settings, terrain
 from scree.scenarios.evaluation import Result, value_at
 
 FILES = {"impact": "raster", "deposit": "raster", "path": "table"}
@@ -38,7 +38,7 @@ def read(folder, given):
     if not found:
         raise ValueError(f'nothing is observed. Write one of: {", ".join(FILES)}')
     thickness = given.get("thickness", 0.1)
-    if isinstance(thickness, bool) or not isinstance(thickness, (int, float)) or not 0 < thickness < np.inf:
+    if not settings.is_number(thickness) or thickness <= 0:
         raise ValueError(f'entry "thickness" = {thickness}: write a number above 0, in m')
     return Observed(found.get("impact"), found.get("deposit"), found.get("path"), thickness)
 

@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The file of a study, in TOML: base case, parameters with distributions, sampling, thresholds."""
 
-import difflib
 import os
 import pathlib
 import subprocess
 import tempfile
-import tomllib
 from typing import NamedTuple
 
 import numpy as np
 
-from scree import command, results, variants
+from scree import command, results, settings, variants
 from scree.scenarios import observed, sampling
 
 TABLES = ("set", "parameters", "factors", "thresholds", "observed")
@@ -62,23 +60,14 @@ class Study(NamedTuple):
 def read(file):
     """Reads and checks a study. Throws a ValueError with file, entry, value and remedy."""
     file = pathlib.Path(file)
-    try:
-        given = tomllib.loads(file.read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"{file}: {error}. Strings and names with blanks or slashes stand in quotes") from error
-    for key in given:
-        if key not in KEYS:
-            raise _fault(file, key, given[key], f"there is no such entry{_nearest(key, KEYS)}")
-    for key in TABLES:
-        if not isinstance(given.get(key, {}), dict):
-            raise _fault(file, key, given[key], f"write a table, [{key}]")
+    given = settings.read(file, KEYS, TABLES)
     if "case" not in given:
         raise ValueError(f'{file}: the base case is missing. Write for instance case = "slope.prm"; its path counts from this file')
     case = file.parent / str(given["case"])
     if not case.is_file():
-        raise _fault(file, "case", given["case"], f"there is no file {case}. Its path counts from {file.name}")
+        raise settings.fault(file, "case", given["case"], f"there is no file {case}. Its path counts from {file.name}")
     base = variants.read_entries(case)
-    fixed = {key: _text(value) for key, value in given.get("set", {}).items()}
+    fixed = {key: settings.text(value) for key, value in given.get("set", {}).items()}
     parameters = [_parameter(file, table, entry, value) for table in ("parameters", "factors") for entry, value in given.get(table, {}).items()]
     if not parameters:
         raise ValueError(f"{file}: no entry differs between the runs. Write one into [parameters] or [factors]")
@@ -98,36 +87,13 @@ def read(file):
 # What is in the file --------------------------------------------------------------------------------------------------
 
 
-def _fault(file, entry, value, text, table=None):
-    place = f"[{table}], " if table else ""
-    return ValueError(f'{file}: {place}entry "{entry}" = {_text(value)}: {text}')
-
-
-def _nearest(name, names):
-    close = difflib.get_close_matches(name, names, 1)
-    return f'. Did you mean "{close[0]}"?' if close else f". Write one of: {', '.join(names)}"
-
-
-def _text(value):
-    """As it stands in a case."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, float):
-        return f"{value:.12g}"
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{name} = {_text(one)}" for name, one in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(_text, value)) + "]"
-    return str(value)
-
-
 def _parameter(file, table, entry, value):
     try:
         distribution = sampling.distribution_of(value)
     except ValueError as error:
-        raise _fault(file, entry, value, error, table) from error
+        raise settings.fault(file, entry, value, error, table) from error
     if table == "factors" and distribution.is_list and not all(isinstance(one, (int, float)) for one in distribution.numbers["values"]):
-        raise _fault(file, entry, value, "factors are numbers", table)
+        raise settings.fault(file, entry, value, "factors are numbers", table)
     return Parameter(entry, distribution, table == "factors")
 
 
@@ -135,23 +101,23 @@ def _number(file, given, key, default, least):
     """A whole number."""
     value = given.get(key, default)
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise _fault(file, key, value, f"write a whole number of at least {least}")
+        raise settings.fault(file, key, value, f"write a whole number of at least {least}")
     return value
 
 
 def _rows(file, given, kind, parameters):
     distributions = [one.distribution for one in parameters]
     if kind not in sampling.SAMPLINGS:
-        raise _fault(file, "sampling", kind, f"there is no such sampling{_nearest(str(kind), sampling.SAMPLINGS)}")
+        raise settings.fault(file, "sampling", kind, f"there is no such sampling{settings.nearest(str(kind), sampling.SAMPLINGS)}")
     random = ("Latin hypercube", "Sobol")
     for key, kinds in (("runs", random), ("seed", random), ("quantiles", ("one at a time",)), ("levels", ("grid",))):
         if key in given and kind not in kinds:
-            raise _fault(file, key, given[key], f'this entry has no effect with sampling = "{kind}". Remove it')
+            raise settings.fault(file, key, given[key], f'this entry has no effect with sampling = "{kind}". Remove it')
     if kind == "one at a time":
         quantiles = given.get("quantiles", [0.05, 0.95])
         is_pair = isinstance(quantiles, list) and len(quantiles) == 2 and all(isinstance(one, float) for one in quantiles)
         if not is_pair or not 0 < quantiles[0] < quantiles[1] < 1:
-            raise _fault(file, "quantiles", quantiles, "write two numbers between 0 and 1, the lower one first, such as [0.05, 0.95]")
+            raise settings.fault(file, "quantiles", quantiles, "write two numbers between 0 and 1, the lower one first, such as [0.05, 0.95]")
         return sampling.one_at_a_time(distributions, quantiles)
     if kind == "grid":
         return sampling.grid(distributions, _number(file, given, "levels", 3, 2))
@@ -159,10 +125,10 @@ def _rows(file, given, kind, parameters):
         raise ValueError(f'{file}: entry "runs" is missing. Write their number, for instance runs = 64')
     least, n_runs = len(parameters) + 2, _number(file, given, "runs", 0, 1)
     if n_runs < least:
-        raise _fault(file, "runs", n_runs, f"too few for {len(parameters)} parameters. Write at least {least}; for probabilities 50 or more")
+        raise settings.fault(file, "runs", n_runs, f"too few for {len(parameters)} parameters. Write at least {least}; for probabilities 50 or more")
     power = 2**int(np.log2(n_runs))
     if kind == "Sobol" and power != n_runs:
-        raise _fault(file, "runs", n_runs, f'Sobol\'s sequence is balanced for powers of 2. Write {power} or {2 * power}, or sampling = "Latin hypercube"')
+        raise settings.fault(file, "runs", n_runs, f'Sobol\'s sequence is balanced for powers of 2. Write {power} or {2 * power}, or sampling = "Latin hypercube"')
     return sampling.sampled(kind, distributions, n_runs, _number(file, given, "seed", 1, 0))
 
 
@@ -170,19 +136,19 @@ def _thresholds(file, given):
     found = {}
     for name, values in given.get("thresholds", {}).items():
         if name not in QUANTITIES:
-            raise _fault(file, name, values, f"there is no map of it{_nearest(name, list(QUANTITIES))}", "thresholds")
+            raise settings.fault(file, name, values, f"there is no map of it{settings.nearest(name, list(QUANTITIES))}", "thresholds")
         values = values if isinstance(values, list) else [values]
         for value in values:
-            if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < np.inf:
-                raise _fault(file, name, value, f"write a number above 0, in {QUANTITIES[name]}", "thresholds")
+            if not settings.is_number(value) or value <= 0:
+                raise settings.fault(file, name, value, f"write a number above 0, in {QUANTITIES[name]}", "thresholds")
         found[name] = sorted(set(values))
     return found
 
 
 def _run_out_thickness(file, given, entries):
     value = given.get("run_out_thickness", float(entries.get("Output/Maps/Least thickness", 0.)))
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < np.inf:
-        raise _fault(file, "run_out_thickness", value, "write a number of at least 0, in m")
+    if not settings.is_number(value) or value < 0:
+        raise settings.fault(file, "run_out_thickness", value, "write a number of at least 0, in m")
     return value
 
 
@@ -224,14 +190,14 @@ def _moved(file, value):
 def _check_file(file, case, base, table, entry, value):
     """Throws a ValueError if the case names a file here, and the study one that is not there."""
     if variants.file_named(case, base.get(entry, "")) and not (file.parent / value).is_file():
-        raise _fault(file, entry, value, f"there is no such file. Its path counts from {file.name}", table)
+        raise settings.fault(file, entry, value, f"there is no such file. Its path counts from {file.name}", table)
 
 
 def _check_values(study, base):
     """That files are there, and that the program reads the case with the extreme values of each parameter, beside medians of the others."""
     for one in study.parameters:
         for value in one.distribution.numbers["values"] if one.distribution.is_list and not one.is_factor else ():
-            _check_file(study.file, study.case, base, "parameters", one.entry, _text(value))
+            _check_file(study.file, study.case, base, "parameters", one.entry, settings.text(value))
         if one.is_factor:
             _check_factor(study, one, {**base, **study.fixed}.get(one.entry, ""))
     middle = sampling.medians([one.distribution for one in study.parameters])
@@ -250,10 +216,10 @@ def _check_factor(study, one, value):
         elif not is_listed:
             float(value)
     except ValueError as error:
-        raise _fault(study.file, one.entry, one.distribution.text(), f'a factor needs a number or a raster, and the value of the case is "{value}"',
+        raise settings.fault(study.file, one.entry, one.distribution.text(), f'a factor needs a number or a raster, and the value of the case is "{value}"',
                      "factors") from error
     if min(one.distribution.numbers["values"] if one.distribution.is_list else [one.distribution.quantile(0)]) < 0:
-        raise _fault(study.file, one.entry, one.distribution.text(), "a factor below 0 may occur. Set low = 0 or more", "factors")
+        raise settings.fault(study.file, one.entry, one.distribution.text(), "a factor below 0 may occur. Set low = 0 or more", "factors")
 
 
 def _ask_program(study, one, value, row):
@@ -267,7 +233,7 @@ def _ask_program(study, one, value, row):
         done = subprocess.run([program, str(case), "--print-parameters", "Output"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         table = "factors" if one.is_factor else "parameters"
-        raise _fault(study.file, one.entry, value, "the program refuses the case: "
+        raise settings.fault(study.file, one.entry, value, "the program refuses the case: "
                      + " ".join(done.stderr.split()).replace(f"scree: {case}, ", ""), table)
 
 
@@ -281,7 +247,7 @@ def write_case(study, row, target, entries=None):
     for one, value in sorted(zip(study.parameters, row), key=lambda pair: pair[0].is_factor):
         before = changed.get(one.entry, base.get(one.entry, ""))
         if not one.is_factor:
-            changed[one.entry] = _moved(study.file, _text(value))
+            changed[one.entry] = _moved(study.file, settings.text(value))
             continue
         raster = variants.file_named(study.case, before)
         if raster is None:
