@@ -34,11 +34,8 @@ namespace scree
       add("Water", "Phreatic surface file", parameters.water.phreatic_file);
       return result;
     }
-  } // namespace
 
 
-  namespace
-  {
     /// Throws EntryError if an outline has another coordinate system than the maps; without one of theirs it has none.
     void check_outlines(const Parameters &parameters,
                         const std::string &system,

@@ -257,7 +257,7 @@ namespace scree
       if (stored >> l & 1)
         {
           report.plastic_dissipation += reference_volume[l] * path.dissipation[l];
-          report.n_substeps += static_cast<unsigned int>(path.n_substeps[l]);
+          report.n_substeps += static_cast<unsigned int>(path.parts.n[l]);
         }
   }
 } // namespace scree

@@ -5,9 +5,9 @@
 
 #include <scree/materials/batch_records.h>
 #include <scree/materials/batch_return.h>
-#include <scree/tensor/hencky.h>
+#include <scree/materials/increment_parts.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace scree
 {
@@ -35,12 +35,13 @@ namespace scree
     static void
         advance(BatchSubsteps (&halves)[2], const double time_step, const double grain_density, UpdateReport &report);
 
+    const IncrementParts<dim> parts; ///< one return map each
+
     // The state in the end.
     Batch left_cauchy_green[n_components],  ///< elastic b_e
         stress[n_components],               ///< Cauchy stress, Pa
         internal_variables[n_internal + 1]; ///< in the order of the law
     Batch dissipation;                      ///< per reference volume, J/m^3
-    Batch n_substeps;                       ///< return maps of each point
     Mask is_separated;                      ///< whether grains are apart: no stress, the gap is kept as strain
     Mask is_served;                         ///< the others could not follow, their states are of no use
 
@@ -54,7 +55,6 @@ namespace scree
     const Law &law;
     const Return &returns;
     Batch volume_ratio, reference_volume;
-    Batch part, change[dim * dim], stretch_change; // 1/n, dF - I, and out of the plane
     Batch trial_left_cauchy_green[n_components];
     Mask is_active, has_to_return; // in this part
   };
@@ -65,7 +65,8 @@ namespace scree
                                          const Return &returns,
                                          const Input &input,
                                          const double largest_change)
-      : dissipation(simd::broadcast<Batch>(0.))
+      : parts(input, BatchRecords<dim, n_internal>::largest_change_of(input) * (1. / largest_change))
+      , dissipation(simd::broadcast<Batch>(0.))
       , is_separated{}
       , law(law)
       , returns(returns)
@@ -76,14 +77,7 @@ namespace scree
     std::copy_n(input.internal_variables, n_internal, internal_variables);
     std::fill_n(stress, n_components, simd::broadcast<Batch>(0.));
 
-    n_substeps = BatchRecords<dim, n_internal>::largest_change_of(input) * (1. / largest_change);
-    for (unsigned int l = 0; l < batch_size; ++l)
-      n_substeps[l] = std::max(std::ceil(n_substeps[l]), 1.);
-    part           = 1. / n_substeps;
-    stretch_change = part * (input.out_of_plane_stretch - 1.);
-    for (unsigned int i = 0; i < dim * dim; ++i)
-      change[i] = i % (dim + 1) == 0 ? input.increment[i] - 1. : input.increment[i];
-    is_served = n_substeps == n_substeps;
+    is_served = parts.n == parts.n;
   }
 
 
@@ -93,9 +87,9 @@ namespace scree
                                         const double grain_density,
                                         UpdateReport &report)
   {
-    const Batch time_steps[2] = { time_step * halves[0].part, time_step * halves[1].part };
+    const Batch time_steps[2] = { time_step * halves[0].parts.part, time_step * halves[1].parts.part };
     const auto goes_on        = [](const BatchSubsteps &half, const unsigned int k) {
-      return simd::any(half.is_served & (k < half.n_substeps));
+      return simd::any(half.is_served & (k < half.parts.n));
     };
     for (unsigned int k = 0; goes_on(halves[0], k) || goes_on(halves[1], k); ++k)
       {
@@ -112,27 +106,14 @@ namespace scree
   template <int dim, typename Law>
   simd::Mask<Batch> BatchSubsteps<dim, Law>::prepare(const unsigned int k, TrialState &trial)
   {
-    Batch before[dim * dim], inverse[dim * dim], f[dim * dim];
-    for (unsigned int i = 0; i < dim * dim; ++i)
-      before[i] = (k * part) * change[i] + (i % (dim + 1) == 0 ? 1. : 0.);
-    invert_rows<dim>(before, inverse);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        {
-          f[i * dim + j] = simd::broadcast<Batch>(i == j ? 1. : 0.);
-          for (unsigned int m = 0; m < dim; ++m)
-            f[i * dim + j] += part * change[i * dim + m] * inverse[m * dim + j];
-        }
-    scree::trial_left_cauchy_green<dim, Batch>(
-        f, 1. + stretch_change / (1. + k * stretch_change), left_cauchy_green, trial_left_cauchy_green);
-
+    parts.trial(k, left_cauchy_green, trial_left_cauchy_green);
     trial.strain           = typename Return::Strain(trial_left_cauchy_green);
     trial.trial            = law.trial(trial.strain.volume, trial.strain.square, volume_ratio, internal_variables);
     trial.volume_ratio     = volume_ratio;
     trial.reference_volume = reference_volume;
     std::copy_n(internal_variables, n_internal, trial.internal_variables);
 
-    is_active     = k < n_substeps;
+    is_active     = k < parts.n;
     is_served     = is_served & (trial.strain.is_valid | !is_active);
     has_to_return = is_served & is_active & !law.is_admissible(trial.trial);
     return has_to_return;

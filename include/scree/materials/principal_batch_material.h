@@ -166,7 +166,7 @@ namespace scree
         if (served >> l & 1)
           {
             report.plastic_dissipation += input.reference_volume[l] * path.dissipation[l];
-            report.n_substeps += static_cast<unsigned int>(path.n_substeps[l]);
+            report.n_substeps += static_cast<unsigned int>(path.parts.n[l]);
             report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, path.largest_bulk_modulus[l]);
             report.largest_compression  = std::max(report.largest_compression, path.largest_compression[l]);
           }

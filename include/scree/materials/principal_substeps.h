@@ -3,11 +3,11 @@
 #define scree_materials_principal_substeps_h
 
 #include <scree/materials/batch_records.h>
+#include <scree/materials/increment_parts.h>
 #include <scree/materials/law.h>
 #include <scree/tensor/hencky.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -34,7 +34,10 @@ namespace scree
                       const Mask &todo,
                       const double largest_change,
                       UpdateReport &report)
-        : is_served(todo)
+        : parts(
+              input,
+              simd::select<Batch>(todo, Records::largest_change_of(input) / largest_change, simd::broadcast<Batch>(1.)))
+        , is_served(todo)
         , law(law)
         , volume_ratio(input.volume_ratio)
     {
@@ -44,18 +47,11 @@ namespace scree
       std::fill_n(stress, n_components, zero);
       dissipation = largest_bulk_modulus = largest_compression = zero;
       is_separated                                             = todo & !todo;
-
-      n_substeps =
-          simd::select<Batch>(todo, Records::largest_change_of(input) / largest_change, simd::broadcast<Batch>(1.));
-      for (unsigned int l = 0; l < batch_size; ++l)
-        n_substeps[l] = std::max(std::ceil(n_substeps[l]), 1.);
-      part           = 1. / n_substeps;
-      stretch_change = part * (input.out_of_plane_stretch - 1.);
-      for (unsigned int i = 0; i < dim * dim; ++i)
-        change[i] = i % (dim + 1) == 0 ? input.increment[i] - 1. : input.increment[i];
-      for (unsigned int k = 0; simd::any(is_served & (k < n_substeps)); ++k)
+      for (unsigned int k = 0; simd::any(is_served & (k < parts.n)); ++k)
         advance(k, report);
     }
+
+    const IncrementParts<dim> parts; ///< one return map each
 
     // The state in the end.
     Batch left_cauchy_green[n_components],  ///< elastic b_e
@@ -63,8 +59,7 @@ namespace scree
         internal_variables[n_internal + 1]; ///< in the order of the law
     Batch dissipation,                      ///< per reference volume, J/m^3
         largest_bulk_modulus,               ///< of all parts, Pa
-        largest_compression,                ///< of all parts, Pa
-        n_substeps;                         ///< return maps of each point
+        largest_compression;                ///< of all parts, Pa
     Mask is_separated,                      ///< whether grains are apart
         is_served;                          ///< the others could not follow, their states are of no use
 
@@ -72,19 +67,8 @@ namespace scree
     /// Part `k`.
     void advance(const unsigned int k, UpdateReport &report)
     {
-      Batch before[dim * dim], inverse[dim * dim], f[dim * dim], trial[n_components], variables[n_internal + 1];
-      for (unsigned int i = 0; i < dim * dim; ++i)
-        before[i] = (k * part) * change[i] + (i % (dim + 1) == 0 ? 1. : 0.);
-      invert_rows<dim>(before, inverse);
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          {
-            f[i * dim + j] = simd::broadcast<Batch>(i == j ? 1. : 0.);
-            for (unsigned int m = 0; m < dim; ++m)
-              f[i * dim + j] += part * change[i * dim + m] * inverse[m * dim + j];
-          }
-      trial_left_cauchy_green<dim, Batch>(f, 1. + stretch_change / (1. + k * stretch_change), left_cauchy_green, trial);
-
+      Batch trial[n_components], variables[n_internal + 1];
+      parts.trial(k, left_cauchy_green, trial);
       const PrincipalFrame<dim, Batch> frame(trial);
       const PrincipalNumbers<Batch> trial_strain = log_strain(frame.values());
       PrincipalNumbers<Batch> strain             = trial_strain, kirchhoff_stress;
@@ -92,7 +76,7 @@ namespace scree
       VolumeResponse<Batch> response = law.respond(strain, volume_ratio, variables, kirchhoff_stress);
       const Batch sum                = trial_strain[0] + trial_strain[1] + trial_strain[2];
       const Mask is_finite           = simd::abs<Batch>(sum) <= std::numeric_limits<double>::max();
-      const Mask is_active           = k < n_substeps;
+      const Mask is_active           = k < parts.n;
       is_served                      = is_served & (is_finite | !is_active);
       if (const unsigned int left = simd::bits_of(is_served & is_active & response.is_left); left != 0)
         return_alone(left, trial_strain, response, strain, variables, kirchhoff_stress, report);
@@ -170,8 +154,7 @@ namespace scree
     }
 
     const Law &law;
-    Batch volume_ratio;                            // J
-    Batch part, change[dim * dim], stretch_change; // 1/n, dF - I, and out of the plane
+    Batch volume_ratio; // J
   };
 } // namespace scree
 
