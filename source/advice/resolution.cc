@@ -133,12 +133,11 @@ namespace scree
 
   TimeStepParameters time_step_for(const SceneNumbers &scene, TimeStepParameters present)
   {
-    // Measured, doc/developer/development_log.md: the front of a dense column differs by 0.7 % between Courant numbers
-    // 0.2 and 0.6, and larger ones contaminate the stress; Terzaghi's error is the same at 0.1 and 0.9; the dam breaks
-    // ran with 0.04 s/m.
+    // Measured, doc/developer/development_log.md: Terzaghi's error is the same at Courant numbers 0.1 and 0.9; the dam
+    // breaks ran with 0.04 s/m.
     constexpr double free_water_step_over_cell = 0.04; // s/m
-    present.courant_number = scene.is_elastic && scene.has_water && scene.water_fills_soil ? 0.9 : 0.6;
-    present.choose_maximum(scene.has_water, scene.gravity, scene.cell_size);
+    present.courant = scene.is_elastic && scene.has_water && scene.water_fills_soil ? "0.9" : "auto";
+    present.choose(scene.has_water, scene.projects_velocity, scene.gravity, scene.cell_size);
     if (!scene.has_soil)
       present.maximum_time_step = free_water_step_over_cell * scene.cell_size;
     return present;

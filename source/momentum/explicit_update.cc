@@ -67,6 +67,25 @@ namespace scree
     return balance;
   }
 
+  template <int dim>
+  void ExplicitUpdate<dim>::constrain(NodalField<dim> &field) const
+  {
+    for (const unsigned int node : field.active_nodes())
+      {
+        double *values    = field[node];
+        const double mass = values[NodalField<dim>::mass];
+        if (mass <= 0.)
+          continue;
+        Tensor<1, dim> velocity;
+        for (unsigned int c = 0; c < dim; ++c)
+          velocity[c] = values[NodalField<dim>::momentum + c] / mass;
+        if (const NodeConstraints<dim> *walls = constraints.at(node))
+          walls->apply(velocity, walls->soil_velocity + wall_gaps.closing_velocity(node));
+        for (unsigned int c = 0; c < dim; ++c)
+          values[NodalField<dim>::velocity + c] = velocity[c];
+      }
+  }
+
   template class ExplicitUpdate<2>;
   template class ExplicitUpdate<3>;
 } // namespace scree

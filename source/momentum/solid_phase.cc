@@ -23,6 +23,8 @@ namespace scree
                               std::list<SurfaceLoad<dim>> &loads,
                               const unsigned int group)
       : field(grid)
+      , projected(grid)
+      , method(transfer.transfer_method())
       , transfer(grid, transfer, stabilisation)
       , bodies(bodies)
       , group(group)
@@ -39,6 +41,7 @@ namespace scree
   void SolidPhase<dim>::reinit()
   {
     field.reinit();
+    projected.reinit();
     for (auto &one : loads)
       one.reinit();
     if (nonlocal)
@@ -82,12 +85,26 @@ namespace scree
 
 
   template <int dim>
-  void SolidPhase<dim>::to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture)
+  void SolidPhase<dim>::update_velocities(const double time_step, StepReport<dim> &report)
+  {
+    projected.clear();
+    for (auto &body : bodies)
+      if (moves(body))
+        report.speeds.include_point(transfer.update_velocities(body, field, time_step, projected));
+  }
+
+
+  template <int dim>
+  void SolidPhase<dim>::to_points(const double time_step,
+                                  StepReport<dim> &report,
+                                  const bool is_projected,
+                                  const Mixture<dim> *mixture)
   {
     for (auto &body : bodies)
       if (moves(body))
         {
-          const MotionReport motion = transfer.to_points(body, field, time_step, mixture);
+          const MotionReport motion =
+              transfer.to_points(body, field, is_projected ? &projected : nullptr, time_step, mixture);
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);

@@ -40,7 +40,7 @@ namespace scree
       {
         Constraints<dim> &constraints = *model.constraints[number];
         Group &group                  = groups.emplace_back(model, number, gaps_of(model.grid, constraints), timer);
-        at_nodes.push_back({ number, &group.soil.field, &constraints });
+        at_nodes.push_back({ number, &group.soil.field, &group.soil.projected, &constraints });
       }
     for (const RigidSurface<dim> &surface : model.surfaces)
       if (surface.turbulent_friction > 0.)
@@ -173,8 +173,28 @@ namespace scree
   void ExplicitScheme<dim>::to_points(const double time_step, StepReport<dim> &report)
   {
     const TimedPart part(timer, TimerSection::stress);
+    const bool is_projected = groups.front().soil.projects_velocity();
+    if (is_projected)
+      project_velocities(time_step, report);
     for (Group &group : groups)
-      group.soil.to_points(time_step, report);
+      group.soil.to_points(time_step, report, is_projected);
+  }
+
+
+  template <int dim>
+  void ExplicitScheme<dim>::project_velocities(const double time_step, StepReport<dim> &report)
+  {
+    for (Group &group : groups)
+      {
+        group.soil.update_velocities(time_step, report);
+        group.soil.projected.add_contributions();
+        group.momentum.constrain(group.soil.projected);
+        group.contact.keep_contact(group.soil.field, group.soil.projected);
+      }
+    for (const auto &contact : contacts)
+      contact.keep_contact();
+    for (Group &group : groups)
+      group.soil.projected.update_ghosts();
   }
 
 

@@ -17,9 +17,10 @@ namespace scree
     prm.enter_subsection("Time step");
     prm.add_parameter(
         "Courant number",
-        courant_number,
-        "Time step times (wave speed + velocity), over the cell size. 0.6 is safe; at 1.2 the stress oscillates.",
-        Patterns::Double(1e-6, 2));
+        courant,
+        "Time step times (wave speed + velocity), over the cell size, at most 2. auto: 1.2 in dry cases with Method = "
+        "FLIP or PIC, else 0.6.",
+        Patterns::Anything());
     prm.add_parameter("Advection number",
                       advection_number,
                       "Largest distance that a point moves in a time step, over the cell size.",
@@ -35,6 +36,15 @@ namespace scree
 
   void TimeStepParameters::check() const
   {
+    if (courant != "auto")
+      {
+        const double number = number_of(courant);
+        require_entry(number >= 1e-6 && number <= 2.,
+                      "Time step",
+                      "Courant number",
+                      courant,
+                      "write auto, or a number from 1e-6 to 2.");
+      }
     if (maximum == "auto")
       return;
     const double number = number_of(maximum);
@@ -43,6 +53,17 @@ namespace scree
                   "Maximum time step",
                   maximum,
                   "write auto, or a number from 1e-12 on, in s.");
+  }
+
+
+  void TimeStepParameters::choose(const bool has_water,
+                                  const bool projects_velocity,
+                                  const double gravity,
+                                  const double cell_size)
+  {
+    constexpr double of_projected = 1.2, otherwise = 0.6; // doc/theory/single_phase.md
+    courant_number = courant != "auto" ? number_of(courant) : projects_velocity ? of_projected : otherwise;
+    choose_maximum(has_water, gravity, cell_size);
   }
 
 

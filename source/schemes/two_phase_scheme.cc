@@ -292,7 +292,7 @@ namespace scree
   {
     {
       const TimedPart part(timer, TimerSection::stress);
-      soil.to_points(time_step, report, &mixture);
+      soil.to_points(time_step, report, /* is_projected */ false, &mixture);
       fluidise();
     }
     if (drainage == Drainage::undrained)

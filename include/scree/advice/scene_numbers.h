@@ -37,6 +37,7 @@ namespace scree
     bool has_soil   = false;   ///< whether any body can move
     bool sticks     = false;   ///< on a floor or bed that holds the soil
     bool is_elastic = false;   ///< all bodies are linear elastic
+    bool projects_velocity = false; ///< see SolidPhase
     WaveMedium mean;           ///< means over the volume of the soil
     WaveMedium fastest;        ///< the point with the fastest pressure wave
     double grain_density  = 0; ///< kg/m^3, mean

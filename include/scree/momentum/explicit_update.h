@@ -22,6 +22,9 @@ namespace scree
     /// v = (momentum + dt force)/mass + dt acceleration at the active nodes, then their constraints.
     Budget<dim> solve(NodalField<dim> &field, const double time_step) const;
 
+    /// v = momentum/mass at the active nodes, then their constraints: for a velocity that no force has changed.
+    void constrain(NodalField<dim> &field) const;
+
   private:
     const Constraints<dim> &constraints;
     const WallGaps<dim> &wall_gaps;

@@ -50,6 +50,9 @@ namespace scree
     /// Sums of all ranks, with the loads, and walls that act. Collective.
     void sum_at_nodes(const double time_step, Budget<dim> &budget);
 
+    /// The points' velocity after the solve, and what it is at the nodes.
+    void project_velocities(const double time_step, StepReport<dim> &report);
+
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, Budget<dim> &budget);
 

@@ -12,7 +12,8 @@ namespace scree
   /// Subsection Time step.
   struct TimeStepParameters
   {
-    double courant_number    = 0.6;    ///< bound of (wave speed + speed) dt/h
+    std::string courant      = "auto"; ///< the entry: a number, or auto
+    double courant_number    = 0.6;    ///< bound of (wave speed + speed) dt/h, what choose() has made of the entry
     double advection_number  = 0.3;    ///< bound of speed dt/h
     std::string maximum      = "auto"; ///< the entry: s, or auto
     double maximum_time_step = 1e-2;   ///< s, what choose_maximum() has made of the entry
@@ -20,14 +21,16 @@ namespace scree
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError if the maximum is no number.
+    /// Throws EntryError if the Courant number or the maximum is no number.
     void check() const;
 
-    /// Sets the maximum step. Where it is `auto`, dry soil may fall through a tenth of a cell in it, from rest; with
-    /// water it is 0.01 s, as its results depend on the step.
+    /// Sets what is `auto`. The Courant number is 1.2 where the strain of points is that of their own velocity at the
+    /// nodes, else 0.6. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water it is
+    /// 0.01 s, as its results depend on the step.
+    /// @param projects_velocity see SolidPhase
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m
-    void choose_maximum(const bool has_water, const double gravity, const double cell_size);
+    void choose(const bool has_water, const bool projects_velocity, const double gravity, const double cell_size);
 
     /// The parameters while the pore pressure is held: an `auto` maximum is that of dry soil.
     TimeStepParameters with_held_pressure(const double gravity, const double cell_size) const
@@ -36,6 +39,9 @@ namespace scree
       held.choose_maximum(/* has_water */ false, gravity, cell_size);
       return held;
     }
+
+  private:
+    void choose_maximum(const bool has_water, const double gravity, const double cell_size);
   };
 
   /// What bounds a step.

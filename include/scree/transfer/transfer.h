@@ -34,12 +34,22 @@ namespace scree
     /// grad phi_i.
     void to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
+    /// Velocity of the points at the end of a step, from the nodes; adds the points' mass and momentum to `projected`,
+    /// whose nodes get active. For FLIP and PIC. Returns the largest speed, m/s; not a number if any point's is not.
+    double update_velocities(SoilBody<dim> &body,
+                             const NodalField<dim> &field,
+                             const double time_step,
+                             NodalField<dim> &projected);
+
     /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
     /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
     ///
+    /// @param projected the points' own velocity at the nodes, of which their strain is then, after
+    /// update_velocities(); null: the strain is that of the nodes' end-of-step velocity
     /// @param mixture whose cells know factors of the soil's volume; null: none do
     MotionReport to_points(SoilBody<dim> &body,
                            const NodalField<dim> &field,
+                           const NodalField<dim> *projected,
                            const double time_step,
                            const Mixture<dim> *mixture = nullptr);
 
@@ -47,9 +57,18 @@ namespace scree
     template <int n, TransferMethod method>
     void add_points(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
+    /// update_velocities() for cells of n nodes along each axis.
     template <int n, TransferMethod method>
+    double update_points(SoilBody<dim> &body,
+                         const NodalField<dim> &field,
+                         const double time_step,
+                         NodalField<dim> &projected) const;
+
+    /// @param move_cell moves the points of a cell and fills `motion` from a number on; returns the largest square of a
+    /// speed, m^2/s^2
+    template <typename MoveCell>
     MotionReport
-    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step, const Mixture<dim> *mixture);
+    move_points(SoilBody<dim> &body, const double time_step, const Mixture<dim> *mixture, const MoveCell &move_cell);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     /// Returns the largest square of a speed, m^2/s^2; not a number if any point's is not.
@@ -62,6 +81,26 @@ namespace scree
                      const double time_step,
                      const double keep,
                      const unsigned int first);
+
+    /// Places of a cell's points, whose velocity has been updated before; into `motion` from number `first` on what the
+    /// rest needs, with the gradient of the velocity `projected`.
+    template <int n>
+    void strain_cell(const SoilBody<dim> &body,
+                     const CellPoints<dim> &cell,
+                     const NodalField<dim> &field,
+                     const NodalField<dim> &projected,
+                     const double time_step,
+                     const unsigned int first);
+
+    /// Into `motion`, of a batch of points from number `p` on: dF, its determinant, volume and reference volume.
+    ///
+    /// @param gradient of the velocity, 1/s, row-major
+    void set_motion(const SoilBody<dim> &body,
+                    const Batch *gradient,
+                    const Batch &mass,
+                    const Batch &volume,
+                    const double time_step,
+                    const unsigned int p);
 
     /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws
     /// PointFault if a point is deformed too much in a step.

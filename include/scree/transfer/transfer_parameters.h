@@ -36,6 +36,13 @@ namespace scree
     return method == TransferMethod::apic || carries_gradient(method);
   }
 
+  /// Whether strain can be that of the points' own velocity at the nodes: those that carry an affine field would
+  /// stretch twice by what the nodes say.
+  constexpr bool strain_is_of_points(const TransferMethod method)
+  {
+    return !carries_affine(method);
+  }
+
   /// Treatment of volumetric locking and stress oscillation.
   enum class FBar
   {
