@@ -68,17 +68,20 @@ namespace scree
   }
 
   template <int dim>
-  void ExplicitUpdate<dim>::constrain(NodalField<dim> &field) const
+  void ExplicitUpdate<dim>::project(const NodalField<dim> &field, NodalField<dim> &projected) const
   {
-    for (const unsigned int node : field.active_nodes())
+    constexpr double share_of_end = 0.25;
+    for (const unsigned int node : projected.active_nodes())
       {
-        double *values    = field[node];
+        double *values    = projected[node];
+        const double *end = field[node];
         const double mass = values[NodalField<dim>::mass];
         if (mass <= 0.)
           continue;
         Tensor<1, dim> velocity;
         for (unsigned int c = 0; c < dim; ++c)
-          velocity[c] = values[NodalField<dim>::momentum + c] / mass;
+          velocity[c] = (1. - share_of_end) * values[NodalField<dim>::momentum + c] / mass +
+                        share_of_end * end[NodalField<dim>::velocity + c];
         if (const NodeConstraints<dim> *walls = constraints.at(node))
           walls->apply(velocity, walls->soil_velocity + wall_gaps.closing_velocity(node));
         for (unsigned int c = 0; c < dim; ++c)

@@ -40,7 +40,7 @@ namespace scree
       {
         Constraints<dim> &constraints = *model.constraints[number];
         Group &group                  = groups.emplace_back(model, number, gaps_of(model.grid, constraints), timer);
-        at_nodes.push_back({ number, &group.soil.field, &group.soil.projected, &constraints });
+        at_nodes.push_back({ number, &group.soil.field, &constraints });
       }
     for (const RigidSurface<dim> &surface : model.surfaces)
       if (surface.turbulent_friction > 0.)
@@ -188,13 +188,9 @@ namespace scree
       {
         group.soil.update_velocities(time_step, report);
         group.soil.projected.add_contributions();
-        group.momentum.constrain(group.soil.projected);
-        group.contact.keep_contact(group.soil.field, group.soil.projected);
+        group.momentum.project(group.soil.field, group.soil.projected);
+        group.soil.projected.update_ghosts();
       }
-    for (const auto &contact : contacts)
-      contact.keep_contact();
-    for (Group &group : groups)
-      group.soil.projected.update_ghosts();
   }
 
 

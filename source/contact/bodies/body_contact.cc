@@ -111,17 +111,6 @@ namespace scree
 
 
   template <int dim>
-  void BodyContact<dim>::keep_contact() const
-  {
-    constexpr unsigned int velocity = NodalField<dim>::velocity;
-    for (const Meeting &meeting : meetings)
-      if (meeting.impulse.norm_square() > 0.)
-        for (const BodyGroup<dim> &group : groups)
-          std::copy_n((*group.field)[meeting.node] + velocity, dim, (*group.projected)[meeting.node] + velocity);
-  }
-
-
-  template <int dim>
   void BodyContact<dim>::count_dissipation(Budget<dim> &balance) const
   {
     for (const Meeting &meeting : meetings)

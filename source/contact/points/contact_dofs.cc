@@ -3,7 +3,6 @@
 #include <scree/contact/node_contact.h>
 #include <scree/tensor/vector.h>
 
-#include <algorithm>
 
 namespace scree
 {
@@ -115,18 +114,6 @@ namespace scree
               values[NodalField<dim>::velocity + c] = velocity[c];
             }
         }
-  }
-
-
-  template <int dim>
-  void ContactDofs<dim>::keep_contact(const NodalField<dim> &field, NodalField<dim> &projected) const
-  {
-    constexpr unsigned int velocity = NodalField<dim>::velocity;
-    for (const Node &node : nodes)
-      if (const double *values = field[node.node];
-          node.node < grid.n_owned_nodes() &&
-          !std::equal(values + velocity, values + velocity + dim, node.before.begin_raw()))
-        std::copy_n(values + velocity, dim, projected[node.node] + velocity);
   }
 
 

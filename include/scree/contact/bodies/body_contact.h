@@ -36,9 +36,6 @@ namespace scree
     /// Corrects the velocities of owned nodes at the end of a step, s.
     void solve(const double time_step, Budget<dim> &balance);
 
-    /// Where the groups have pushed each other, their projected velocities are those of the step's end.
-    void keep_contact() const;
-
     /// Adds the energy that the impulses of all calls of solve() since find() have taken to the balance, when the
     /// velocities of the step are known.
     void count_dissipation(Budget<dim> &balance) const;

@@ -13,7 +13,6 @@ namespace scree
   {
     unsigned int number;                 ///< SoilBody::group of its bodies
     NodalField<dim> *field;              ///< nodal field of the group
-    NodalField<dim> *projected;          ///< the velocity that its points will strain with
     const Constraints<dim> *constraints; ///< constraints of its nodes
 
     /// Whether the group has mass at a node, or is rigid there.

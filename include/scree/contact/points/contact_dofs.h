@@ -111,10 +111,6 @@ namespace scree
     /// field, those of ghosts included, which all ranks know.
     void write(NodalField<dim> &field, Budget<dim> &balance);
 
-    /// Where impulses have changed the field, which write() has set, the projected velocity of owned nodes gets that of
-    /// the field.
-    void keep_contact(const NodalField<dim> &field, NodalField<dim> &projected) const;
-
     /// Puts the working_velocity() of the impulses on the nodes in the step, which write() has ended, into the records.
     void take_working_velocities(const NodalField<dim> &field);
 

@@ -67,13 +67,6 @@ namespace scree
     /// exchanges them anew. Collective.
     void solve(NodalField<dim> &field, const double time_step, Budget<dim> &balance);
 
-    /// Where a surface has pushed in this step, the points' velocity at the nodes is that of the step's end: projected,
-    /// it would move into the surface.
-    void keep_contact(const NodalField<dim> &field, NodalField<dim> &projected) const
-    {
-      nodes.keep_contact(field, projected);
-    }
-
   private:
     /// A point of the current cell that may touch a surface.
     struct Candidate
