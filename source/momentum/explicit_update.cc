@@ -70,7 +70,7 @@ namespace scree
   template <int dim>
   void ExplicitUpdate<dim>::project(const NodalField<dim> &field, NodalField<dim> &projected) const
   {
-    constexpr double share_of_end = 0.25;
+    constexpr double share_of_end = 0.3;
     for (const unsigned int node : projected.active_nodes())
       {
         double *values    = projected[node];

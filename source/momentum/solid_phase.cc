@@ -21,14 +21,15 @@ namespace scree
                               const StabilisationParameters &stabilisation,
                               std::list<SoilBody<dim>> &bodies,
                               std::list<SurfaceLoad<dim>> &loads,
+                              const bool projects_velocity,
                               const unsigned int group)
       : field(grid)
-      , projected(grid)
-      , method(transfer.transfer_method())
       , transfer(grid, transfer, stabilisation)
       , bodies(bodies)
       , group(group)
   {
+    if (projects_velocity && strain_is_of_points(transfer.transfer_method()))
+      projected = std::make_unique<NodalField<dim>>(grid);
     for (auto &load : loads)
       this->loads.emplace_back(grid, load);
     for (const auto &body : bodies)
@@ -41,7 +42,8 @@ namespace scree
   void SolidPhase<dim>::reinit()
   {
     field.reinit();
-    projected.reinit();
+    if (projected)
+      projected->reinit();
     for (auto &one : loads)
       one.reinit();
     if (nonlocal)
@@ -87,24 +89,20 @@ namespace scree
   template <int dim>
   void SolidPhase<dim>::update_velocities(const double time_step, StepReport<dim> &report)
   {
-    projected.clear();
+    projected->clear();
     for (auto &body : bodies)
       if (moves(body))
-        report.speeds.include_point(transfer.update_velocities(body, field, time_step, projected));
+        report.speeds.include_point(transfer.update_velocities(body, field, time_step, *projected));
   }
 
 
   template <int dim>
-  void SolidPhase<dim>::to_points(const double time_step,
-                                  StepReport<dim> &report,
-                                  const bool is_projected,
-                                  const Mixture<dim> *mixture)
+  void SolidPhase<dim>::to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture)
   {
     for (auto &body : bodies)
       if (moves(body))
         {
-          const MotionReport motion =
-              transfer.to_points(body, field, is_projected ? &projected : nullptr, time_step, mixture);
+          const MotionReport motion = transfer.to_points(body, field, projected.get(), time_step, mixture);
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);

@@ -13,7 +13,13 @@ namespace scree
                                     const unsigned int number,
                                     WallGaps<dim> &wall_gaps,
                                     TimerOutput &timer)
-      : soil(model.grid, model.transfer, model.stabilisation, model.bodies, model.loads, number)
+      : soil(model.grid,
+             model.transfer,
+             model.stabilisation,
+             model.bodies,
+             model.loads,
+             /* projects_velocity */ true,
+             number)
       , wall_gaps(wall_gaps)
       , momentum(*model.constraints[number], wall_gaps, model.forces)
       , contact(model.grid,
@@ -173,24 +179,23 @@ namespace scree
   void ExplicitScheme<dim>::to_points(const double time_step, StepReport<dim> &report)
   {
     const TimedPart part(timer, TimerSection::stress);
-    const bool is_projected = groups.front().soil.projects_velocity();
-    if (is_projected)
-      project_velocities(time_step, report);
     for (Group &group : groups)
-      group.soil.to_points(time_step, report, is_projected);
+      {
+        if (group.soil.projected)
+          project_velocity(group, time_step, report);
+        group.soil.to_points(time_step, report);
+      }
   }
 
 
   template <int dim>
-  void ExplicitScheme<dim>::project_velocities(const double time_step, StepReport<dim> &report)
+  void ExplicitScheme<dim>::project_velocity(Group &group, const double time_step, StepReport<dim> &report) const
   {
-    for (Group &group : groups)
-      {
-        group.soil.update_velocities(time_step, report);
-        group.soil.projected.add_contributions();
-        group.momentum.project(group.soil.field, group.soil.projected);
-        group.soil.projected.update_ghosts();
-      }
+    NodalField<dim> &projected = *group.soil.projected;
+    group.soil.update_velocities(time_step, report); // its sums are now in the projected field
+    projected.add_contributions();
+    group.momentum.project(group.soil.field, projected);
+    projected.update_ghosts();
   }
 
 

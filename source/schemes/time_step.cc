@@ -18,7 +18,7 @@ namespace scree
     prm.add_parameter(
         "Courant number",
         courant,
-        "Time step times (wave speed + velocity), over the cell size, at most 2. auto: 1.2 in dry cases with Method = "
+        "Time step times (wave speed + velocity), over the cell size, at most 2. auto: 1.1 in dry cases with Method = "
         "FLIP or PIC, else 0.6.",
         Patterns::Anything());
     prm.add_parameter("Advection number",
@@ -61,7 +61,7 @@ namespace scree
                                   const double gravity,
                                   const double cell_size)
   {
-    constexpr double of_projected = 1.2, otherwise = 0.6; // doc/theory/single_phase.md
+    constexpr double of_projected = 1.1, otherwise = 0.6; // doc/theory/single_phase.md
     courant_number = courant != "auto" ? number_of(courant) : projects_velocity ? of_projected : otherwise;
     choose_maximum(has_water, gravity, cell_size);
   }

@@ -24,7 +24,7 @@ namespace scree
       , faces_closed_to_water(model.water_walls->closed_faces())
       , inflows(model.inflows)
       , timer(timer)
-      , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads)
+      , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads, /* projects_velocity */ false)
       , transfer(grid,
                  model.transfer,
                  model.water_parameters,
@@ -292,7 +292,7 @@ namespace scree
   {
     {
       const TimedPart part(timer, TimerSection::stress);
-      soil.to_points(time_step, report, /* is_projected */ false, &mixture);
+      soil.to_points(time_step, report, &mixture);
       fluidise();
     }
     if (drainage == Drainage::undrained)

@@ -93,7 +93,7 @@ goes_on "set End time = 1.5e-2
 $(in_subsection Mesh 'Upper corner = 3.0, 15e-1')
 $(in_subsection Output 'Statistics interval = 0.002')" ""
 goes_on "$(in_subsection 'Time step' 'Courant number = 0.3')" \
-  'Changed from here on: subsection Time step, entry "Courant number" = 0.3, before 0.6.'
+  'Changed from here on: subsection Time step, entry "Courant number" = 0.3, before auto.'
 goes_on "$(in_subsection Transfer 'PIC rate = 2')" \
   'Changed from here on: subsection Transfer, entry "PIC rate" = 2, before 5.'
 base water_short

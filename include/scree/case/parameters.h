@@ -13,7 +13,7 @@
 #include <scree/postprocess/probe_parameters.h>
 #include <scree/geometry/bed_parameters.h>
 #include <scree/geometry/obstacle_parameters.h>
-#include <scree/transfer/surface_load.h>
+#include <scree/bodies/surface_load.h>
 #include <scree/bodies/water_parameters.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/momentum/explicit_update.h>
@@ -95,7 +95,7 @@ namespace scree
     /// The bodies that stick to each other, and which of them slide. Throws EntryError if contacts do not fit.
     ContactGroups contact_groups() const;
 
-    /// Whether points strain with their own velocity at the nodes, see SolidPhase.
+    /// Whether points strain with their own velocity at the nodes, see SolidPhase::projected.
     bool projects_velocity() const
     {
       return !has_water && strain_is_of_points(transfer.transfer_method());

@@ -23,10 +23,9 @@ namespace scree
     Budget<dim> solve(NodalField<dim> &field, const double time_step) const;
 
     /// The velocity that points strain with at the active nodes of `projected`, which holds their mass and momentum:
-    /// three quarters of momentum/mass and a quarter of the velocity of the step's end, then constraints.
+    /// 0.7 momentum/mass and 0.3 of the velocity of the step's end, then constraints.
     ///
-    /// The quarter damps waves as short as a cell. Without it a step may be a third longer, but what strikes a surface
-    /// makes the stress oscillate.
+    /// The second part damps waves as short as a cell: below 0.3 soil that rubs on a wall gains energy at any step.
     /// @param field after solve()
     void project(const NodalField<dim> &field, NodalField<dim> &projected) const;
 

@@ -19,12 +19,14 @@ namespace scree
   {
   public:
     /// @param bodies of all groups
+    /// @param projects_velocity whether the strain of points may be that of their own velocity
     /// @param group number of this one
     SolidPhase(const BackgroundGrid<dim> &grid,
                const TransferParameters &transfer,
                const StabilisationParameters &stabilisation,
                std::list<SoilBody<dim>> &bodies,
                std::list<SurfaceLoad<dim>> &loads,
+               const bool projects_velocity,
                const unsigned int group = 0);
 
     /// Fits the nodes to the grid's current partition. Collective.
@@ -46,24 +48,13 @@ namespace scree
       return time_step * load;
     }
 
-    /// Whether the strain of points is that of their own velocity at the nodes ("modified update stress last",
-    /// @source{sulsky1995}): with FLIP and PIC. Their forces then reach the strain as smooth as the velocity is, and a
-    /// step may be twice as long.
-    bool projects_velocity() const
-    {
-      return strain_is_of_points(method);
-    }
-
     /// Velocity of the points after the solve of a step; sums their mass and momentum at the nodes of `projected`.
     void update_velocities(const double time_step, StepReport<dim> &report);
 
     /// Moves bodies and loads after the solve of a step, and updates stress and state.
-    /// @param is_projected whether the strain is of `projected`, which holds a velocity by now
+    /// Where there is `projected`, it holds a velocity by now.
     /// @param mixture of which the soil is a part, after its solve; null: dry
-    void to_points(const double time_step,
-                   StepReport<dim> &report,
-                   const bool is_projected,
-                   const Mixture<dim> *mixture = nullptr);
+    void to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture = nullptr);
 
     /// Appends the points of all bodies, then the markers of the loads.
     void append_point_sets(std::vector<PointSet<dim> *> &sets);
@@ -83,8 +74,10 @@ namespace scree
     /// The nodes of the soil: sums before the solve, velocity and its change after it.
     NodalField<dim> field;
 
-    /// The points' own velocity at the end of the step, before their places are new.
-    NodalField<dim> projected;
+    /// The points' own velocity at the end of the step, which they strain with (after "modified update stress last",
+    /// @source{sulsky1995}): with FLIP and PIC in dry scenes, else null. What forces do then reaches the strain as
+    /// smooth as it reaches the points, and a step may be 1.8 times as long.
+    std::unique_ptr<NodalField<dim>> projected;
 
   private:
     /// Whether the points of a body of the group move.
@@ -93,7 +86,6 @@ namespace scree
       return body.group == group && !body.is_rigid;
     }
 
-    const TransferMethod method;
     Transfer<dim> transfer;
     std::list<SoilBody<dim>> &bodies;
     std::list<LoadTransfer<dim>> loads;

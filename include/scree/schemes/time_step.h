@@ -24,10 +24,10 @@ namespace scree
     /// Throws EntryError if the Courant number or the maximum is no number.
     void check() const;
 
-    /// Sets what is `auto`. The Courant number is 1.2 where the strain of points is that of their own velocity at the
+    /// Sets what is `auto`. The Courant number is 1.1 where the strain of points is that of their own velocity at the
     /// nodes, else 0.6. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water it is
     /// 0.01 s, as its results depend on the step.
-    /// @param projects_velocity see SolidPhase
+    /// @param projects_velocity whether points do, see SolidPhase::projected
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m
     void choose(const bool has_water, const bool projects_velocity, const double gravity, const double cell_size);

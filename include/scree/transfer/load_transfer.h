@@ -3,7 +3,7 @@
 #define scree_transfer_load_transfer_h
 
 #include <scree/mesh/nodal_field.h>
-#include <scree/transfer/surface_load.h>
+#include <scree/bodies/surface_load.h>
 
 #include <array>
 #include <list>

@@ -11,6 +11,7 @@
 #include <scree/seeding/seeding.h>
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/matrix.h>
+#include <scree/tensor/vector.h>
 #include <scree/transfer/transfer.h>
 
 #include <deal.II/base/mpi.h>
@@ -258,6 +259,24 @@ double largest_difference(const std::vector<CellPoints<dim>> &cells,
 }
 
 
+/// How much the momentum of the nodes differs from that of the points, relative.
+template <int dim>
+double momentum_error(const SoilBody<dim> &body, const NodalField<dim> &nodes)
+{
+  Tensor<1, dim> of_points, of_nodes;
+  double size = 0;
+  for_each_point(body.points, [&](const auto &point) {
+    const Tensor<1, dim> momentum =
+        point.properties[PropertyLayout<dim>::mass] * vector_of<dim>(point.properties + PropertyLayout<dim>::velocity);
+    of_points += momentum;
+    size += momentum.norm();
+  });
+  for (const unsigned int node : nodes.active_nodes())
+    of_nodes += vector_of<dim>(nodes[node] + NodalField<dim>::momentum);
+  return (of_points - of_nodes).norm() / size;
+}
+
+
 template <int dim>
 double test(const std::string &basis,
             const std::string &method,
@@ -309,7 +328,15 @@ double test(const std::string &basis,
       shake_nodes(grid, body.points, field, random);
       const auto &cells   = body.points.cells();
       const auto expected = reference_step(body, cells, grid, field, method, f_bar, *one_by_one, visited);
-      transfer.to_points(body, field, time_step);
+      // In two passes points take the same from the nodes as in one, if the velocity that they strain with is the same.
+      const bool in_two_passes = step % 2 == 1 && strain_is_of_points(transfer_parameters.transfer_method());
+      if (in_two_passes)
+        {
+          NodalField<dim> projected(grid);
+          transfer.update_velocities(body, field, time_step, projected);
+          largest = std::max(largest, momentum_error(body, projected));
+        }
+      transfer.to_points(body, field, in_two_passes ? &field : nullptr, time_step);
       largest = std::max(largest, largest_difference(cells, expected, body.layout));
       body.points.hand_over();
     }
