@@ -122,12 +122,14 @@ namespace scree
 
 
   template <int dim>
-  void Graphics<dim>::write_points(const std::list<SoilBody<dim>> &bodies,
-                                   const NodalField<dim> &field,
-                                   const double time,
-                                   const WaterView<dim> *view)
+  void Graphics<dim>::add_points(const std::list<SoilBody<dim>> &bodies,
+                                 const NodalField<dim> &field,
+                                 const double time,
+                                 const WaterView<dim> *view,
+                                 Files &files)
   {
-    PatchOutput<0, dim> output;
+    const auto picture          = std::make_shared<PatchOutput<0, dim>>();
+    PatchOutput<0, dim> &output = *picture;
     for (const OutputField &field : { fields::velocity,
                                       fields::stress,
                                       fields::mean_effective_stress,
@@ -146,6 +148,10 @@ namespace scree
       output.add(fields::displacement);
     LawFields<dim> law_fields(bodies, output);
 
+    std::size_t n_points = 0;
+    for (const auto &body : bodies)
+      n_points += body.points.handler().n_locally_owned_particles();
+    output.patches.reserve(n_points);
     unsigned int number = 0;
     for (const auto &body : bodies)
       {
@@ -178,20 +184,19 @@ namespace scree
           }
         ++number;
       }
-    record("points",
-           point_files,
-           time,
-           output.write(folder, "points", point_files.size(), grid.triangulation().get_communicator()));
+    add("points", point_files, time, picture, files);
   }
 
 
   template <int dim>
-  void Graphics<dim>::write_water(const NodalField<dim> &soil_field,
-                                  const double time,
-                                  const WaterView<dim> &view,
-                                  const Cells &contents)
+  void Graphics<dim>::add_water(const NodalField<dim> &soil_field,
+                                const double time,
+                                const WaterView<dim> &view,
+                                const Cells &contents,
+                                Files &files)
   {
-    PatchOutput<0, dim> output;
+    const auto picture          = std::make_shared<PatchOutput<0, dim>>();
+    PatchOutput<0, dim> &output = *picture;
     for (const OutputField &field : { fields::velocity,
                                       fields::pressure,
                                       fields::mass,
@@ -220,22 +225,21 @@ namespace scree
                          : Tensor<1, dim>());
           });
         }
-    record("water",
-           water_files,
-           time,
-           output.write(folder, "water", water_files.size(), grid.triangulation().get_communicator()));
+    add("water", water_files, time, picture, files);
   }
 
+  template void Graphics<2>::add_points(const std::list<SoilBody<2>> &,
+                                        const NodalField<2> &,
+                                        const double,
+                                        const WaterView<2> *,
+                                        Files &);
+  template void Graphics<3>::add_points(const std::list<SoilBody<3>> &,
+                                        const NodalField<3> &,
+                                        const double,
+                                        const WaterView<3> *,
+                                        Files &);
   template void
-  Graphics<2>::write_points(const std::list<SoilBody<2>> &, const NodalField<2> &, const double, const WaterView<2> *);
+  Graphics<2>::add_water(const NodalField<2> &, const double, const WaterView<2> &, const Cells &, Files &);
   template void
-  Graphics<3>::write_points(const std::list<SoilBody<3>> &, const NodalField<3> &, const double, const WaterView<3> *);
-  template void Graphics<2>::write_water(const NodalField<2> &,
-                                         const double,
-                                         const WaterView<2> &,
-                                         const std::vector<CellContents> &);
-  template void Graphics<3>::write_water(const NodalField<3> &,
-                                         const double,
-                                         const WaterView<3> &,
-                                         const std::vector<CellContents> &);
+  Graphics<3>::add_water(const NodalField<3> &, const double, const WaterView<3> &, const Cells &, Files &);
 } // namespace scree
