@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
+#include <utility>
 
 namespace scree
 {
@@ -87,11 +89,15 @@ namespace scree
   void BackgroundWriter::begin_stage()
   {
     // A single rank waits for nobody between the stages.
-    auto &stages     = jobs.front().stages;
-    const auto first = stages.begin() + stage;
-    stage            = n_ranks == 1 ? stages.size() : stage + 1;
-    running =
-        std::async(std::launch::async, fault_of, std::vector<std::function<void()>>(first, stages.begin() + stage));
+    auto &all       = jobs.front().stages;
+    const auto next = all.begin() + stage;
+    stage           = n_ranks == 1 ? all.size() : stage + 1;
+    std::vector<std::function<void()>> stages;
+    std::move(next, all.begin() + stage, std::back_inserter(stages));
+    running = std::async(std::launch::async, [stages = std::move(stages)]() mutable {
+      const auto freed_here = std::move(stages);
+      return fault_of(freed_here);
+    });
   }
 
 

@@ -18,16 +18,16 @@ namespace scree
     {
     public:
       Rows(PatchOutput<0, dim> &output, const Point<dim> &location)
-          : patch(output.patches.emplace_back())
+          : values(output.values)
+          , begin(values.size())
       {
-        patch.vertices[0] = location;
-        patch.patch_index = output.patches.size() - 1;
-        patch.data.reinit(output.names.size(), 1);
+        output.points.push_back(location);
+        values.resize(begin + output.names.size());
       }
 
       void put(const double value)
       {
-        patch.data(row++, 0) = value;
+        values[begin + row++] = value;
       }
       void put(const Tensor<1, dim> &vector)
       {
@@ -36,11 +36,12 @@ namespace scree
       }
       void set(const unsigned int any_row, const double value)
       {
-        patch.data(any_row, 0) = value;
+        values[begin + any_row] = value;
       }
 
     private:
-      typename PatchOutput<0, dim>::Patch &patch;
+      std::vector<float> &values;
+      const std::size_t begin;
       unsigned int row = 0;
     };
 
@@ -148,10 +149,6 @@ namespace scree
       output.add(fields::displacement);
     LawFields<dim> law_fields(bodies, output);
 
-    std::size_t n_points = 0;
-    for (const auto &body : bodies)
-      n_points += body.points.handler().n_locally_owned_particles();
-    output.patches.reserve(n_points);
     unsigned int number = 0;
     for (const auto &body : bodies)
       {

@@ -36,8 +36,10 @@ namespace scree
   public:
     using Patch = dealii::DataOutBase::Patch<patch_dim, dim>; ///< geometry and data of a point or cell
 
-    std::vector<Patch> patches;     ///< patches to be written
-    std::vector<std::string> names; ///< labels of the rows of a patch's data
+    std::vector<Patch> patches;             ///< patches to be written
+    std::vector<std::string> names;         ///< labels of the rows of a patch's data
+    std::vector<dealii::Point<dim>> points; ///< points to be written, of which piece() makes patches
+    std::vector<float> values;              ///< the rows of the points' data, one point after the other
 
     /// A field: of the rows of the patches' data one for a scalar, `dim` for a vector, nine for a tensor.
     void add(const OutputField &field)
@@ -56,6 +58,17 @@ namespace scree
       dealii::DataOutBase::VtkFlags flags;
       flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
       this->set_flags(flags);
+      patches.reserve(patches.size() + points.size());
+      auto value = values.begin();
+      for (const auto &point : points)
+        {
+          Patch &patch      = patches.emplace_back();
+          patch.patch_index = patches.size() - 1;
+          patch.vertices[0] = point;
+          patch.data.reinit(names.size(), 1);
+          for (unsigned int row = 0; row < names.size(); ++row)
+            patch.data(row, 0) = *value++;
+        }
       std::ostringstream text;
       this->write_vtu(text);
       return with_component_names(text.str());
