@@ -12,7 +12,7 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <map>
+#include <memory>
 #include <sstream>
 
 namespace scree
@@ -113,89 +113,71 @@ namespace scree
     }
 
 
-    /// Writes this rank's `contents`, by name. Collective: all ranks get the list of all files.
-    std::vector<CheckedFile> write_files(const std::string &folder,
-                                         const std::map<std::string, std::string> &contents,
-                                         const MPI_Comm communicator)
-    {
-      std::vector<CheckedFile> own, all;
-      const std::string fault = fault_of([&] {
-        for (const auto &[name, content] : contents)
-          own.push_back(write_checked_file(folder, name, content));
-      });
-      throw_on_all_ranks(fault, communicator);
-      for (const auto &files : Utilities::MPI::all_gather(communicator, own))
-        all.insert(all.end(), files.begin(), files.end());
-      return all;
-    }
-
-
-    /// Writes a checkpoint with this rank's `contents`. Collective; throws EntryError on all ranks.
-    void write_checkpoint(const CheckpointFolder &folder,
-                          Manifest manifest,
-                          const std::map<std::string, std::string> &contents,
-                          const MPI_Comm communicator)
-    {
-      const bool writer = Utilities::MPI::this_mpi_process(communicator) == 0;
-      const auto alone  = [&](const std::function<void()> &action) {
-        throw_on_all_ranks(writer ? fault_of(action) : "", communicator);
-      };
-      alone([&] { folder.begin(); });
-      manifest.files = write_files(folder.unfinished, contents, communicator);
-      alone([&] { folder.finish(manifest); });
-    }
-
-
     /// What a user wants to know after a checkpoint has failed.
-    std::string what_is_left(const CheckpointFolder &folder, const double time, const double n_bytes)
+    std::string what_is_left(const CheckpointFolder &folder, const Manifest &manifest)
     {
       std::string names;
       for (const std::string &name : folder.whole())
         names += (names.empty() ? "" : " and ") + name;
-      return " The checkpoint at t = " + number_text(time) + " s needs " + std::to_string(std::uint64_t(n_bytes)) +
+      return " The checkpoint at t = " + number_text(manifest.time) + " s needs " + std::to_string(manifest.size()) +
              " bytes in all. " + (names.empty() ? "There is no older one." : "Still whole: " + names + '.');
     }
   } // namespace
 
 
   template <int dim>
-  void save_checkpoint(const std::string &run_folder,
-                       const double time,
-                       const std::uint64_t step,
-                       const CaseEntries &entries,
-                       const BackgroundGrid<dim> &grid,
-                       const std::vector<PointSet<dim> *> &sets,
-                       const std::function<void(boost::archive::binary_oarchive &)> &state)
+  FileJob checkpoint_files(const std::string &run_folder,
+                           const double time,
+                           const std::uint64_t step,
+                           const CaseEntries &entries,
+                           const BackgroundGrid<dim> &grid,
+                           const std::vector<PointSet<dim> *> &sets,
+                           const std::function<void(boost::archive::binary_oarchive &)> &state)
   {
     const CheckpointFolder folder(run_folder);
     const MPI_Comm communicator = grid.triangulation().get_communicator();
     const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
 
-    std::map<std::string, std::string> contents{ { name_of_points + std::to_string(rank), pack_points(sets) } };
+    const auto contents = std::make_shared<std::vector<FileContent>>();
+    std::vector<CheckedFile> own;
+    const auto add = [&](const std::string &name, std::string content) {
+      own.push_back(checked_file(name, content));
+      contents->emplace_back(folder.unfinished + '/' + name, std::move(content));
+    };
+    if (rank == 0)
+      add(name_of_entries, entries.text());
     if (grid.follows_points())
       {
         const Blocks blocks = grid.fine_blocks();
-        append_bytes(contents[name_of_mesh + std::to_string(rank)], blocks.data(), blocks.size());
+        std::string bytes;
+        append_bytes(bytes, blocks.data(), blocks.size());
+        add(name_of_mesh + std::to_string(rank), std::move(bytes));
       }
+    add(name_of_points + std::to_string(rank), pack_points(sets));
+    if (rank == 0)
+      add(name_of_state, packed_state(state));
+    Manifest manifest{ first_line(version_text()), dim, time, step, {} };
+    for (const auto &files : Utilities::MPI::all_gather(communicator, own))
+      manifest.files.insert(manifest.files.end(), files.begin(), files.end());
+
+    FileJob job;
+    job.stages.resize(3);
+    job.stages[1] = [=] {
+      write_whole_files(*contents);
+      for (const CheckedFile &file : own)
+        read_checked_file(folder.unfinished, file);
+    };
     if (rank == 0)
       {
-        contents[name_of_state]   = packed_state(state);
-        contents[name_of_entries] = entries.text();
+        job.stages[0] = [=] { folder.begin(); };
+        job.stages[2] = [=] { folder.finish(manifest); };
       }
-    try
-      {
-        write_checkpoint(folder, { first_line(version_text()), dim, time, step, {} }, contents, communicator);
-      }
-    catch (const EntryError &error)
-      {
-        double n_bytes = 0;
-        for (const auto &[name, content] : contents)
-          n_bytes += content.size();
-        n_bytes = Utilities::MPI::sum(n_bytes, communicator);
-        if (rank == 0)
-          folder.abandon();
-        throw_on_all_ranks(rank == 0 ? error.what() + what_is_left(folder, time, n_bytes) : "", communicator);
-      }
+    job.failed = [=](const std::string &fault) {
+      if (rank == 0)
+        folder.abandon();
+      throw_on_all_ranks(rank == 0 ? fault + what_is_left(folder, manifest) : "", communicator);
+    };
+    return job;
   }
 
 
@@ -274,20 +256,20 @@ namespace scree
     });
   }
 
-  template void save_checkpoint(const std::string &,
-                                const double,
-                                const std::uint64_t,
-                                const CaseEntries &,
-                                const BackgroundGrid<2> &,
-                                const std::vector<PointSet<2> *> &,
-                                const std::function<void(boost::archive::binary_oarchive &)> &);
-  template void save_checkpoint(const std::string &,
-                                const double,
-                                const std::uint64_t,
-                                const CaseEntries &,
-                                const BackgroundGrid<3> &,
-                                const std::vector<PointSet<3> *> &,
-                                const std::function<void(boost::archive::binary_oarchive &)> &);
+  template FileJob checkpoint_files(const std::string &,
+                                    const double,
+                                    const std::uint64_t,
+                                    const CaseEntries &,
+                                    const BackgroundGrid<2> &,
+                                    const std::vector<PointSet<2> *> &,
+                                    const std::function<void(boost::archive::binary_oarchive &)> &);
+  template FileJob checkpoint_files(const std::string &,
+                                    const double,
+                                    const std::uint64_t,
+                                    const CaseEntries &,
+                                    const BackgroundGrid<3> &,
+                                    const std::vector<PointSet<3> *> &,
+                                    const std::function<void(boost::archive::binary_oarchive &)> &);
   template void load_checkpoint(const Checkpoint &,
                                 BackgroundGrid<2> &,
                                 const std::vector<PointSet<2> *> &,

@@ -55,13 +55,9 @@ namespace scree
   } // namespace
 
 
-  CheckedFile write_checked_file(const std::string &folder, const std::string &name, const std::string &content)
+  CheckedFile checked_file(const std::string &name, const std::string &content)
   {
-    const std::string path = folder + '/' + name;
-    write_whole_file(path, content);
-    const CheckedFile file{ name, content.size(), checksum_of(content) };
-    read_checked_file(folder, file);
-    return file;
+    return { name, content.size(), checksum_of(content) };
   }
 
 
@@ -86,7 +82,9 @@ namespace scree
          << "\ndimension: " << dimension << "\ntime: " << time << "\nstep: " << step << '\n';
     for (const CheckedFile &file : files)
       text << "file: " << file.name << ' ' << file.size << ' ' << std::hex << file.checksum << std::dec << '\n';
-    write_checked_file(folder, name_of_manifest, text.str() + checksum_line(text.str()));
+    const std::string content = text.str() + checksum_line(text.str());
+    write_whole_file(folder + '/' + name_of_manifest, content);
+    read_checked_file(folder, checked_file(name_of_manifest, content));
   }
 
 

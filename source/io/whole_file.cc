@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <deque>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -82,19 +83,35 @@ namespace scree
   }
 
 
-  void write_whole_file(const std::string &file, const std::string &content)
+  void write_whole_file(const std::string &file, std::string content)
   {
-    const std::string unfinished = file + ".new";
-    Descriptor out(unfinished, O_WRONLY | O_CREAT | O_TRUNC);
-    if (!out.write(content) || !out.sync() || !out.close() || std::rename(unfinished.c_str(), file.c_str()) != 0)
-      {
-        const int cause = errno;
-        out.close();
-        std::remove(unfinished.c_str());
-        errno = cause;
-        throw error_of_writing(file, content.size());
-      }
-    sync_folder(folder_of(file));
+    write_whole_files({ { file, std::move(content) } });
+  }
+
+
+  void write_whole_files(const std::vector<FileContent> &files)
+  {
+    const std::string unfinished = ".new";
+    std::deque<Descriptor> open;
+    const auto require = [&](const bool is_done, const FileContent &file) {
+      if (is_done)
+        return;
+      const int cause = errno;
+      open.clear();
+      for (const auto &[name, content] : files)
+        std::remove((name + unfinished).c_str());
+      errno = cause;
+      throw error_of_writing(file.first, file.second.size());
+    };
+    // All are written before the first one is waited for: the disk then takes them together.
+    for (const FileContent &file : files)
+      require(open.emplace_back(file.first + unfinished, O_WRONLY | O_CREAT | O_TRUNC).write(file.second), file);
+    for (std::size_t f = 0; f < files.size(); ++f)
+      require(open[f].sync() && open[f].close(), files[f]);
+    for (const FileContent &file : files)
+      require(std::rename((file.first + unfinished).c_str(), file.first.c_str()) == 0, file);
+    if (!files.empty())
+      sync_folder(folder_of(files.front().first));
   }
 
 

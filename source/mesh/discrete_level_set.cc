@@ -163,12 +163,15 @@ namespace scree
 
 
   template <int dim>
-  double DiscreteLevelSet<dim>::distance_of(const unsigned int cell, const Point<dim> &place, const Point<dim> &x) const
+  double DiscreteLevelSet<dim>::distance_of(const unsigned int cell,
+                                            const Point<dim> &place,
+                                            const Point<dim> &x,
+                                            const double enough) const
   {
     if (!is_near(cell))
       return reach();
     const double seen = view(cell, place).distance;
-    return seen >= 0. || is_moving() ? seen : std::max(seen, surface.view(x, grid.cell_size()).distance);
+    return seen >= enough || is_moving() ? seen : std::max(seen, surface.view(x, grid.cell_size()).distance);
   }
 
 

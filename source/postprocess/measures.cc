@@ -3,15 +3,13 @@
 
 #include <scree/postprocess/cell_contents.h>
 #include <scree/postprocess/point_sums.h>
-#include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/lac/vector.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace scree
 {
@@ -45,158 +43,63 @@ namespace scree
                                     const unsigned int axis,
                                     const std::vector<double> &fractions)
     {
-      const MPI_Comm communicator = grid.triangulation().get_communicator();
+      struct Part
+      {
+        double place, mass;
+      };
+      struct Search
+      {
+        double begin, end, below, wanted;
+        std::vector<Part> parts; // all that may lie between begin and end
+      };
+      std::vector<Part> all;
+      visit_points(masses, [&](const auto &point, const double *mass) {
+        all.push_back({ point.location[axis], *mass });
+      });
+      std::vector<Search> searches(fractions.size(),
+                                   { grid.lower_corner()[axis], grid.upper_corner()[axis], 0., 0., {} });
 
       // Each pass finds the bin in which the wanted mass is reached and looks into it the next time.
-      const auto find = [&](const double fraction) {
-        constexpr unsigned int n_bins = 1000;
-        double begin = grid.lower_corner()[axis], end = grid.upper_corner()[axis], below = 0, wanted = -1;
-        for (unsigned int pass = 0; pass < 5; ++pass)
-          {
-            std::vector<double> bins(n_bins, 0.);
-            visit_points(masses, [&](const auto &point, const double *mass) {
-              const double position = (point.location[axis] - begin) / (end - begin) * n_bins;
-              if (position >= 0 && position < n_bins)
-                bins[static_cast<unsigned int>(position)] += *mass;
-            });
-            Utilities::MPI::sum(bins, communicator, bins);
-            if (wanted < 0)
-              for (const double mass : bins)
-                wanted = std::max(wanted, 0.) + fraction * mass;
-            // Equal masses often add up to just the wanted part: rounding must not choose the point.
-            unsigned int bin = 0;
-            while (bin + 1 < n_bins && below + bins[bin] < wanted * (1. - 1e-12))
-              below += bins[bin++];
-            const double width = (end - begin) / n_bins;
-            begin += bin * width;
-            end = begin + width;
-          }
-        return 0.5 * (begin + end);
-      };
-
-      std::vector<double> result;
-      for (const double fraction : fractions)
-        result.push_back(find(fraction));
-      return result;
-    }
-
-
-    /// Moments of a cell's points about a common origin: 1, x, x x^T (rows of the normal matrix of a linear fit) and
-    /// the same of the pressure.
-    template <int dim>
-    struct Moments
-    {
-      std::array<double, (dim + 1) * (dim + 1)> matrix{};
-      std::array<double, dim + 1> rhs{};
-
-      void add(const Point<dim> &x, const double pressure)
-      {
-        std::array<double, dim + 1> monomials{ { 1. } };
-        for (unsigned int a = 0; a < dim; ++a)
-          monomials[a + 1] = x[a];
-        for (unsigned int i = 0; i <= dim; ++i)
-          {
-            for (unsigned int j = 0; j <= dim; ++j)
-              matrix[i * (dim + 1) + j] += monomials[i] * monomials[j];
-            rhs[i] += monomials[i] * pressure;
-          }
-      }
-
-      void operator+=(const Moments &other)
-      {
-        for (unsigned int i = 0; i < matrix.size(); ++i)
-          matrix[i] += other.matrix[i];
-        for (unsigned int i = 0; i < rhs.size(); ++i)
-          rhs[i] += other.rhs[i];
-      }
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &matrix &rhs;
-      }
-    };
-
-    /// Mean and slopes of the linear fit; slopes that the points do not determine are 0.
-    template <int dim>
-    Vector<double> fit(const Moments<dim> &moments)
-    {
-      Vector<double> coefficients(dim + 1);
-      if (moments.matrix[0] == 0)
-        return coefficients;
-
-      // Centred normal matrix: 1/n x^T x - mean mean^T.
-      const double n = moments.matrix[0];
-      Tensor<1, dim> mean, slope;
-      SymmetricTensor<2, dim> spread;
-      for (unsigned int a = 0; a < dim; ++a)
-        mean[a] = moments.matrix[a + 1] / n;
-      Tensor<1, dim> covariance;
-      for (unsigned int a = 0; a < dim; ++a)
+      constexpr unsigned int n_bins = 1000, n_passes = 5;
+      std::vector<double> bins;
+      for (unsigned int pass = 0; pass < n_passes; ++pass)
         {
-          for (unsigned int b = 0; b < dim; ++b)
-            spread[a][b] = moments.matrix[(a + 1) * (dim + 1) + b + 1] / n - mean[a] * mean[b];
-          covariance[a] = moments.rhs[a + 1] / n - mean[a] * moments.rhs[0] / n;
+          bins.assign(n_bins * searches.size(), 0.);
+          for (unsigned int s = 0; s < searches.size(); ++s)
+            {
+              const auto &[begin, end, below, wanted, parts] = searches[s];
+              for (const Part &part : pass == 0 ? all : parts)
+                if (const double position = (part.place - begin) / (end - begin) * n_bins;
+                    position >= 0 && position < n_bins)
+                  bins[s * n_bins + static_cast<unsigned int>(position)] += part.mass;
+            }
+          Utilities::MPI::sum(bins, grid.triangulation().get_communicator(), bins);
+          for (unsigned int s = 0; s < searches.size(); ++s)
+            {
+              auto &[begin, end, below, wanted, parts] = searches[s];
+              const double *bin_of_search              = bins.data() + s * n_bins;
+              if (pass == 0)
+                for (unsigned int bin = 0; bin < n_bins; ++bin)
+                  wanted += fractions[s] * bin_of_search[bin];
+              // Equal masses often add up to just the wanted part: rounding must not choose the point.
+              unsigned int bin = 0;
+              while (bin + 1 < n_bins && below + bin_of_search[bin] < wanted * (1. - 1e-12))
+                below += bin_of_search[bin++];
+              const double width = (end - begin) / n_bins;
+              begin += bin * width;
+              end                            = begin + width;
+              const std::vector<Part> before = pass == 0 ? all : std::move(parts);
+              parts.clear();
+              // Rounding decides anew about the edges.
+              std::copy_if(before.begin(), before.end(), std::back_inserter(parts), [&](const Part &part) {
+                return part.place >= begin - width && part.place < end + width;
+              });
+            }
         }
-      for (const auto &[value, axis] : eigenvectors(spread))
-        if (value > 1e-6) // of a cell width squared: the points spread along this axis
-          slope += (covariance * axis) / value * axis;
-      coefficients[0] = moments.rhs[0] / n - slope * mean;
-      for (unsigned int a = 0; a < dim; ++a)
-        coefficients[a + 1] = slope[a];
-      return coefficients;
-    }
-
-
-    /// @param pressure_of P or p, Pa, from the quantity of the views
-    template <int dim, typename Pressure>
-    double oscillation(const Views<dim> &views, const BackgroundGrid<dim> &grid, const Pressure &pressure_of)
-    {
-      const auto &mesh = grid.triangulation();
-      std::vector<Moments<dim>> moments(mesh.n_active_cells());
-      const auto scaled = [&](const Point<dim> &x) { return Point<dim>((x - grid.lower_corner()) / grid.cell_size()); };
-
-      visit_points(views, [&](const auto &point, const double *quantity) {
-        moments[point.cell].add(scaled(point.location), pressure_of(quantity));
-      });
-
-      using Cell = typename Triangulation<dim>::active_cell_iterator;
-      GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
-          mesh,
-          [&](const Cell &cell) { return std_cxx17::optional<Moments<dim>>(moments[cell->active_cell_index()]); },
-          [&](const Cell &cell, const Moments<dim> &value) { moments[cell->active_cell_index()] = value; });
-
-      // The linear fit around each owned cell that holds points.
-      std::vector<Vector<double>> fits(mesh.n_active_cells());
-      for (const auto &cell : mesh.active_cell_iterators())
-        if (cell->is_locally_owned() && moments[cell->active_cell_index()].matrix[0] > 0)
-          {
-            std::vector<Cell> patch{ cell };
-            for (unsigned int a = 0; a < dim; ++a)
-              for (unsigned int i = 0, n = patch.size(); i < n; ++i)
-                for (const unsigned int face : { 2 * a, 2 * a + 1 })
-                  if (const auto near = patch[i]; holds_nodes(near) && !near->at_boundary(face))
-                    patch.push_back(near->neighbor(face));
-            Moments<dim> sum;
-            for (const auto &near : patch)
-              sum += moments[near->active_cell_index()];
-            fits[cell->active_cell_index()] = fit(sum);
-          }
-
-      std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
-      visit_points(views, [&](const auto &point, const double *quantity) {
-        const double pressure    = pressure_of(quantity);
-        const auto &coefficients = fits[point.cell];
-        const auto x             = scaled(point.location);
-        double residual          = pressure - coefficients[0];
-        for (unsigned int a = 0; a < dim; ++a)
-          residual -= coefficients[a + 1] * x[a];
-        sums[0] += 1;
-        sums[1] += pressure;
-        sums[2] += residual * residual;
-      });
-      Utilities::MPI::sum(sums, mesh.get_communicator(), sums);
-      return sums[1] > 0 ? std::sqrt(sums[2] / sums[0]) / (sums[1] / sums[0]) : 0.;
+      std::vector<double> result;
+      for (const Search &search : searches)
+        result.push_back(0.5 * (search.begin + search.end));
+      return result;
     }
   } // namespace
 
@@ -229,27 +132,6 @@ namespace scree
 
 
   template <int dim>
-  double stress_oscillation(const std::list<SoilBody<dim>> &bodies, const BackgroundGrid<dim> &grid)
-  {
-    Views<dim> stresses;
-    for (const auto &body : bodies)
-      if (!body.is_rigid)
-        stresses.push_back({ body.points, body.layout.stress });
-    return oscillation(stresses, grid, [](const double *stress) { return mean_effective_stress(stress); });
-  }
-
-
-  template <int dim>
-  double pressure_oscillation(const std::list<WaterPhase<dim>> &water, const BackgroundGrid<dim> &grid)
-  {
-    Views<dim> pressures;
-    for (const auto &one : water)
-      pressures.push_back({ one.points(), one.layout.pressure });
-    return oscillation(pressures, grid, [](const double *pressure) { return *pressure; });
-  }
-
-
-  template <int dim>
   double least_distance(const std::list<SoilBody<dim>> &bodies,
                         const std::list<WaterPhase<dim>> &water,
                         const DiscreteLevelSet<dim> &surface,
@@ -257,9 +139,12 @@ namespace scree
   {
     double least       = surface.reach();
     const auto include = [&](const PointSet<dim> &points) {
-      for_each_point(points, [&](const auto &point) {
-        least = std::min(least, surface.distance_of(point.cell, point.reference_location, point.location));
-      });
+      for (const auto &cell : points.cells())
+        if (surface.least_distance(cell.cell) < least)
+          for_each_point(cell, [&](const auto &point) {
+            least = std::min(
+                least, surface.distance_of(point.cell, point.reference_location, point.location, std::min(0., least)));
+          });
     };
     for (const auto &body : bodies)
       if (!body.is_rigid)
@@ -339,8 +224,6 @@ namespace scree
                                  const std::list<WaterPhase<3>> &,
                                  const DiscreteLevelSet<3> &,
                                  const MPI_Comm);
-  template double stress_oscillation(const std::list<SoilBody<2>> &, const BackgroundGrid<2> &);
-  template double pressure_oscillation(const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
   template WaterMeasures
   measure_water(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
 
@@ -354,8 +237,6 @@ namespace scree
                                                 const std::vector<double> &);
   template double
   kinetic_to_elastic_energy(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const MPI_Comm);
-  template double stress_oscillation(const std::list<SoilBody<3>> &, const BackgroundGrid<3> &);
-  template double pressure_oscillation(const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
   template WaterMeasures
   measure_water(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
 } // namespace scree

@@ -13,6 +13,47 @@ namespace scree
 {
   using namespace dealii;
 
+  /// Elastic energies of points, as many at a time as a batch has lanes.
+  template <int dim>
+  class PointSums<dim>::Energies
+  {
+  public:
+    explicit Energies(const Material<dim> &material)
+        : material(material)
+    {
+      for (unsigned int c = 0; c < n_components; ++c)
+        states[c] = simd::broadcast<Batch>(c < 3 ? 1. : 0.);
+    }
+
+    /// A point of this volume at the start, m^3 (2D: per m); adds to the `sum`, J, if the batch is full.
+    void add(const double volume, const double *left_cauchy_green, double &sum)
+    {
+      for (unsigned int c = 0; c < n_components; ++c)
+        simd::set_lane(states[c], n, left_cauchy_green[c]);
+      volumes[n] = volume;
+      if (++n == batch_size)
+        finish(sum);
+    }
+
+    /// Adds what is left.
+    void finish(double &sum)
+    {
+      const Batch energies = material.elastic_energies(states);
+      for (unsigned int lane = 0; lane < n; ++lane)
+        sum += volumes[lane] * energies[lane];
+      n = 0;
+    }
+
+  private:
+    static constexpr unsigned int n_components = n_symmetric_components<dim>;
+
+    const Material<dim> &material;
+    Batch states[n_components];
+    double volumes[batch_size];
+    unsigned int n = 0;
+  };
+
+
   template <int dim>
   PointSums<dim>::PointSums(const std::list<SoilBody<dim>> &bodies,
                             const std::list<WaterPhase<dim>> &water,
@@ -21,7 +62,16 @@ namespace scree
       : height(std::numeric_limits<double>::lowest())
   {
     for (const auto &body : bodies)
-      for_each_point(body.points, [&](const auto &point) { add(body, point.location, point.properties, gravity); });
+      {
+        Energies energies(*body.material);
+        for_each_point(body.points, [&](const auto &point) {
+          add(body, point.location, point.properties, gravity);
+          energies.add(point.properties[body.layout.mass] / body.density,
+                       point.properties + body.layout.left_cauchy_green,
+                       elastic);
+        });
+        energies.finish(elastic);
+      }
     for (const auto &one : water)
       for_each_point(one.points(), [&](const auto &point) {
         add_motion(point.properties[one.layout.mass], point.properties + one.layout.velocity, point.location, gravity);
@@ -53,7 +103,6 @@ namespace scree
     soil_points += 1;
     soil_mass += mass;
     add_motion(mass, properties + body.layout.velocity, x, gravity);
-    elastic += mass / body.density * body.material->elastic_energy(properties + body.layout.left_cauchy_green);
     pressure += P;
     largest_pressure = std::max(largest_pressure, P);
     height           = std::max(height, x[dim - 1]);

@@ -170,9 +170,10 @@ namespace scree
     Utilities::MPI::max(ends, grid.triangulation().get_communicator(), ends);
     const double height      = ends[0] + ends[1] + grid.cell_size();
     const auto look_at_depth = [&](const auto &point, const auto &name) {
-      if (bed == nullptr)
+      const double deepest = -grid.cell_size() * now[static_cast<unsigned int>(Check::depth)].value;
+      if (bed == nullptr || bed->least_distance(point.cell) >= deepest)
         return;
-      const double distance = bed->distance_of(point.cell, point.reference_location, point.location);
+      const double distance = bed->distance_of(point.cell, point.reference_location, point.location, deepest);
       if (distance < 0.)
         suspect(Check::depth, -distance / grid.cell_size(), -distance, name);
     };

@@ -30,6 +30,7 @@ namespace scree
                                 const UpdateReport &last_step)
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const std::vector<double> fronts{ 0.90, 0.99, 0.995 };
     const Snapshot<dim> now{ grid,
                              further,
                              bodies,
@@ -38,6 +39,8 @@ namespace scree
                              last_step,
                              PointSums<dim>(bodies, water, gravity, communicator),
                              water.empty() ? WaterMeasures() : measure_water(bodies, water, grid),
+                             bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, 0, fronts),
+                             water.empty() ? std::vector<double>() : mass_percentiles(water, grid, 0, fronts),
                              local.sum_over_ranks(communicator),
                              time,
                              step,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
 #include <scree/run/results.h>
 
 #include <iostream>
+#include <utility>
 
 namespace scree
 {
@@ -32,6 +34,7 @@ namespace scree
              folder)
       , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
       , balances(scene.grid, scene.forcing.gravity(), scene.forcing.is_gravity_alone())
+      , files(scene.grid.triangulation().get_communicator())
   {
   }
 
@@ -39,6 +42,7 @@ namespace scree
   template <int dim>
   void Results<dim>::report(const RunState<dim> &state, const OutputTimes &output_times)
   {
+    files.look();
     const double time          = state.time;
     const bool at_start_or_end = state.step == 0 || output_times.is_end(time);
     const bool row_is_due      = at_start_or_end || output_times.row_is_due(time);
@@ -73,9 +77,34 @@ namespace scree
   void Results<dim>::write_picture(const RunState<dim> &state)
   {
     const std::unique_ptr<WaterView<dim>> view = scheme.water_view();
-    graphics.write(scene.bodies, scheme.soil_field(), state.time, view.get());
+    FileJob job = graphics.write(scene.bodies, scheme.soil_field(), state.time, view.get());
     probes.write_lines(probed_state(state, view.get()));
-    maps.write(state.time);
+    job.stages.push_back(maps.writing(state.time));
+    job.failed = [this](const std::string &fault) {
+      folder.require_presence();
+      throw EntryError(fault);
+    };
+    files.start(std::move(job));
+  }
+
+
+  template <int dim>
+  void Results<dim>::write_checkpoint(FileJob job, const double time)
+  {
+    job.failed = [this, fail = std::move(job.failed), time](const std::string &fault) {
+      folder.require_presence();
+      try
+        {
+          fail(fault);
+        }
+      catch (const EntryError &error)
+        {
+          if (parameters.output.stops_without_checkpoint())
+            throw;
+          folder.log("No checkpoint at t = " + number_text(time) + " s: " + error.what());
+        }
+    };
+    files.start(std::move(job));
   }
 
 

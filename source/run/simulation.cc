@@ -147,8 +147,10 @@ namespace scree
             "The row at t = 0 is of the soil on its way to rest.");
         return;
       }
+    results.writer().finish();
     if (step_of_checkpoint != clock.step())
       write_checkpoint();
+    results.writer().finish();
     require_entry(
         step_of_checkpoint == clock.step(),
         "Output",
@@ -342,6 +344,9 @@ namespace scree
     if (output_times.checkpoint_is_due(clock.time()))
       write_checkpoint();
     output_times.begin(clock.time());
+    if (is_at_end())
+      results.writer().finish();
+    stop.allow_for(results.writer().longest());
   }
 
 
@@ -370,28 +375,16 @@ namespace scree
     const RunTotals<dim> own = totals;
     totals                   = totals.sum_over_ranks(communicator);
     results.sync();
-    std::string fault;
-    try
-      {
-        save_checkpoint(parameters.output_directory,
-                        clock.time(),
-                        clock.step(),
-                        parameters.entries(),
-                        scene.grid,
-                        point_sets(),
-                        [&](auto &archive) { serialize_state(archive); });
-      }
-    catch (const EntryError &error)
-      {
-        fault = error.what();
-      }
-    totals = own;
-    if (!fault.empty() && parameters.output.stops_without_checkpoint())
-      throw EntryError(fault);
-    if (fault.empty())
-      step_of_checkpoint = clock.step();
-    else
-      folder.log("No checkpoint at t = " + number_text(clock.time()) + " s: " + fault);
+    FileJob job = checkpoint_files(parameters.output_directory,
+                                   clock.time(),
+                                   clock.step(),
+                                   parameters.entries(),
+                                   scene.grid,
+                                   point_sets(),
+                                   [&](auto &archive) { serialize_state(archive); });
+    totals      = own;
+    job.done    = [this, step = clock.step()] { step_of_checkpoint = step; };
+    results.write_checkpoint(std::move(job), clock.time());
   }
 
   template class Simulation<2>;

@@ -80,6 +80,17 @@ def check_csv():
         check(len(values) == len(row) and all(abs(a - b) <= 1e-11 * abs(a) for a, b in zip(row, values)), f"statistics.csv: {values}, not {row}")
 
 
+def n_pictures():
+    """How many pictures points.pvd names: all of them are whole, and so are their pieces."""
+    folder = RESULTS / "solution"
+    series = folder / "points.pvd"
+    pictures = re.findall(r'file="([^"]+)"', series.read_text(encoding="utf-8")) if series.exists() else []
+    for picture in pictures:
+        for piece in re.findall(r'Source="([^"]+)"', (folder / picture).read_text(encoding="utf-8")):
+            check((folder / piece).read_bytes().rstrip().endswith(b"</VTKFile>"), f"{piece} is cut")
+    return len(pictures)
+
+
 def n_rows():
     return sum(line[:1] != b"#" for line in content().splitlines())
 
@@ -121,11 +132,13 @@ def options_to_go_on():
 
 def kill():
     """kill -9 at random instants, from the start of the program on, and on and on: at each of them `statistics` is the
-    beginning of the undisturbed run's and has each row that was seen before, and in the end it is all of it."""
-    write_case("case.prm", ["Statistics interval = 0.0002", "Checkpoint interval = 0.003"])
+    beginning of the undisturbed run's and has each row that was seen before, all pictures that are listed are whole,
+    and in the end it is all of it."""
+    write_case("case.prm", ["Statistics interval = 0.0002", "Checkpoint interval = 0.003", "Interval = 0.002"])
     wanted = whole_run("case.prm")
     run("case.prm")
     wanted_csv = csv_content()
+    wanted_pictures = n_pictures()
     fresh()
     chance = random.Random(20)
     n_kills = 0
@@ -143,11 +156,13 @@ def kill():
         check(process.returncode == 0 or n_rows() >= seen, f"after {n_kills} kills, of {seen} rows {n_rows()} are left")
         check(wanted.startswith(content()), f"after {n_kills} kills, statistics is no beginning of the undisturbed run's")
         check(content()[-1:] in (b"", b"\n"), f"after {n_kills} kills, a row is cut")
+        n_pictures()
         check(wanted_csv.startswith(csv_content()), f"after {n_kills} kills, statistics.csv is no beginning of the undisturbed run's")
     rows = n_rows()
     run("case.prm", *options_to_go_on())
     check(content() == wanted, "statistics differs from the undisturbed run's")
     check(csv_content() == wanted_csv, "statistics.csv differs from the undisturbed run's")
+    check(n_pictures() == wanted_pictures, f"{n_pictures()} pictures, not {wanted_pictures}")
     check_csv()
     check(n_kills > 6, f"only {n_kills} runs were killed")
     print(f"{n_kills} kills, the last after {rows} rows; {n_rows()} rows in the end, as in the undisturbed run")
@@ -173,7 +188,9 @@ def kill_two_ranks():
         wait_for(lambda: n_rows() >= rows, process)
         os.kill(int((RESULTS / "lock").read_text(encoding="utf-8").split()[1]), signal.SIGKILL)
         check(end(process)[0] != 0, "the run came to its end although a rank was killed")
+        n_pictures()
     run("case.prm", "--resume", ranks=2)
+    check(n_pictures() == 6, f"{n_pictures()} pictures, not 6")
     compare = pathlib.Path(__file__).parent.parent / "cases" / "compare_statistics.py"
     check(subprocess.call([sys.executable, compare, "whole", STATISTICS, "1e-9"]) == 0, "the rows differ")
 

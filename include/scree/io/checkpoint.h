@@ -2,6 +2,7 @@
 #ifndef scree_io_checkpoint_h
 #define scree_io_checkpoint_h
 
+#include <scree/step/background_writer.h>
 #include <scree/mesh/background_grid.h>
 #include <scree/input/case_entries.h>
 #include <scree/io/checkpoint_files.h>
@@ -24,18 +25,18 @@ namespace scree
     CaseEntries entries; ///< of the case that wrote it
   };
 
-  /// Writes `entries`, the points of all `sets` and the `state` of a run at `time` s to a new checkpoint of the run. It
-  /// gets its name when all of it has been read again and found whole; before that no older one is touched. Collective.
-  /// Throws EntryError on all ranks if that fails: it tells the file, what the checkpoint needs and what is still
-  /// there.
+  /// Gathers `entries`, the points of all `sets` and the `state` of a run at `time` s. The job writes them to a new
+  /// checkpoint of the run, which gets its name when all of it has been read again and found whole; before that no
+  /// older one is touched. If that fails, the job throws EntryError on all ranks: it tells the file, what the
+  /// checkpoint needs and what is still there. Collective.
   template <int dim>
-  void save_checkpoint(const std::string &run_folder,
-                       const double time,
-                       const std::uint64_t step,
-                       const CaseEntries &entries,
-                       const BackgroundGrid<dim> &grid,
-                       const std::vector<PointSet<dim> *> &sets,
-                       const std::function<void(boost::archive::binary_oarchive &)> &state);
+  FileJob checkpoint_files(const std::string &run_folder,
+                           const double time,
+                           const std::uint64_t step,
+                           const CaseEntries &entries,
+                           const BackgroundGrid<dim> &grid,
+                           const std::vector<PointSet<dim> *> &sets,
+                           const std::function<void(boost::archive::binary_oarchive &)> &state);
 
   /// The newest checkpoint of the run that is whole; `log` gets a line for each newer one that is not. Collective;
   /// throws EntryError if there is none.

@@ -23,8 +23,8 @@ namespace scree
     }
   };
 
-  /// Writes `content` to a file of the folder and reads it again. Throws FileError unless it came back whole.
-  CheckedFile write_checked_file(const std::string &folder, const std::string &name, const std::string &content);
+  /// What a file of this content is.
+  CheckedFile checked_file(const std::string &name, const std::string &content);
 
   /// The content of the file, or FileError unless it has its size and checksum.
   std::string read_checked_file(const std::string &folder, const CheckedFile &file);

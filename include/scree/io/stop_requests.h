@@ -2,6 +2,7 @@
 #ifndef scree_io_stop_requests_h
 #define scree_io_stop_requests_h
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 
@@ -37,6 +38,12 @@ namespace scree
     /// What this rank has been asked for. To be called once a step: the longest time between two calls tells how much
     /// of the wall time limit has to be left for the checkpoint. A file that is found is removed.
     StopReason reason();
+
+    /// What was written while steps went on may take `seconds`: as long as a step that writes it.
+    void allow_for(const double seconds)
+    {
+      longest_step = std::max(longest_step, seconds);
+    }
 
   private:
     using Time = std::chrono::steady_clock::time_point;

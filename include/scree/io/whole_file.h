@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace scree
 {
@@ -21,7 +23,13 @@ namespace scree
 
   /// Replaces `file` by one of this content, so that at any instant the old or the new one is there as a whole: writes
   /// beside it, checks, brings it to the disk (fsync) and renames. Throws FileError; the old one then stays.
-  void write_whole_file(const std::string &file, const std::string &content);
+  void write_whole_file(const std::string &file, std::string content);
+
+  /// Path and content of a file.
+  using FileContent = std::pair<std::string, std::string>;
+
+  /// The same of several files of a folder: they get their names in this order, when all of them are on the disk.
+  void write_whole_files(const std::vector<FileContent> &files);
 
   /// The content of `file`. Throws FileError.
   std::string read_whole_file(const std::string &file);

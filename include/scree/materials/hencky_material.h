@@ -25,14 +25,24 @@ namespace scree
     void
     update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const override;
 
-    double shear_modulus() const override;
-    double initial_bulk_modulus(const double pressure) const override;
+    double shear_modulus() const override
+    {
+      return law.shear_modulus();
+    }
+    double initial_bulk_modulus(const double pressure) const override
+    {
+      return law.bulk_modulus(pressure);
+    }
     double elastic_energy(const double *left_cauchy_green) const override;
+    Batch elastic_energies(const Batch *left_cauchy_green) const override;
     void initialise(const double *wanted_stress,
                     double *left_cauchy_green,
                     double *stress,
                     double *internal_variables) const override;
-    double initial_porosity() const override;
+    double initial_porosity() const override
+    {
+      return law.initial_porosity();
+    }
     bool is_elastic() const override;
     double plane_friction() const override;
     double grain_diameter() const override;
@@ -294,23 +304,20 @@ namespace scree
 
 
   template <int dim, typename Law>
-  double HenckyMaterial<dim, Law>::shear_modulus() const
-  {
-    return law.shear_modulus();
-  }
-
-
-  template <int dim, typename Law>
-  double HenckyMaterial<dim, Law>::initial_bulk_modulus(const double pressure) const
-  {
-    return law.bulk_modulus(pressure);
-  }
-
-
-  template <int dim, typename Law>
   double HenckyMaterial<dim, Law>::elastic_energy(const double *left_cauchy_green) const
   {
     return law.energy(log_strain(PrincipalFrame<dim>(left_cauchy_green).values()));
+  }
+
+
+  template <int dim, typename Law>
+  Batch HenckyMaterial<dim, Law>::elastic_energies(const Batch *left_cauchy_green) const
+  {
+    const PrincipalNumbers<Batch> strain = log_strain(PrincipalFrame<dim, Batch>(left_cauchy_green).values());
+    Batch energies;
+    for (unsigned int lane = 0; lane < batch_size; ++lane)
+      energies[lane] = law.energy({ { strain[0][lane], strain[1][lane], strain[2][lane] } });
+    return energies;
   }
 
 
@@ -325,13 +332,6 @@ namespace scree
     law.initialise(frame.values(), strain, principal_stress, internal_variables);
     left_cauchy_green_of(frame, strain, left_cauchy_green);
     frame.compose(principal_stress, stress);
-  }
-
-
-  template <int dim, typename Law>
-  double HenckyMaterial<dim, Law>::initial_porosity() const
-  {
-    return law.initial_porosity();
   }
 
 

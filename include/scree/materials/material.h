@@ -3,6 +3,7 @@
 #ifndef scree_materials_material_h
 #define scree_materials_material_h
 
+#include <scree/simd/batch.h>
 #include <scree/tensor/components.h>
 
 #include <deal.II/base/tensor.h>
@@ -135,6 +136,9 @@ namespace scree
 
     /// Stored energy, J per m^3 of reference volume, of the state `left_cauchy_green`.
     virtual double elastic_energy(const double *left_cauchy_green) const = 0;
+
+    /// The same of as many states as a batch has lanes, from their components.
+    virtual Batch elastic_energies(const Batch *left_cauchy_green) const = 0;
 
     /// State of one point that has the Cauchy stress `wanted_stress` (Pa, components) at J = 1: fills
     /// `left_cauchy_green`, `stress` and `internal_variables`, of which that of place_variable() is set before.

@@ -32,6 +32,8 @@ namespace scree
               const MPI_Comm communicator);
 
   private:
+    class Energies;
+
     void add(const SoilBody<dim> &body,
              const dealii::Point<dim> &x,
              const double *properties,

@@ -6,6 +6,7 @@
 #include <scree/postprocess/visualization/maps.h>
 #include <scree/postprocess/output_times.h>
 #include <scree/postprocess/probes.h>
+#include <scree/step/background_writer.h>
 #include <scree/io/table_file.h>
 #include <scree/run/balance_checks.h>
 #include <scree/postprocess/run_checks.h>
@@ -40,8 +41,18 @@ namespace scree
     /// Output of the state as it is. Collective.
     void write_row(const RunState<dim> &state);
 
-    /// Pictures, lines and maps of the state as it is. Collective.
+    /// Pictures, lines and maps of the state as it is: gathered here, and written while the run goes on. Collective.
     void write_picture(const RunState<dim> &state);
+
+    /// Writes the files of a checkpoint of `time`, s, while the run goes on; if that fails, it stops or tells, as the
+    /// case says. Collective.
+    void write_checkpoint(FileJob job, const double time);
+
+    /// What writes pictures, maps and checkpoints.
+    BackgroundWriter &writer()
+    {
+      return files;
+    }
 
     /// Brings all rows to the disk, before a checkpoint counts on them.
     void sync();
@@ -83,6 +94,7 @@ namespace scree
     Maps<dim> maps;
     RunChecks<dim> checks;
     BalanceChecks<dim> balances;
+    BackgroundWriter files; // the last member: its jobs use others
   };
 } // namespace scree
 

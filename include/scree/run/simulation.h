@@ -76,10 +76,11 @@ namespace scree
       results.write_row(state());
     }
 
-    /// Pictures, lines and maps of the state as it is. Collective.
+    /// Pictures, lines and maps of the state as it is, to the end. Collective.
     void write_picture()
     {
       results.write_picture(state());
+      results.writer().finish();
     }
 
     /// Bodies of soil with the points of this rank.

@@ -72,6 +72,13 @@ namespace scree
 
 
   template <int dim>
+  Batch Rigid<dim>::elastic_energies(const Batch *) const
+  {
+    return simd::broadcast<Batch>(0.);
+  }
+
+
+  template <int dim>
   void Rigid<dim>::initialise(const double *, double *left_cauchy_green, double *stress, double *) const
   {
     std::fill_n(left_cauchy_green, n_symmetric_components<dim>, 0.);

@@ -9,14 +9,6 @@ namespace scree
 {
   namespace
   {
-    /// Mass of soil below the coordinate x that is returned, m, over all of it: `part`.
-    template <int dim>
-    double soil_front(const Snapshot<dim> &now, const double part)
-    {
-      return mass_percentiles(now.bodies, now.grid, 0, { part })[0];
-    }
-
-
     template <int dim>
     double n_separated(const Snapshot<dim> &now)
     {
@@ -28,9 +20,9 @@ namespace scree
     const RegisterColumns soil_columns(
         ColumnTopic::soil,
         [](const auto &now) { return !now.bodies.empty(); },
-        Column{ "Front 90 %", "m", [](const auto &now) { return soil_front(now, 0.90); } },
-        Column{ "Front 99 %", "m", [](const auto &now) { return soil_front(now, 0.99); } },
-        Column{ "Front 99.5 %", "m", [](const auto &now) { return soil_front(now, 0.995); } },
+        Column{ "Front 90 %", "m", [](const auto &now) { return now.fronts[0]; } },
+        Column{ "Front 99 %", "m", [](const auto &now) { return now.fronts[1]; } },
+        Column{ "Front 99.5 %", "m", [](const auto &now) { return now.fronts[2]; } },
         Column{ "Height",
                 "m",
                 [](const auto &now) { return std::max(now.sums.height, now.grid.lower_corner()[now.dimension - 1]); } },

@@ -5,14 +5,6 @@ namespace scree
 {
   namespace
   {
-    /// As soil_front().
-    template <int dim>
-    double water_front(const Snapshot<dim> &now, const double part)
-    {
-      return mass_percentiles(now.water, now.grid, 0, { part })[0];
-    }
-
-
     const auto is_viscous = [](const auto &now) { return now.further.viscosity; };
 
     const RegisterColumns water_columns(
@@ -26,9 +18,9 @@ namespace scree
         Column{ "Largest p", "Pa", [](const auto &now) { return now.of_water.largest_pressure; } },
         Column{ "p oscillation", "-", [](const auto &now) { return pressure_oscillation(now.water, now.grid); } },
         Column{ "Volume error", "-", [](const auto &now) { return now.of_water.volume_error; } },
-        Column{ "Water front 90 %", "m", [](const auto &now) { return water_front(now, 0.90); } },
-        Column{ "Water front 99 %", "m", [](const auto &now) { return water_front(now, 0.99); } },
-        Column{ "Water front 99.5 %", "m", [](const auto &now) { return water_front(now, 0.995); } },
+        Column{ "Water front 90 %", "m", [](const auto &now) { return now.water_fronts[0]; } },
+        Column{ "Water front 99 %", "m", [](const auto &now) { return now.water_fronts[1]; } },
+        Column{ "Water front 99.5 %", "m", [](const auto &now) { return now.water_fronts[2]; } },
         Column{ "Water tip", "m", [](const auto &now) { return now.of_water.tip; } },
         Column{ "Largest porosity",
                 "-",

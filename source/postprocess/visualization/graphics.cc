@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/postprocess/visualization/graphics.h>
-#include <scree/io/whole_file.h>
+#include <scree/postprocess/visualization/patch_output.h>
 
 #include <deal.II/base/data_out_base.h>
 
@@ -17,18 +17,22 @@ namespace scree
       : grid(grid)
       , pictures(parameters.graphics_kind())
       , folder(run_folder + "/solution/")
+      , rank(Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()))
+      , n_ranks(Utilities::MPI::n_mpi_processes(grid.triangulation().get_communicator()))
   {
   }
 
 
   template <int dim>
-  void Graphics<dim>::write(const std::list<SoilBody<dim>> &bodies,
-                            const NodalField<dim> &field,
-                            const double time,
-                            const WaterView<dim> *view)
+  FileJob Graphics<dim>::write(const std::list<SoilBody<dim>> &bodies,
+                               const NodalField<dim> &field,
+                               const double time,
+                               const WaterView<dim> *view)
   {
+    FileJob job;
     if (pictures == Pictures::none)
-      return;
+      return job;
+    Files files;
     const bool with_grid = pictures == Pictures::points_and_grid;
 
     Cells contents;
@@ -36,42 +40,70 @@ namespace scree
     if (with_grid || view)
       contents = contents_of_cells(bodies, view ? view->water : no_water, grid);
     if (!bodies.empty())
-      write_points(bodies, field, time, view);
+      add_points(bodies, field, time, view, files);
     if (view)
-      write_water(field, time, *view, contents);
+      add_water(field, time, *view, contents, files);
     if (with_grid)
-      write_grid(field, time, view, contents);
+      add_grid(field, time, view, contents, files);
+    const auto piece_of = [](const std::string &path, const unsigned int rank) {
+      return path + '.' + std::to_string(rank) + ".vtu";
+    };
+    job.stages.resize(2);
+    job.stages[0] = [=, rank = rank] {
+      std::vector<FileContent> pieces;
+      for (const auto &[path, picture] : files.pictures)
+        pieces.emplace_back(piece_of(path, rank), picture->piece());
+      write_whole_files(pieces);
+    };
+    if (rank == 0)
+      job.stages[1] = [=, n_ranks = n_ranks] {
+        std::vector<FileContent> records;
+        for (const auto &[path, picture] : files.pictures)
+          {
+            std::vector<std::string> pieces;
+            for (unsigned int rank = 0; rank < n_ranks; ++rank)
+              pieces.push_back(piece_of(path.substr(path.rfind('/') + 1), rank));
+            records.emplace_back(path + ".pvtu", picture->record(pieces));
+          }
+        records.insert(records.end(), files.series.begin(), files.series.end());
+        write_whole_files(records);
+      };
+    return job;
   }
 
 
   template <int dim>
-  void Graphics<dim>::record(const std::string &series,
-                             std::vector<TimeAndFile> &files,
-                             const double time,
-                             const std::string &file) const
+  void Graphics<dim>::add(const std::string &series,
+                          std::vector<TimeAndFile> &pictures,
+                          const double time,
+                          const std::shared_ptr<Picture> &picture,
+                          Files &files) const
   {
-    files.emplace_back(time, file);
-    write_series(series, files);
+    const std::string name = series + '_' + Utilities::int_to_string(pictures.size(), 5);
+    pictures.emplace_back(time, name + ".pvtu");
+    files.pictures.emplace_back(folder + name, picture);
+    files.series.push_back(series_file(series, pictures));
   }
 
 
   template <int dim>
-  void Graphics<dim>::write_series(const std::string &series, const std::vector<TimeAndFile> &files) const
+  FileContent Graphics<dim>::series_file(const std::string &series, const std::vector<TimeAndFile> &pictures) const
   {
-    if (files.empty() || Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) != 0)
-      return;
     std::ostringstream text;
-    DataOutBase::write_pvd_record(text, files);
-    write_whole_file(folder + series + ".pvd", text.str());
+    DataOutBase::write_pvd_record(text, pictures);
+    return { folder + series + ".pvd", text.str() };
   }
 
 
   template <int dim>
   void Graphics<dim>::cut() const
   {
-    write_series("points", point_files);
-    write_series("water", water_files);
-    write_series("grid", grid_files);
+    std::vector<FileContent> files;
+    for (const auto &[series, pictures] :
+         { std::make_pair("points", &point_files), { "water", &water_files }, { "grid", &grid_files } })
+      if (rank == 0 && !pictures->empty())
+        files.push_back(series_file(series, *pictures));
+    write_whole_files(files);
   }
 
   template class Graphics<2>;

@@ -7,12 +7,14 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  void Graphics<dim>::write_grid(const NodalField<dim> &field,
-                                 const double time,
-                                 const WaterView<dim> *view,
-                                 const Cells &contents)
+  void Graphics<dim>::add_grid(const NodalField<dim> &field,
+                               const double time,
+                               const WaterView<dim> *view,
+                               const Cells &contents,
+                               Files &files)
   {
-    PatchOutput<dim, dim> output;
+    const auto picture            = std::make_shared<PatchOutput<dim, dim>>();
+    PatchOutput<dim, dim> &output = *picture;
     for (const OutputField &field : { fields::velocity, fields::density, fields::mean_effective_stress })
       output.add(field);
     if (view)
@@ -54,14 +56,11 @@ namespace scree
           }
         output.patches.push_back(patch);
       }
-    record("grid",
-           grid_files,
-           time,
-           output.write(folder, "grid", grid_files.size(), grid.triangulation().get_communicator()));
+    add("grid", grid_files, time, picture, files);
   }
 
   template void
-  Graphics<2>::write_grid(const NodalField<2> &, const double, const WaterView<2> *, const std::vector<CellContents> &);
+  Graphics<2>::add_grid(const NodalField<2> &, const double, const WaterView<2> *, const Cells &, Files &);
   template void
-  Graphics<3>::write_grid(const NodalField<3> &, const double, const WaterView<3> *, const std::vector<CellContents> &);
+  Graphics<3>::add_grid(const NodalField<3> &, const double, const WaterView<3> *, const Cells &, Files &);
 } // namespace scree

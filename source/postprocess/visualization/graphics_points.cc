@@ -18,16 +18,16 @@ namespace scree
     {
     public:
       Rows(PatchOutput<0, dim> &output, const Point<dim> &location)
-          : patch(output.patches.emplace_back())
+          : values(output.values)
+          , begin(values.size())
       {
-        patch.vertices[0] = location;
-        patch.patch_index = output.patches.size() - 1;
-        patch.data.reinit(output.names.size(), 1);
+        output.points.push_back(location);
+        values.resize(begin + output.names.size());
       }
 
       void put(const double value)
       {
-        patch.data(row++, 0) = value;
+        values[begin + row++] = value;
       }
       void put(const Tensor<1, dim> &vector)
       {
@@ -36,11 +36,12 @@ namespace scree
       }
       void set(const unsigned int any_row, const double value)
       {
-        patch.data(any_row, 0) = value;
+        values[begin + any_row] = value;
       }
 
     private:
-      typename PatchOutput<0, dim>::Patch &patch;
+      std::vector<float> &values;
+      const std::size_t begin;
       unsigned int row = 0;
     };
 
@@ -122,12 +123,14 @@ namespace scree
 
 
   template <int dim>
-  void Graphics<dim>::write_points(const std::list<SoilBody<dim>> &bodies,
-                                   const NodalField<dim> &field,
-                                   const double time,
-                                   const WaterView<dim> *view)
+  void Graphics<dim>::add_points(const std::list<SoilBody<dim>> &bodies,
+                                 const NodalField<dim> &field,
+                                 const double time,
+                                 const WaterView<dim> *view,
+                                 Files &files)
   {
-    PatchOutput<0, dim> output;
+    const auto picture          = std::make_shared<PatchOutput<0, dim>>();
+    PatchOutput<0, dim> &output = *picture;
     for (const OutputField &field : { fields::velocity,
                                       fields::stress,
                                       fields::mean_effective_stress,
@@ -178,20 +181,19 @@ namespace scree
           }
         ++number;
       }
-    record("points",
-           point_files,
-           time,
-           output.write(folder, "points", point_files.size(), grid.triangulation().get_communicator()));
+    add("points", point_files, time, picture, files);
   }
 
 
   template <int dim>
-  void Graphics<dim>::write_water(const NodalField<dim> &soil_field,
-                                  const double time,
-                                  const WaterView<dim> &view,
-                                  const Cells &contents)
+  void Graphics<dim>::add_water(const NodalField<dim> &soil_field,
+                                const double time,
+                                const WaterView<dim> &view,
+                                const Cells &contents,
+                                Files &files)
   {
-    PatchOutput<0, dim> output;
+    const auto picture          = std::make_shared<PatchOutput<0, dim>>();
+    PatchOutput<0, dim> &output = *picture;
     for (const OutputField &field : { fields::velocity,
                                       fields::pressure,
                                       fields::mass,
@@ -220,22 +222,21 @@ namespace scree
                          : Tensor<1, dim>());
           });
         }
-    record("water",
-           water_files,
-           time,
-           output.write(folder, "water", water_files.size(), grid.triangulation().get_communicator()));
+    add("water", water_files, time, picture, files);
   }
 
+  template void Graphics<2>::add_points(const std::list<SoilBody<2>> &,
+                                        const NodalField<2> &,
+                                        const double,
+                                        const WaterView<2> *,
+                                        Files &);
+  template void Graphics<3>::add_points(const std::list<SoilBody<3>> &,
+                                        const NodalField<3> &,
+                                        const double,
+                                        const WaterView<3> *,
+                                        Files &);
   template void
-  Graphics<2>::write_points(const std::list<SoilBody<2>> &, const NodalField<2> &, const double, const WaterView<2> *);
+  Graphics<2>::add_water(const NodalField<2> &, const double, const WaterView<2> &, const Cells &, Files &);
   template void
-  Graphics<3>::write_points(const std::list<SoilBody<3>> &, const NodalField<3> &, const double, const WaterView<3> *);
-  template void Graphics<2>::write_water(const NodalField<2> &,
-                                         const double,
-                                         const WaterView<2> &,
-                                         const std::vector<CellContents> &);
-  template void Graphics<3>::write_water(const NodalField<3> &,
-                                         const double,
-                                         const WaterView<3> &,
-                                         const std::vector<CellContents> &);
+  Graphics<3>::add_water(const NodalField<3> &, const double, const WaterView<3> &, const Cells &, Files &);
 } // namespace scree

@@ -151,49 +151,57 @@ namespace scree
 
 
   template <int dim>
-  void Maps<dim>::write(const double time) const
+  std::function<void()> Maps<dim>::writing(const double time) const
   {
     if (!parameters.write || !folder.is_writer())
-      return;
-    std::filesystem::create_directories(folder.file("maps"));
-    const std::vector<Sheet> all = sheets();
-    const std::string of_time    = '_' + time_label(time);
-    if (dim == 2)
-      {
-        write_table("profile" + of_time, all);
-        write_table("profile", all);
-        return;
-      }
-    write_map("thickness" + of_time, all.front());
-    for (const Sheet &sheet : all)
-      {
-        std::string file = sheet.name;
-        std::replace(file.begin(), file.end(), ' ', '_');
-        write_map(file, sheet);
-      }
+      return {};
+    return [this, of_time = '_' + time_label(time), all = sheets()] { write(of_time, all); };
   }
 
 
   template <int dim>
-  void Maps<dim>::write_table(const std::string &name, const std::vector<Sheet> &all) const
+  void Maps<dim>::write(const std::string &of_time, const std::vector<Sheet> &all) const
+  {
+    std::filesystem::create_directories(folder.file("maps"));
+    if (dim == 2)
+      {
+        const std::string text = table(all);
+        write_whole_files(
+            { { folder.file("maps/profile" + of_time + ".csv"), text }, { folder.file("maps/profile.csv"), text } });
+        return;
+      }
+    std::vector<FileContent> files;
+    add_map("thickness" + of_time, all.front(), files);
+    for (const Sheet &sheet : all)
+      {
+        std::string file = sheet.name;
+        std::replace(file.begin(), file.end(), ' ', '_');
+        add_map(file, sheet, files);
+      }
+    write_whole_files(files);
+  }
+
+
+  template <int dim>
+  std::string Maps<dim>::table(const std::vector<Sheet> &all) const
   {
     std::vector<std::string> columns{ "x (m)" };
     for (const Sheet &sheet : all)
       columns.push_back(sheet.name + " (" + sheet.unit + ')');
     std::string text = csv_head(columns);
-    for (std::size_t c = 0; c < mass.size(); ++c)
+    for (std::size_t c = 0; c < n[0]; ++c)
       {
         std::vector<double> row{ grid.lower_corner()[0] + (c + 0.5) * grid.cell_size() };
         for (const Sheet &sheet : all)
           row.push_back(sheet.values[c]);
         text += csv_row(row);
       }
-    folder.write("maps/" + name + ".csv", text);
+    return text;
   }
 
 
   template <int dim>
-  void Maps<dim>::write_map(const std::string &file, const Sheet &sheet) const
+  void Maps<dim>::add_map(const std::string &file, const Sheet &sheet, std::vector<FileContent> &files) const
   {
     const double least = 1e-6 * grid.cell_size(); // less soil comes from rounding
     Raster raster;
@@ -207,17 +215,17 @@ namespace scree
     for (std::size_t c = 0; c < raster.values.size(); ++c)
       if (sheet.soil[c] <= least)
         raster.values[c] = std::numeric_limits<double>::quiet_NaN();
-    const std::string path = "maps/" + file;
+    const std::string path = folder.file("maps/" + file);
     if (parameters.writes_geo_tiff())
-      folder.write(path + ".tif", geo_tiff(raster, sheet.name, sheet.unit));
+      files.emplace_back(path + ".tif", geo_tiff(raster, sheet.name, sheet.unit));
     if (!parameters.writes_ascii_grid())
       return;
-    folder.write(path + ".asc", ascii_grid(raster));
+    files.emplace_back(path + ".asc", ascii_grid(raster));
     const std::string system = frame.system.empty() ? "" : prj_text(frame.system);
     if (system.empty()) // Nothing of an earlier run may tell another one.
-      std::filesystem::remove(folder.file(path + ".prj"));
+      std::filesystem::remove(path + ".prj");
     else
-      folder.write(path + ".prj", system);
+      files.emplace_back(path + ".prj", system);
   }
 
   template class Maps<2>;

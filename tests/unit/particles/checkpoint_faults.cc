@@ -97,10 +97,12 @@ struct Run
   void save(const std::string &folder)
   {
     const CaseEntries entries("\tEnd time\t" + std::to_string(state) + "\t\n");
-    save_checkpoint<dim>(
+    BackgroundWriter writer(MPI_COMM_WORLD);
+    writer.start(checkpoint_files<dim>(
         folder, 0.1 * state, std::uint64_t(state), entries, grid, { &points, &none }, [&](auto &archive) {
           archive << state;
-        });
+        }));
+    writer.finish();
   }
 
   void load(const std::string &folder, const std::function<void(const std::string &)> &log)

@@ -116,9 +116,11 @@ void test_graphics(std::ostream &out)
                               corners.fill(100.);
                               return corners;
                             } };
-  graphics.write(scene.bodies, scene.soil_field, 0., &view);
-  graphics.write({}, scene.soil_field, 1., &view); // a pure water scene has no series of soil points
-  graphics.write(scene.bodies, scene.soil_field, 2.);
+  BackgroundWriter writer(MPI_COMM_WORLD);
+  writer.start(graphics.write(scene.bodies, scene.soil_field, 0., &view));
+  writer.start(graphics.write({}, scene.soil_field, 1., &view)); // pure water has no series of soil points
+  writer.start(graphics.write(scene.bodies, scene.soil_field, 2.));
+  writer.finish();
   MPI_Barrier(MPI_COMM_WORLD);
   for (const std::string file :
        { "points_00000", "water_00000", "grid_00000", "points_00001", "water_00001", "grid_00002" })

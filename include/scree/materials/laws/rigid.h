@@ -18,6 +18,7 @@ namespace scree
     double shear_modulus() const override;
     double initial_bulk_modulus(const double pressure) const override;
     double elastic_energy(const double *left_cauchy_green) const override;
+    Batch elastic_energies(const Batch *left_cauchy_green) const override;
     void initialise(const double *wanted_stress,
                     double *left_cauchy_green,
                     double *stress,

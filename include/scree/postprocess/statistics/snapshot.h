@@ -51,6 +51,8 @@ namespace scree
     const UpdateReport &last_step;           ///< of this rank
     const PointSums<dim> sums;               ///< of one pass over all points
     const WaterMeasures of_water;            ///< 0 without water
+    const std::vector<double> fronts;        ///< of the soil: x below which 90, 99 and 99.5 % of its mass are, m
+    const std::vector<double> water_fronts;  ///< the same of the water
     const RunTotals<dim> totals;             ///< since the start
     const double time;                       ///< s
     const unsigned long long step;           ///< steps of the run

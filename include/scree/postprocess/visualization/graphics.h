@@ -4,16 +4,21 @@
 
 #include <scree/postprocess/cell_contents.h>
 #include <scree/postprocess/visualization/interpolation.h>
+#include <scree/step/background_writer.h>
 #include <scree/io/output_parameters.h>
+#include <scree/io/whole_file.h>
 #include <scree/transfer/water_view.h>
 
 #include <list>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace scree
 {
+  class Picture;
+
   /// The folder `solution` of a run: `.pvtu` files of points, of water points and of grid cells that hold points, and a
   /// `.pvd` of each.
   template <int dim>
@@ -24,7 +29,7 @@ namespace scree
     /// @param run_folder path
     Graphics(const BackgroundGrid<dim> &grid, const OutputParameters &parameters, const std::string &run_folder);
 
-    /// Writes the state at `time` under the next number. Collective.
+    /// Gathers the state at `time` under the next number; the job writes it, a `.pvd` last.
     /// Fields have the names and units of output_field.h. Points (if there is soil): velocity (m/s), stress (Pa,
     /// tension positive, 3 x 3), mean_effective_stress P, deviatoric_stress q (Pa), stress_ratio q/P, mass (kg), volume
     /// (m^3), body (number), id (lasting, unique in its body), displacement (m, if points keep their start), and the
@@ -37,10 +42,10 @@ namespace scree
     /// porosity and saturation of the cells. Water points, or soil points seen as carriers of water: velocity (m/s),
     /// pressure (Pa), mass (kg) and volume (m^3) of the water, porosity of the soil in the cell (1 without soil),
     /// inside_soil (1 in cells with soil points, else 0) and seepage_velocity (m/s, 0 without soil).
-    void write(const std::list<SoilBody<dim>> &bodies,
-               const NodalField<dim> &field,
-               const double time,
-               const WaterView<dim> *view = nullptr);
+    FileJob write(const std::list<SoilBody<dim>> &bodies,
+                  const NodalField<dim> &field,
+                  const double time,
+                  const WaterView<dim> *view = nullptr);
 
     /// After the state has been read from a checkpoint: takes the pictures that were written after it off the lists.
     void cut() const;
@@ -56,26 +61,43 @@ namespace scree
     using TimeAndFile = std::pair<double, std::string>;
     using Cells       = std::vector<CellContents>; // by active cell index
 
-    void write_points(const std::list<SoilBody<dim>> &bodies,
-                      const NodalField<dim> &field,
-                      const double time,
-                      const WaterView<dim> *view);
-    void write_water(const NodalField<dim> &soil_field,
-                     const double time,
-                     const WaterView<dim> &view,
-                     const Cells &contents);
-    void write_grid(const NodalField<dim> &field, const double time, const WaterView<dim> *view, const Cells &contents);
+    /// What is gathered at a time: paths without what follows a picture's name, and the `.pvd` of each series.
+    struct Files
+    {
+      std::vector<std::pair<std::string, std::shared_ptr<Picture>>> pictures;
+      std::vector<FileContent> series;
+    };
 
-    /// Adds `file` to a series and writes its `.pvd`.
-    void record(const std::string &series,
-                std::vector<TimeAndFile> &files,
-                const double time,
-                const std::string &file) const;
-    void write_series(const std::string &series, const std::vector<TimeAndFile> &files) const;
+    void add_points(const std::list<SoilBody<dim>> &bodies,
+                    const NodalField<dim> &field,
+                    const double time,
+                    const WaterView<dim> *view,
+                    Files &files);
+    void add_water(const NodalField<dim> &soil_field,
+                   const double time,
+                   const WaterView<dim> &view,
+                   const Cells &contents,
+                   Files &files);
+    void add_grid(const NodalField<dim> &field,
+                  const double time,
+                  const WaterView<dim> *view,
+                  const Cells &contents,
+                  Files &files);
+
+    /// Adds a picture to a series.
+    void add(const std::string &series,
+             std::vector<TimeAndFile> &pictures,
+             const double time,
+             const std::shared_ptr<Picture> &picture,
+             Files &files) const;
+
+    /// The `.pvd` of a series.
+    FileContent series_file(const std::string &series, const std::vector<TimeAndFile> &pictures) const;
 
     const BackgroundGrid<dim> &grid;
     const Pictures pictures;
     const std::string folder;
+    const unsigned int rank, n_ranks;
     std::vector<TimeAndFile> point_files, water_files, grid_files;
   };
 } // namespace scree

@@ -6,9 +6,11 @@
 #include <scree/io/output_parameters.h>
 #include <scree/io/run_folder.h>
 #include <scree/io/time_label.h>
+#include <scree/io/whole_file.h>
 #include <scree/bodies/soil_body.h>
 
 #include <array>
+#include <functional>
 #include <list>
 #include <string>
 #include <utility>
@@ -40,8 +42,9 @@ namespace scree
     /// Takes the state at `time`, s, into the maps. Collective.
     void sample(const std::list<SoilBody<dim>> &bodies, const double time);
 
-    /// Writes all maps as of the last sample, and the thickness (in 2D the table) also under a name with its `time`, s.
-    void write(const double time) const;
+    /// What writes all maps as of the last sample, and the thickness (in 2D the table) also under a name with its
+    /// `time`, s; empty if there is nothing to write. The maps may change before it is called.
+    std::function<void()> writing(const double time) const;
 
     /// Saves or loads the maps as of the last sample (Boost).
     template <class Archive>
@@ -65,11 +68,13 @@ namespace scree
     /// All maps as of the last sample. Arrival times are nan where there is none.
     std::vector<Sheet> sheets() const;
 
+    void write(const std::string &of_time, const std::vector<Sheet> &all) const;
+
     /// A map in space, in each format that the case asks for.
-    void write_map(const std::string &file, const Sheet &sheet) const;
+    void add_map(const std::string &file, const Sheet &sheet, std::vector<FileContent> &files) const;
 
     /// All maps in the plane: a row a column of cells, with the x of its middle.
-    void write_table(const std::string &name, const std::vector<Sheet> &all) const;
+    std::string table(const std::vector<Sheet> &all) const;
 
     /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
     /// columns outside the box counts for those at its edge, so that the weights' sum is 1.

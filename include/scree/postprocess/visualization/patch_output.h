@@ -2,12 +2,9 @@
 #ifndef scree_postprocess_visualization_patch_output_h
 #define scree_postprocess_visualization_patch_output_h
 
-#include <scree/input/input_error.h>
-#include <scree/io/whole_file.h>
 #include <scree/postprocess/visualization/output_field.h>
 
 #include <deal.II/base/data_out_base.h>
-#include <deal.II/base/mpi.h>
 
 #include <sstream>
 #include <string>
@@ -16,9 +13,22 @@
 
 namespace scree
 {
+  /// Fields at one time that have been gathered to be written.
+  class Picture
+  {
+  public:
+    virtual ~Picture() = default;
+
+    /// Text of this rank's `.vtu`.
+    virtual std::string piece() = 0;
+
+    /// Text of the `.pvtu` that names the `pieces` of all ranks.
+    virtual std::string record(const std::vector<std::string> &pieces) const = 0;
+  };
+
   /// Patches with their names, as deal.II's writers want them: points are patches of dimension 0.
   template <int patch_dim, int dim>
-  class PatchOutput : public dealii::DataOutInterface<patch_dim, dim>
+  class PatchOutput : public Picture, public dealii::DataOutInterface<patch_dim, dim>
   {
     using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
     using Range          = std::tuple<unsigned int, unsigned int, std::string, Interpretation>;
@@ -26,8 +36,10 @@ namespace scree
   public:
     using Patch = dealii::DataOutBase::Patch<patch_dim, dim>; ///< geometry and data of a point or cell
 
-    std::vector<Patch> patches;     ///< patches to be written
-    std::vector<std::string> names; ///< labels of the rows of a patch's data
+    std::vector<Patch> patches;             ///< patches to be written
+    std::vector<std::string> names;         ///< labels of the rows of a patch's data
+    std::vector<dealii::Point<dim>> points; ///< points to be written, of which piece() makes patches
+    std::vector<float> values;              ///< the rows of the points' data, one point after the other
 
     /// A field: of the rows of the patches' data one for a scalar, `dim` for a vector, nine for a tensor.
     void add(const OutputField &field)
@@ -40,39 +52,34 @@ namespace scree
         names.push_back(field.label());
     }
 
-    /// Writes `<folder>/<name>_<number>.pvtu` and a `.vtu` a rank; returns the name of the former. Collective; throws
-    /// EntryError on all ranks if a file cannot be written.
-    std::string
-    write(const std::string &folder, const std::string &name, const unsigned int number, const MPI_Comm communicator)
+    /// See Picture.
+    std::string piece() override
     {
-      namespace MPI = dealii::Utilities::MPI;
       dealii::DataOutBase::VtkFlags flags;
       flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
       this->set_flags(flags);
+      patches.reserve(patches.size() + points.size());
+      auto value = values.begin();
+      for (const auto &point : points)
+        {
+          Patch &patch      = patches.emplace_back();
+          patch.patch_index = patches.size() - 1;
+          patch.vertices[0] = point;
+          patch.data.reinit(names.size(), 1);
+          for (unsigned int row = 0; row < names.size(); ++row)
+            patch.data(row, 0) = *value++;
+        }
+      std::ostringstream text;
+      this->write_vtu(text);
+      return with_component_names(text.str());
+    }
 
-      const std::string picture = name + '_' + dealii::Utilities::int_to_string(number, 5);
-      std::vector<std::string> pieces;
-      for (unsigned int rank = 0; rank < MPI::n_mpi_processes(communicator); ++rank)
-        pieces.push_back(picture + '.' + std::to_string(rank) + ".vtu");
-      std::string fault;
-      try
-        {
-          const unsigned int rank = MPI::this_mpi_process(communicator);
-          std::ostringstream piece, record;
-          this->write_vtu(piece);
-          write_whole_file(folder + pieces[rank], with_component_names(piece.str()));
-          if (rank == 0)
-            {
-              this->write_pvtu_record(record, pieces);
-              write_whole_file(folder + picture + ".pvtu", with_component_names(record.str()));
-            }
-        }
-      catch (const FileError &error)
-        {
-          fault = error.what();
-        }
-      throw_on_all_ranks(fault, communicator);
-      return picture + ".pvtu";
+    /// See Picture.
+    std::string record(const std::vector<std::string> &pieces) const override
+    {
+      std::ostringstream text;
+      this->write_pvtu_record(text, pieces);
+      return with_component_names(text.str());
     }
 
   private:

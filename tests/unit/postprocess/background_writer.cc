@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Files that are written while a run goes on: the order of stages and jobs, faults of one rank, and the end of a run.
+#include "../unit_test.h"
+
+#include <scree/step/background_writer.h>
+#include <scree/io/whole_file.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <future>
+#include <iostream>
+#include <mutex>
+
+namespace test_background_writer
+{
+using namespace scree;
+using namespace dealii;
+
+/// What this rank has done, in its order.
+class Record
+{
+public:
+  std::function<void()> writes(const std::string &text)
+  {
+    return [this, text] {
+      const std::lock_guard<std::mutex> guard(mutex);
+      lines += text + '\n';
+    };
+  }
+
+  std::string take()
+  {
+    const std::lock_guard<std::mutex> guard(mutex);
+    return std::exchange(lines, "");
+  }
+
+private:
+  std::mutex mutex;
+  std::string lines;
+};
+
+void print(const std::string &text)
+{
+  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    std::cout << text << std::flush;
+}
+
+/// A job of two stages, the second one of the first rank alone.
+FileJob job(Record &record, const std::string &name)
+{
+  FileJob job;
+  job.stages = { record.writes(name + ": pieces"), {} };
+  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    job.stages[1] = record.writes(name + ": record");
+  job.done   = record.writes(name + ": done");
+  job.failed = [&record, name](const std::string &fault) { record.writes(name + ": failed: " + fault)(); };
+  return job;
+}
+
+void run()
+{
+  Record record;
+  std::promise<void> disk;
+  const std::shared_future<void> is_free = disk.get_future().share();
+  {
+    BackgroundWriter writer(MPI_COMM_WORLD);
+    FileJob slow   = job(record, "slow");
+    slow.stages[0] = [is_free, write = slow.stages[0]] {
+      is_free.wait();
+      write();
+    };
+    writer.start(std::move(slow));
+    writer.start(job(record, "next"));
+    writer.look();
+    print("while the disk is busy: " + record.take() + '\n');
+    disk.set_value();
+    writer.finish();
+    print(record.take());
+
+    FileJob refused  = job(record, "refused");
+    const auto ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == ranks - 1)
+      refused.stages[0] = [] { throw FileError("the last rank finds no room"); };
+    writer.start(std::move(refused));
+    writer.start(job(record, "after it"));
+    writer.finish();
+    print(record.take());
+
+    // A run that ends by an error keeps what it had begun to write: all of it on one rank.
+    writer.start(job(record, "last"));
+    writer.start(job(record, "waiting"));
+  }
+  print("at the end:\n" + record.take());
+}
+
+const UnitTest registered_test("background_writer", run);
+} // namespace test_background_writer
