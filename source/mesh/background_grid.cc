@@ -61,7 +61,7 @@ namespace scree
     template <int dim>
     unsigned int levels_of_box(const CellsOfBox<dim> &box)
     {
-      constexpr double few  = 1000;
+      constexpr double few  = 100;
       unsigned int n_levels = 0;
       const auto n_coarse   = [&] {
         double product = 1;

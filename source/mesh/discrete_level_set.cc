@@ -11,6 +11,21 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Of a place of the lattice; that of a surface that moves may lie outside the box.
+    template <int dim>
+    std::uint64_t key_of(const CellPlace<dim> &place)
+    {
+      constexpr unsigned int n_bits = 64 / dim;
+      std::uint64_t key             = 0;
+      for (const int number : place)
+        key = key << n_bits | (static_cast<std::uint64_t>(number) & ((std::uint64_t(1) << n_bits) - 1));
+      return key;
+    }
+  } // namespace
+
+
   template <int dim>
   DiscreteLevelSet<dim>::DiscreteLevelSet(const BackgroundGrid<dim> &grid,
                                           const LevelSet<dim> &surface,
@@ -70,20 +85,13 @@ namespace scree
     corners.clear();
     least.clear();
     on_all_ranks(grid.triangulation().get_communicator(), [&] { sample(); });
-    if (!is_moving())
-      seen.clear();
   }
 
 
   template <int dim>
   const SurfaceView<dim> &DiscreteLevelSet<dim>::at_vertex(const CellPlace<dim> &corner)
   {
-    // Corners of a surface that moves may lie outside the box.
-    constexpr unsigned int n_bits = 64 / dim;
-    std::uint64_t key             = 0;
-    for (const int number : corner)
-      key = key << n_bits | (static_cast<std::uint64_t>(number) & ((std::uint64_t(1) << n_bits) - 1));
-    const auto [entry, is_new] = seen.emplace(key, SurfaceView<dim>());
+    const auto [entry, is_new] = seen.emplace(key_of<dim>(corner), SurfaceView<dim>());
     if (is_new)
       entry->second = surface.view(grid.fine_cells().box().corner(corner), reach() + std::sqrt(dim) * grid.cell_size());
     return entry->second;
@@ -108,8 +116,14 @@ namespace scree
         Point<dim> middle = grid.fine_cells().box().corner(first);
         for (unsigned int a = 0; a < dim; ++a)
           middle[a] += 0.5 * width;
-        const double of_middle = is_moving() ? at_vertex(inner).distance : surface.view(middle, far).distance;
-        if (std::abs(of_middle) >= far)
+        const auto distance_of_middle = [&] {
+          // A key that no corner of a surface at rest has.
+          const auto [entry, is_new] = seen.emplace(~key_of<dim>(cell.place), SurfaceView<dim>());
+          if (is_new)
+            entry->second = surface.view(middle, far);
+          return entry->second.distance;
+        };
+        if (std::abs(is_moving() ? at_vertex(inner).distance : distance_of_middle()) >= far)
           continue;
         const std::size_t begin = corners.size();
         double smallest = far, largest = -far;

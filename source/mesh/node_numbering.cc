@@ -117,19 +117,21 @@ namespace scree
     const unsigned int n_nodes  = n_nodes_per_cell();
     // Nodes that live in no fine cell, by the number of that cell and which one of its nodes it is.
     std::map<std::pair<std::uint64_t, unsigned int>, unsigned int> homeless;
-    const auto for_nodes = [&](const auto &act) {
-      for (const Cell &cell : cells.cells())
-        if (cells.is_owned(cell))
-          for (unsigned int i = 0; i < n_nodes; ++i)
+    // Of each node of this rank's cells: the cell it lives in and which one it is there, or `none` and its number.
+    std::vector<std::pair<unsigned int, unsigned int>> found;
+    found.reserve(cells.cells().size() * n_nodes);
+    for (const Cell &cell : cells.cells())
+      for (unsigned int i = 0; cells.is_owned(cell) && i < n_nodes; ++i)
+        {
+          const auto [place, node] = home(cell.place, i, cells.box().n);
+          found.emplace_back(cells.find(place), node);
+          if (found.back().first == none)
             {
-              const auto [place, node] = home(cell.place, i, cells.box().n);
-              act(std::size_t(cell.index) * n_nodes + i, place, node, cells.find(place));
+              const auto [entry, is_new] = homeless.emplace(std::make_pair(curve_number<dim>(place), node), n_owned);
+              n_owned += is_new;
+              found.back().second = entry->second;
             }
-    };
-    for_nodes([&](const std::size_t, const CellPlace<dim> &place, const unsigned int node, const unsigned int c) {
-      if (c == none && homeless.emplace(std::make_pair(curve_number<dim>(place), node), n_owned).second)
-        ++n_owned;
-    });
+        }
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
         communicator, n_owned)[Utilities::MPI::this_mpi_process(communicator)];
     const types::global_dof_index first = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
@@ -138,12 +140,16 @@ namespace scree
     std::vector<types::global_dof_index> numbers(std::size_t(cells.mesh().n_active_cells()) * n_nodes,
                                                  numbers::invalid_dof_index),
         foreign;
-    for_nodes([&](const std::size_t entry, const CellPlace<dim> &place, const unsigned int node, const unsigned int c) {
-      numbers[entry] =
-          c == none ? first + homeless.at({ curve_number<dim>(place), node }) : homes[std::size_t(c) * n_nodes + node];
-      if (c != none && !cells.is_owned(cells.cells()[c]))
-        foreign.push_back(numbers[entry]);
-    });
+    const auto *home_of = found.data();
+    for (const Cell &cell : cells.cells())
+      for (unsigned int i = 0; cells.is_owned(cell) && i < n_nodes; ++i)
+        {
+          const auto [c, node] = *home_of++;
+          auto &number         = numbers[std::size_t(cell.index) * n_nodes + i];
+          number               = c == none ? first + node : homes[std::size_t(c) * n_nodes + node];
+          if (c != none && !cells.is_owned(cells.cells()[c]))
+            foreign.push_back(number);
+        }
     std::sort(foreign.begin(), foreign.end());
     foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
     IndexSet ghosts(owned.size());

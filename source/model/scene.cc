@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -297,20 +298,67 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Adds the blocks on the way of a point at `x`, as long as `path`, m, in the box: straight on, but along the
+    /// ground where that is near.
+    template <int dim>
+    void append_way(const Point<dim> &x,
+                    Tensor<1, dim> path,
+                    const LevelSet<dim> &ground,
+                    const BackgroundGrid<dim> &grid,
+                    Blocks &blocks)
+    {
+      const std::size_t n_before = blocks.size();
+      grid.append_blocks(x, Tensor<1, dim>(), blocks);
+      const double block = 2. * grid.cell_size(), length = path.norm();
+      if (blocks.size() == n_before || !(length > block) || !std::isfinite(length))
+        return;
+      const std::uint64_t own = blocks.back();
+      const double reach = 1.5 * block, height = ground.view(x, reach).distance;
+      const double end = std::min(length, (grid.upper_corner() - grid.lower_corner()).norm());
+      Point<dim> place = x;
+      path *= block / length;
+      for (double way = 0.; way < end; way += block)
+        {
+          Point<dim> next             = place + path;
+          const SurfaceView<dim> view = ground.view(next, reach);
+          next -= (view.distance - height) * view.normal;
+          bool is_in_box = true;
+          for (unsigned int a = 0; a < dim; ++a)
+            is_in_box = is_in_box && next[a] > grid.lower_corner()[a] && next[a] < grid.upper_corner()[a];
+          if (!is_in_box)
+            break;
+          grid.append_blocks(next, Tensor<1, dim>(), blocks);
+          path = next - place;
+          path *= block / std::max(path.norm(), 1e-3 * block);
+          place = next;
+        }
+      blocks.push_back(own);
+    }
+  } // namespace
+
+
   template <int dim>
   Blocks Scene<dim>::blocks_of_points(const double time) const
   {
     Blocks blocks;
     const auto append = [&](const PointSet<dim> &points, const unsigned int velocity) {
       for_each_point(points, [&](const auto &point) {
-        const double *v = point.properties + velocity;
-        grid.append_blocks(point.location, time * Tensor<1, dim>(make_array_view(v, v + dim)), blocks);
+        const double *v           = point.properties + velocity;
+        const Tensor<1, dim> path = time * Tensor<1, dim>(make_array_view(v, v + dim));
+        if (ground)
+          append_way(point.location, path, *ground, grid, blocks);
+        else
+          grid.append_blocks(point.location, path, blocks);
       });
     };
-    for (const auto &body : bodies)
-      append(body.points, body.layout.velocity);
-    for (const auto &part : water)
-      append(part.points(), part.layout.velocity);
+    on_all_ranks(communicator, [&] { // An expression of the ground may be no number somewhere.
+      for (const auto &body : bodies)
+        append(body.points, body.layout.velocity);
+      for (const auto &part : water)
+        append(part.points(), part.layout.velocity);
+    });
     for (const auto &inflow : inflows)
       if (inflow.is_open)
         blocks.insert(blocks.end(), inflow.blocks().begin(), inflow.blocks().end());

@@ -22,6 +22,21 @@ namespace scree
   };
 
 
+  namespace
+  {
+    /// Whether a point is no longer in its cell; those in neighbouring cells have been handed over.
+    template <int dim>
+    bool any_outside_its_cell(const std::vector<CellPoints<dim>> &cells)
+    {
+      for (const CellPoints<dim> &cell : cells)
+        for (unsigned int p = 0; p < cell.n_points; ++p)
+          if (!GeometryInfo<dim>::is_inside_unit_cell(cell.reference_location_of(p)))
+            return true;
+      return false;
+    }
+  } // namespace
+
+
   template <int dim>
   PointSet<dim>::PointSet(const Triangulation<dim> &triangulation,
                           const Mapping<dim> &mapping,
@@ -208,10 +223,18 @@ namespace scree
     if (disorder != Disorder::none)
       for (const Record &record : emigrants.exchange())
         insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
-    if (disorder == Disorder::far)
-      sort();
-    else if (!leavers.empty() || lists.has_entrants())
+    if (!leavers.empty() || lists.has_entrants())
       lists.update();
+    if (disorder != Disorder::far)
+      return;
+    if (Utilities::MPI::max(int(any_outside_its_cell(cells())), mesh.get_communicator()) == 1)
+      {
+        sort();
+        return;
+      }
+    // deal.II's sort would ask the mesh for the cells around each vertex.
+    lift();
+    put_down();
   }
 
 

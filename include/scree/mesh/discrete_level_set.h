@@ -106,7 +106,7 @@ namespace scree
     std::array<unsigned int, n_vertices> corner_offset;       // of the corners of one cell of the lattice
     CellPlace<dim> whole_cells{};                             // that the surface has moved
     dealii::Tensor<1, dim> part_of_cell;                      // the rest, from 0 to 1
-    std::unordered_map<std::uint64_t, SurfaceView<dim>> seen; // corners are shared by cells
+    std::unordered_map<std::uint64_t, SurfaceView<dim>> seen; // of cells, now or before
     std::vector<unsigned int> entry_of_cell;                  // by active cell index
     std::vector<SurfaceView<dim>> corners;                    // of the near cells
     std::vector<double> least;

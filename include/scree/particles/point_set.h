@@ -39,7 +39,7 @@ namespace scree
   ///
   /// Points that change cells keep their record's slot: the handler only lists it in another cell, or passes it on to
   /// the neighbouring rank. So a step costs nothing for empty cells and little for points that stay. Now and then
-  /// deal.II's own sort brings the records of a cell together in memory again; when it does changes no result.
+  /// all are put down anew, which brings the records of a cell together in memory again; when changes no result.
   template <int dim>
   class PointSet
   {
