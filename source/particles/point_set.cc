@@ -76,8 +76,10 @@ namespace scree
     for (std::size_t l = 0; l < leavers.size(); ++l)
       hand_on(leavers[l].to, carried[l]);
     n_moved += leavers.size();
-    if (!found_all || n_moved > most_moved * n_points())
+    if (!found_all)
       return Disorder::far;
+    if (n_moved > most_moved * n_points())
+      return Disorder::scattered;
     return emigrants.is_empty() ? Disorder::none : Disorder::beside_a_border;
   }
 
@@ -209,9 +211,17 @@ namespace scree
       for (const Record &record : emigrants.exchange())
         insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
     if (disorder == Disorder::far)
-      sort();
-    else if (!leavers.empty() || lists.has_entrants())
+      {
+        sort();
+        return;
+      }
+    if (!leavers.empty() || lists.has_entrants())
       lists.update();
+    if (disorder == Disorder::scattered)
+      {
+        lift();
+        put_down();
+      }
   }
 
 
