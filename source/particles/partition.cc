@@ -145,11 +145,19 @@ namespace scree
       return false;
 
     const std::array<WorkOfRanks, 3> works = collect();
-    constexpr double most                  = 0.55; // of a step
-    const auto is_most                     = [&](const Weights of) {
-      return works[unsigned(of)].mean > most * works[unsigned(Weights::all)].mean;
-    };
-    weights = is_most(Weights::costs) ? Weights::costs : is_most(Weights::points) ? Weights::points : Weights::all;
+    const auto mean                        = [&](const Weights of) { return works[unsigned(of)].mean; };
+    const double in_points = mean(Weights::points) + mean(Weights::costs), all = mean(Weights::all);
+    // Ranks meet between the works: the sum of their largest times is least where over half of the work is even.
+    // Works of about the same length must not take turns.
+    constexpr double clearly = 1.25;
+    if (all > 2. * in_points)
+      weights = Weights::all;
+    else if (mean(Weights::costs) > clearly * mean(Weights::points))
+      weights = Weights::costs;
+    else if (mean(Weights::points) > clearly * mean(Weights::costs))
+      weights = Weights::points;
+    else if (weights == Weights::all)
+      weights = Weights::costs;
     surplus += works[unsigned(weights)].largest - works[unsigned(weights)].mean;
     // So changes in vain, where cells are too few to be shared out evenly, take no longer than what they answer.
     return surplus > duration;

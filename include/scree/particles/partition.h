@@ -25,7 +25,7 @@ namespace scree
   ///
   /// A cut through the mesh's curve of cells can even out one kind of work: sorting and points to grid cost the same
   /// for each point, the law up to fifteen times more where the soil yields, and not all points touch the ground. It
-  /// evens out the work that takes most of a step, or the sum where none does.
+  /// evens out the longer one of the first two, or the sum of all where contact takes over half of it.
   ///
   /// Costs are times of the processor, so on several ranks the partition may differ from run to run; results then
   /// differ by rounding.
