@@ -2,9 +2,18 @@
 #include <scree/particles/cell_costs.h>
 
 #include <algorithm>
+#include <ctime>
 
 namespace scree
 {
+  double thread_time()
+  {
+    timespec time;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return time.tv_sec + 1e-9 * time.tv_nsec;
+  }
+
+
   void CellCosts::reinit(const unsigned int n_cells)
   {
     cells.assign(n_cells, Cell());
@@ -33,5 +42,18 @@ namespace scree
       return otherwise;
     const Cell &own = cells[cell];
     return own.n_measurements == 1 ? own.sum : (own.sum - own.largest) / (own.n_measurements - 1);
+  }
+
+
+  void CellCosts::add_contacts(const unsigned int cell, const unsigned int n_points, const double seconds)
+  {
+    cells[cell].contacts += seconds / n_points;
+  }
+
+
+  double CellCosts::of_contacts(const unsigned int cell) const
+  {
+    return cell < cells.size() && cells[cell].n_measurements > 0 ? cells[cell].contacts / cells[cell].n_measurements
+                                                                 : 0.;
   }
 } // namespace scree

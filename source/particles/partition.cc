@@ -12,8 +12,6 @@ namespace scree
 
   namespace
   {
-    using WallClock = std::chrono::steady_clock;
-
     constexpr unsigned int steps_between_looks        = 50;
     constexpr unsigned int steps_between_measurements = 10;
     constexpr double cost_of_unmeasured_point         = 1e-7; // s
@@ -28,7 +26,7 @@ namespace scree
       , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
       , typical_costs(sets.size(), cost_of_unmeasured_point)
       , weight_signal(mesh.signals.weight.connect([this](const auto &cell, const auto) { return weight_of(cell); }))
-      , last(WallClock::now())
+      , last(thread_time())
   {
   }
 
@@ -41,7 +39,7 @@ namespace scree
     if (n_steps++ % steps_between_measurements == 0)
       for (PointSet<dim> *points : sets)
         points->costs().time_next_pass();
-    last = WallClock::now();
+    last = thread_time();
   }
 
 
@@ -50,27 +48,16 @@ namespace scree
   {
     if (n_ranks == 1)
       return;
-    const auto now = WallClock::now();
-    add(finished, std::chrono::duration<double>(now - last).count());
+    const double now = thread_time();
+    add(finished, now - last);
     last = now;
-  }
-
-
-  template <int dim>
-  void Partition<dim>::wait()
-  {
-    if (n_ranks == 1)
-      return;
-    const int error = MPI_Barrier(communicator);
-    AssertThrowMPI(error);
-    resume();
   }
 
 
   template <int dim>
   void Partition<dim>::resume()
   {
-    last = WallClock::now();
+    last = thread_time();
   }
 
 
@@ -85,23 +72,58 @@ namespace scree
 
 
   template <int dim>
-  typename Partition<dim>::WorkOfRanks Partition<dim>::collect()
+  double Partition<dim>::contacts() const
   {
-    WorkOfRanks result;
-    const auto of_ranks =
-        Utilities::MPI::min_max_avg(std::vector<double>(work_of_rank.begin(), work_of_rank.end()), communicator);
-    for (unsigned int w = 0; w < n_works; ++w)
+    double sum = 0;
+    for (const PointSet<dim> *points : sets)
+      for (const auto &cell : points->cells())
+        sum += cell.n_points * points->costs().of_contacts(cell.cell);
+    return sum;
+  }
+
+
+  template <int dim>
+  std::array<typename Partition<dim>::WorkOfRanks, 3> Partition<dim>::collect()
+  {
+    const auto own        = [this](const Work work) { return work_of_rank[unsigned(work)]; };
+    const double to_nodes = own(Work::to_nodes), solving = own(Work::solving), to_points = own(Work::to_points);
+    const double contact = n_steps * contacts();
+    // Points that feel the ground themselves tell what that takes; else solving at the nodes is like points to grid.
+    enum
+    {
+      with_solving,
+      without,
+      points,
+      all_with_solving,
+      all,
+      alone,
+      number
+    };
+    const auto of_ranks    = Utilities::MPI::min_max_avg(std::vector<double>{ to_nodes + solving,
+                                                                              to_nodes,
+                                                                              to_points,
+                                                                              to_nodes + solving + to_points,
+                                                                              to_nodes + contact + to_points,
+                                                                              contact,
+                                                                              number_of_points() },
+                                                      communicator);
+    const bool has_contact = of_ranks[alone].max > 0.;
+    const auto work        = [&](const unsigned int w) { return WorkOfRanks{ of_ranks[w].max, of_ranks[w].avg }; };
+    const std::array<WorkOfRanks, 3> works{
+      { work(has_contact ? without : with_solving), work(points), work(has_contact ? all : all_with_solving) }
+    };
+    for (const WorkOfRanks &one : { works[0], works[1], work(alone) })
       {
-        result.largest[w] = of_ranks[w].max;
-        result.mean[w]    = of_ranks[w].avg;
-        sum_of_largest += of_ranks[w].max;
-        sum_of_mean += of_ranks[w].avg;
+        sum_of_largest += one.largest;
+        sum_of_mean += one.mean;
       }
-    to_points += work_of_rank[unsigned(Work::to_points)];
+    if (n_steps > 0 && of_ranks[number].avg > 0.)
+      to_nodes_of_point = works[0].mean / n_steps / of_ranks[number].avg;
+    this->to_points += to_points;
     n_steps_in_partition += n_steps;
     work_of_rank.fill(0.);
     n_steps = 0;
-    return result;
+    return works;
   }
 
 
@@ -122,17 +144,21 @@ namespace scree
     if (n_steps < steps_between_looks)
       return false;
 
-    const WorkOfRanks ranks = collect();
-    const auto mean         = [&](const Work of) { return ranks.mean[unsigned(of)]; };
+    const std::array<WorkOfRanks, 3> works = collect();
+    const auto mean                        = [&](const Weights of) { return works[unsigned(of)].mean; };
+    const double in_points = mean(Weights::points) + mean(Weights::costs), all = mean(Weights::all);
+    // Ranks meet between the works: the sum of their largest times is least where over half of the work is even.
     // Works of about the same length must not take turns.
     constexpr double clearly = 1.25;
-    if (mean(Work::to_points) > clearly * mean(Work::to_nodes))
+    if (all > 2. * in_points)
+      weights = Weights::all;
+    else if (mean(Weights::costs) > clearly * mean(Weights::points))
       weights = Weights::costs;
-    else if (mean(Work::to_nodes) > clearly * mean(Work::to_points))
+    else if (mean(Weights::points) > clearly * mean(Weights::costs))
       weights = Weights::points;
-
-    const unsigned int evened_out = unsigned(weights == Weights::costs ? Work::to_points : Work::to_nodes);
-    surplus += ranks.largest[evened_out] - ranks.mean[evened_out];
+    else if (weights == Weights::all)
+      weights = Weights::costs;
+    surplus += works[unsigned(weights)].largest - works[unsigned(weights)].mean;
     // So changes in vain, where cells are too few to be shared out evenly, take no longer than what they answer.
     return surplus > duration;
   }
@@ -153,8 +179,9 @@ namespace scree
             }
         const double n_of_ranks = Utilities::MPI::sum(n, communicator);
         of_cells += sum;
-        sum              = Utilities::MPI::sum(sum, communicator);
-        typical_costs[s] = n_of_ranks > 0. ? sum / n_of_ranks : cost_of_unmeasured_point;
+        sum = Utilities::MPI::sum(sum, communicator);
+        if (n_of_ranks > 0.)
+          typical_costs[s] = sum / n_of_ranks;
       }
     // What measuring cell by cell misses belongs to all of them.
     calibration = of_cells > 0. && n_steps_in_partition > 0 ? to_points / n_steps_in_partition / of_cells : 1.;
@@ -169,9 +196,12 @@ namespace scree
       for (unsigned int s = 0; s < sets.size(); ++s)
         {
           const unsigned int index = typename Triangulation<dim>::active_cell_iterator(cell)->active_cell_index();
-          seconds += sets[s]->handler().n_particles_in_cell(cell) *
-                     (weights == Weights::costs ? calibration * sets[s]->costs().of_point(index, typical_costs[s])
-                                                : typical_costs[s]);
+          const CellCosts &costs   = sets[s]->costs();
+          double of_point =
+              weights == Weights::points ? typical_costs[s] : calibration * costs.of_point(index, typical_costs[s]);
+          if (weights == Weights::all)
+            of_point += to_nodes_of_point + costs.of_contacts(index);
+          seconds += sets[s]->handler().n_particles_in_cell(cell) * of_point;
         }
     constexpr double most = 1e6; // ns; sums over the cells of a rank stay integers
     return static_cast<unsigned int>(std::lround(std::min(1e9 * seconds, most)));
@@ -181,7 +211,7 @@ namespace scree
   template <int dim>
   void Partition<dim>::repartition(const std::function<void()> &fit)
   {
-    const auto start = WallClock::now();
+    const double start = thread_time();
     find_typical_costs();
     for (PointSet<dim> *points : sets)
       points->handler().prepare_for_coarsening_and_refinement();
@@ -192,11 +222,15 @@ namespace scree
         points->sort();
         points->costs().reinit(mesh.n_active_cells());
       }
+    const double start_of_fit = thread_time();
     fit();
     n_changes += sum_of_mean > 0.;
     surplus = to_points  = 0.;
     n_steps_in_partition = 0;
-    duration = Utilities::MPI::max(std::chrono::duration<double>(WallClock::now() - start).count(), communicator);
+    std::vector<double> durations{ thread_time() - start, thread_time() - start_of_fit };
+    Utilities::MPI::max(durations, communicator, durations);
+    duration        = durations[0];
+    duration_of_fit = durations[1];
   }
 
 

@@ -22,21 +22,6 @@ namespace scree
   };
 
 
-  namespace
-  {
-    /// Whether a point is no longer in its cell; those in neighbouring cells have been handed over.
-    template <int dim>
-    bool any_outside_its_cell(const std::vector<CellPoints<dim>> &cells)
-    {
-      for (const CellPoints<dim> &cell : cells)
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          if (!GeometryInfo<dim>::is_inside_unit_cell(cell.reference_location_of(p)))
-            return true;
-      return false;
-    }
-  } // namespace
-
-
   template <int dim>
   PointSet<dim>::PointSet(const Triangulation<dim> &triangulation,
                           const Mapping<dim> &mapping,
@@ -91,8 +76,10 @@ namespace scree
     for (std::size_t l = 0; l < leavers.size(); ++l)
       hand_on(leavers[l].to, carried[l]);
     n_moved += leavers.size();
-    if (!found_all || n_moved > most_moved * n_points())
+    if (!found_all)
       return Disorder::far;
+    if (n_moved > most_moved * n_points())
+      return Disorder::scattered;
     return emigrants.is_empty() ? Disorder::none : Disorder::beside_a_border;
   }
 
@@ -223,18 +210,18 @@ namespace scree
     if (disorder != Disorder::none)
       for (const Record &record : emigrants.exchange())
         insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
-    if (!leavers.empty() || lists.has_entrants())
-      lists.update();
-    if (disorder != Disorder::far)
-      return;
-    if (Utilities::MPI::max(int(any_outside_its_cell(cells())), mesh.get_communicator()) == 1)
+    if (disorder == Disorder::far)
       {
         sort();
         return;
       }
-    // deal.II's sort would ask the mesh for the cells around each vertex.
-    lift();
-    put_down();
+    if (!leavers.empty() || lists.has_entrants())
+      lists.update();
+    if (disorder == Disorder::scattered)
+      {
+        lift();
+        put_down();
+      }
   }
 
 

@@ -195,7 +195,12 @@ namespace scree
   template <int dim>
   void Simulation<dim>::advance(const double time_step)
   {
-    adaptation.follow_points(time_step, [this] { reinit(); });
+    adaptation.follow_points(time_step, [this] {
+      if (partition.is_worth_changing_with_mesh())
+        partition.repartition([this] { reinit(); });
+      else
+        reinit();
+    });
     repartition();
     for ([[maybe_unused]] const PointSet<dim> *points : point_sets())
       Assert(points->is_in_inner_cells(), ExcMessage("A point lies beside cells without nodes."));
@@ -207,9 +212,8 @@ namespace scree
       scene.forcing.set_start();
     scheme->to_grid(clock.time());
     partition.finish(Work::to_nodes);
-    wait();
     scheme->solve(time_step, step);
-    partition.finish(Work::to_nodes);
+    partition.finish(Work::solving);
     if (is_released)
       scene.move_obstacles(time_step); // Points in water are put back to where the ground is then.
     try
@@ -247,14 +251,6 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::wait()
-  {
-    const TimedPart part(timer, TimerSection::waiting);
-    partition.wait();
-  }
-
-
-  template <int dim>
   void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
   {
     const auto sets = point_sets();
@@ -282,7 +278,7 @@ namespace scree
       {
         const auto disorder = static_cast<Disorder>(static_cast<int>(largest[first_set + s]));
         sets[s]->hand_over(disorder);
-        is_sorted = is_sorted || disorder == Disorder::far;
+        is_sorted = is_sorted || disorder >= Disorder::scattered;
       }
     if (is_sorted && scene.grid.follows_points())
       adaptation.look_at_points();

@@ -121,9 +121,13 @@ namespace scree
           group.soil.add_loads(0.); // Leapfrog: loads are those of the start of the step.
           for (const auto &friction : turbulent_frictions)
             friction.add_to(group.soil.field, bodies, number, time_step, budget);
-          group.soil.field.add_contributions();
           ++number;
         }
+    }
+    {
+      const TimedPart part(timer, TimerSection::waiting);
+      for (Group &group : groups)
+        group.soil.field.add_contributions();
     }
     const TimedPart part(timer, TimerSection::nodes);
     for (WallGaps<dim> &gaps : wall_gaps)

@@ -7,7 +7,12 @@
 
 namespace scree
 {
-  /// What a point of each of this rank's cells costs, measured around the cells in some passes over them.
+  /// Processor time of this thread, s: that of others on the machine does not count.
+  double thread_time();
+
+
+  /// What a point of each of this rank's cells costs, measured around the cells in some passes over them; and what its
+  /// contacts with the ground cost, measured in the same steps.
   ///
   /// Costs belong to active cell indices: reinit() forgets them when the mesh is partitioned anew.
   class CellCosts
@@ -18,6 +23,12 @@ namespace scree
 
     /// Asks for the next pass to be timed. Others cost a branch a cell.
     void time_next_pass();
+
+    /// Whether it will be.
+    bool is_due() const
+    {
+      return is_wanted;
+    }
 
     /// A pass over the cells begins.
     void start_pass()
@@ -58,12 +69,18 @@ namespace scree
     /// interrupted the rank in that one; `otherwise` if there are none.
     double of_point(const unsigned int cell, const double otherwise) const;
 
+    /// Adds the time, s, that contacts of the cell's points took in a step whose next pass is_due().
+    void add_contacts(const unsigned int cell, const unsigned int n_points, const double seconds);
+
+    /// Seconds that contacts of a point of the cell take, the mean over its measured passes; 0 without any.
+    double of_contacts(const unsigned int cell) const;
+
   private:
     using TimeStepper = std::chrono::steady_clock;
 
     struct Cell
     {
-      double sum = 0, largest = 0; // s
+      double sum = 0, largest = 0, contacts = 0; // s a point
       unsigned int n_measurements = 0;
     };
 

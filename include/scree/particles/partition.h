@@ -4,11 +4,9 @@
 
 #include <scree/particles/point_set.h>
 
-#include <deal.II/base/timer.h>
 #include <deal.II/distributed/tria.h>
 
 #include <array>
-#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -17,7 +15,8 @@ namespace scree
   /// Work of a step between two places where the ranks wait for each other.
   enum class Work
   {
-    to_nodes, ///< sorting, points to grid, solving
+    to_nodes, ///< sorting, points to grid
+    solving,  ///< at the nodes; with the time for messages
     to_points ///< grid to points and their law, places in cells
   };
 
@@ -25,9 +24,11 @@ namespace scree
   /// where that pays.
   ///
   /// A cut through the mesh's curve of cells can even out one kind of work: sorting and points to grid cost the same
-  /// for each point, the law up to fifteen times more where the soil yields. It evens out the longer one.
+  /// for each point, the law up to fifteen times more where the soil yields, and not all points touch the ground. It
+  /// evens out the longer one of the first two, or the sum of all where contact takes over half of it.
   ///
-  /// Costs are times, so on several ranks the partition may differ from run to run; results then differ by rounding.
+  /// Costs are times of the processor, so on several ranks the partition may differ from run to run; results then
+  /// differ by rounding.
   template <int dim>
   class Partition
   {
@@ -38,7 +39,7 @@ namespace scree
     /// A step begins; what happened since the last one is nobody's work.
     void begin_step();
 
-    /// The time of this rank since the last call, or begin_step(), or resume(), was this work.
+    /// The processor's time of this rank since the last call, or begin_step(), or resume(), was this work.
     void finish(const Work work);
 
     /// Adds to the time of a work, s.
@@ -47,9 +48,6 @@ namespace scree
       work_of_rank[unsigned(work)] += seconds;
     }
 
-    /// Waits for all ranks. Collective.
-    void wait();
-
     /// What happened since the last call was waiting.
     void resume();
 
@@ -57,6 +55,12 @@ namespace scree
     /// repartition does. Before the first step: whether ranks hold unequal numbers of points. Looks once in some steps.
     /// Collective.
     bool is_worth_changing();
+
+    /// The same where the mesh has changed, so that fitting all else costs nothing more.
+    bool is_worth_changing_with_mesh() const
+    {
+      return surplus > duration - duration_of_fit;
+    }
 
     /// Shares out cells, with their points, by what they cost. Collective.
     /// @param fit fits all else that lives on the mesh; its time counts
@@ -73,24 +77,29 @@ namespace scree
     }
 
   private:
-    static constexpr unsigned int n_works = 2;
+    static constexpr unsigned int n_works = 3;
 
     /// What is to be evened out.
     enum class Weights
     {
       points, ///< all cost the same
-      costs   ///< as measured
+      costs,  ///< the work to the points, as measured
+      all     ///< both and contact with the ground
     };
 
+    /// s
     struct WorkOfRanks
     {
-      std::array<double, n_works> largest, mean; // s
+      double largest, mean;
     };
 
-    /// Closes the steps that are under way; collective.
-    WorkOfRanks collect();
+    /// Closes the steps that are under way; returns the works that a partition can even out, by Weights. Collective.
+    std::array<WorkOfRanks, 3> collect();
 
     double number_of_points() const;
+
+    /// What contacts of this rank's points with the ground take, by its cells, s a step.
+    double contacts() const;
 
     /// Means of the measured costs, set by set, and this rank's calibration; collective.
     void find_typical_costs();
@@ -107,15 +116,17 @@ namespace scree
     std::vector<double> typical_costs; // of a point of each set, s
     boost::signals2::scoped_connection weight_signal;
 
-    std::chrono::steady_clock::time_point last;
+    double last;                                    // thread_time()
     std::array<double, n_works> work_of_rank{ {} }; // of this rank, since the last collect(), s
     double to_points                  = 0;     // work of this rank since the last repartition, up to the last look, s
     unsigned int n_steps_in_partition = 0;     // of that work
     double calibration                = 1;     // work to the points over what this rank's cells say
+    double to_nodes_of_point          = 0;     // s a step, mean of all ranks
     bool has_begun                    = false; // whether a look was taken before
     unsigned int n_steps              = 0;     // since the last look
     double surplus                    = 0;     // of the slowest rank's work over the mean since the last repartition, s
     double duration                   = 0;     // of the last repartition, s
+    double duration_of_fit            = 0;     // in it, s
     unsigned int n_changes            = 0;
     double sum_of_largest = 0, sum_of_mean = 0; // of the steps collected, s
   };

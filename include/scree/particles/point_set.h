@@ -32,19 +32,21 @@ namespace scree
   {
     none,            ///< nothing
     beside_a_border, ///< a point lies in a cell of a neighbouring rank
-    far              ///< a point lies outside the mesh or beyond its neighbours, or records lie too far apart in memory
+    scattered,       ///< the records of cells lie too far apart in memory
+    far              ///< a point lies outside the mesh or beyond its neighbours
   };
 
   /// A set of material points on a distributed mesh: a ParticleHandler, seen cell by cell.
   ///
   /// Points that change cells keep their record's slot: the handler only lists it in another cell, or passes it on to
-  /// the neighbouring rank. So a step costs nothing for empty cells and little for points that stay. Now and then
-  /// all are put down anew, which brings the records of a cell together in memory again; when changes no result.
+  /// the neighbouring rank. So a step costs nothing for empty cells and little for points that stay. Now and then all
+  /// points are taken off the mesh and put back, which brings the records of a cell together in memory again; when that
+  /// is done changes no result.
   template <int dim>
   class PointSet
   {
   public:
-    /// The part of a rank's points that may change cells before records are sorted in memory again.
+    /// The part of a rank's points that may change cells before records are put in order in memory again.
     static constexpr double most_moved = 0.5;
 
     /// Makes an empty set on a mesh with its mapping, which must live on.

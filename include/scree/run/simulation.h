@@ -151,9 +151,6 @@ namespace scree
     /// Moves on what the scene moves by itself, and puts in what enters.
     void end_step(const double time_step);
 
-    /// Waits for the slowest rank.
-    void wait();
-
     /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
     void place_points(const double time_step, const Speeds &of_rank);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/contact/points/contact_exchange.h>
+#include <scree/particles/cell_costs.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,7 +14,18 @@ namespace scree
   namespace
   {
     constexpr int tag = 2; // of messages between contact nodes
-  }
+
+    /// Adds the time of `wait()` to a sum unless that is null.
+    template <typename Wait>
+    void timed(double *sum, const Wait &wait)
+    {
+      const double start = sum ? thread_time() : 0.;
+      const int error    = wait();
+      if (sum)
+        *sum += thread_time() - start;
+      AssertThrowMPI(error);
+    }
+  } // namespace
 
 
   template <int dim>
@@ -117,8 +129,7 @@ namespace scree
   template <int dim>
   void ContactExchange<dim>::wait()
   {
-    const int error = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-    AssertThrowMPI(error);
+    timed(waited, [&] { return MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE); });
     requests.clear();
     messages.clear();
   }
@@ -147,9 +158,8 @@ namespace scree
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
     MPI_Status status;
-    int size, error = MPI_Probe(neighbour.rank, tag, communicator, &status);
-    AssertThrowMPI(error);
-    error = MPI_Get_count(&status, MPI_BYTE, &size);
+    timed(waited, [&] { return MPI_Probe(neighbour.rank, tag, communicator, &status); });
+    int size, error = MPI_Get_count(&status, MPI_BYTE, &size);
     AssertThrowMPI(error);
     records.resize(size / sizeof(Record));
     error = MPI_Recv(records.data(), size, MPI_BYTE, neighbour.rank, tag, communicator, MPI_STATUS_IGNORE);
@@ -157,102 +167,163 @@ namespace scree
 
     // Both lists are in the order of the shared nodes.
     neighbour.entries.clear();
-    const auto add = [&](const unsigned int k, const Turns own, const Turns others) {
+    const auto add = [&](const unsigned int k, const Turns of_own, const Turns of_others) {
       neighbour.entries.push_back(
-          { nodes.add(neighbour.nodes[k], field), bool(neighbour.is_known_to_more[k]), own, others });
+          { nodes.add(neighbour.nodes[k], field), bool(neighbour.is_known_to_more[k]), { { of_own, of_others } } });
     };
-    auto own = neighbour.records.begin();
+    auto sent = neighbour.records.begin();
     for (const Record &record : records)
       {
-        for (; own != neighbour.records.end() && own->node < record.node; ++own)
-          add(own->node, own->turns, 0);
-        const bool is_own = own != neighbour.records.end() && own->node == record.node;
-        add(record.node, is_own ? own->turns : 0, record.turns);
-        own += is_own;
+        for (; sent != neighbour.records.end() && sent->node < record.node; ++sent)
+          add(sent->node, sent->turns, 0);
+        const bool is_sent = sent != neighbour.records.end() && sent->node == record.node;
+        add(record.node, is_sent ? sent->turns : 0, record.turns);
+        sent += is_sent;
         NodeRow &motion = nodes.motion(neighbour.entries.back().number);
         for (unsigned int c = 0; c < dim; ++c)
           motion[c] += record.change[c];
       }
-    for (; own != neighbour.records.end(); ++own)
-      add(own->node, own->turns, 0);
+    for (; sent != neighbour.records.end(); ++sent)
+      add(sent->node, sent->turns, 0);
   }
 
 
   template <int dim>
-  void
-  ContactExchange<dim>::begin(const NodalField<dim> &field, const unsigned int n_turns, const unsigned int n_sweeps)
+  void ContactExchange<dim>::begin(const NodalField<dim> &field,
+                                   const unsigned int n_turns,
+                                   const unsigned int n_sweeps,
+                                   double *waited)
   {
     this->n_turns = n_turns;
+    this->waited  = waited;
     n_positions   = n_turns * n_sweeps;
     send_records();
     for (Neighbour &neighbour : neighbours)
       {
         receive_records(neighbour, field);
-        neighbour.sent = neighbour.received = Stream();
-        const auto add_causes               = [](Stream &stream, const Turns change, const Turns read) {
-          for (Turns rest = read; rest != 0; rest &= rest - 1)
-            stream.causes[__builtin_ctzll(rest)] |= change;
-        };
-        for (const Entry &entry : neighbour.entries)
-          {
-            add_causes(neighbour.sent, entry.own, entry.others);
-            add_causes(neighbour.received, entry.others, entry.own);
-          }
+        for (Stream &stream : neighbour.streams)
+          stream.clear();
+        for (unsigned int k = 0; k < neighbour.entries.size(); ++k)
+          for (const unsigned int by : { own, others })
+            neighbour.streams[by].add(k, neighbour.entries[k].turns[by], neighbour.entries[k].turns[1 - by]);
       }
     latest.assign(neighbours.empty() ? 0 : nodes.size(), -1);
+    shared.assign(latest.size(), false);
+    for (const Neighbour &neighbour : neighbours)
+      for (const Entry &entry : neighbour.entries)
+        shared[entry.number] |= entry.turns[others] != 0;
+  }
+
+
+  template <int dim>
+  void ContactExchange<dim>::Stream::clear()
+  {
+    causes.fill(0);
+    for (auto &of_turn : entries)
+      of_turn.clear();
+    last_entries.clear();
+    since = all = 0;
+  }
+
+
+  template <int dim>
+  void ContactExchange<dim>::Stream::add(const unsigned int entry, const Turns change, const Turns read)
+  {
+    if (read == 0 && change != 0)
+      last_entries.push_back(entry);
+    if (read == 0)
+      return;
+    all |= change;
+    for (Turns rest = change; rest != 0; rest &= rest - 1)
+      entries[__builtin_ctzll(rest)].push_back(entry);
+    for (Turns rest = read; rest != 0; rest &= rest - 1)
+      causes[__builtin_ctzll(rest)] |= change;
+  }
+
+
+  template <int dim>
+  void ContactExchange<dim>::take_message(Neighbour &neighbour, const unsigned int by, const bool is_end)
+  {
+    listed.clear();
+    Stream &stream    = neighbour.streams[by];
+    const Turns since = stream.since & stream.all;
+    for (Turns rest = since; rest != 0; rest &= rest - 1)
+      {
+        const unsigned int turn = __builtin_ctzll(rest);
+        for (const unsigned int k : stream.entries[turn]) // Each is told once.
+          if (unsigned(__builtin_ctzll(neighbour.entries[k].turns[by] & since)) == turn)
+            listed.push_back(k);
+      }
+    if (is_end)
+      listed.insert(listed.end(), stream.last_entries.begin(), stream.last_entries.end());
+    stream.since = 0;
   }
 
 
   template <int dim>
   void ContactExchange<dim>::send(Neighbour &neighbour, const bool is_end)
   {
+    take_message(neighbour, own, is_end);
+    if (listed.empty())
+      return;
     messages.emplace_back();
-    std::vector<double> &message = messages.back();
-    for (const Entry &entry : neighbour.entries)
-      if (has(entry.own, entry.others, neighbour.sent.since, is_end))
-        {
-          const NodeRow &motion = nodes.motion(entry.number);
-          message.insert(message.end(), &motion[0], &motion[0] + dim);
-        }
-    if (!message.empty())
-      post(message, neighbour.rank);
-    neighbour.sent.since = 0;
+    messages.back().reserve(listed.size() * dim);
+    for (const unsigned int k : listed)
+      {
+        const NodeRow &motion = nodes.motion(neighbour.entries[k].number);
+        messages.back().insert(messages.back().end(), &motion[0], &motion[0] + dim);
+      }
+    post(messages.back(), neighbour.rank);
   }
 
 
   template <int dim>
   void ContactExchange<dim>::receive(Neighbour &neighbour, const unsigned int position, const bool is_end)
   {
-    const Turns since  = neighbour.received.since;
-    const auto n_nodes = std::count_if(neighbour.entries.begin(), neighbour.entries.end(), [&](const Entry &entry) {
-      return has(entry.others, entry.own, since, is_end);
-    });
-    neighbour.received.since = 0;
-    if (n_nodes == 0)
+    take_message(neighbour, others, is_end);
+    if (listed.empty())
       return;
-    values.resize(n_nodes * dim);
-    const int error = MPI_Recv(values.data(),
-                               values.size() * sizeof(double),
-                               MPI_BYTE,
-                               neighbour.rank,
-                               tag,
-                               grid.triangulation().get_communicator(),
-                               MPI_STATUS_IGNORE);
-    AssertThrowMPI(error);
+    values.resize(listed.size() * dim);
+    timed(waited, [&] {
+      return MPI_Recv(values.data(),
+                      values.size() * sizeof(double),
+                      MPI_BYTE,
+                      neighbour.rank,
+                      tag,
+                      grid.triangulation().get_communicator(),
+                      MPI_STATUS_IGNORE);
+    });
     const double *value = values.data();
-    for (const Entry &entry : neighbour.entries)
-      if (has(entry.others, entry.own, since, is_end))
+    for (const unsigned int k : listed)
+      {
+        const Entry &entry = neighbour.entries[k];
+        // A third rank may have told a later change.
+        if (const int last = entry.is_known_to_more ? last_before(entry.turns[others], position) : 0;
+            !entry.is_known_to_more ||
+            last > std::max(latest[entry.number], last_before(nodes.turns(entry.number), position)))
+          {
+            std::copy_n(value, dim, &nodes.motion(entry.number)[0]);
+            latest[entry.number] = last;
+          }
+        value += dim;
+      }
+  }
+
+
+  template <int dim>
+  bool ContactExchange<dim>::has_come(const unsigned int position) const
+  {
+    for (const Neighbour &neighbour : neighbours)
+      if (neighbour.streams[others].is_due(turn_at(position)))
         {
-          // A third rank may have told a later change.
-          if (const int last = entry.is_known_to_more ? last_before(entry.others, position) : 0;
-              !entry.is_known_to_more ||
-              last > std::max(latest[entry.number], last_before(nodes.turns(entry.number), position)))
-            {
-              std::copy_n(value, dim, &nodes.motion(entry.number)[0]);
-              latest[entry.number] = last;
-            }
-          value += dim;
+          int is_here = 0;
+          const int error =
+              MPI_Iprobe(neighbour.rank, tag, grid.triangulation().get_communicator(), &is_here, MPI_STATUS_IGNORE);
+          AssertThrowMPI(error);
+          if (!is_here)
+            return false;
         }
+    return true;
   }
 
 
@@ -261,14 +332,32 @@ namespace scree
   {
     const unsigned int turn = turn_at(position);
     for (Neighbour &neighbour : neighbours)
-      if (neighbour.sent.is_due(turn))
-        send(neighbour, false);
+      {
+        if (neighbour.streams[others].is_due(turn))
+          receive(neighbour, position, false);
+        neighbour.streams[others].since |= Turns(1) << turn;
+      }
+  }
+
+
+  template <int dim>
+  void ContactExchange<dim>::after(const unsigned int position)
+  {
+    const Turns turn = Turns(1) << turn_at(position);
     for (Neighbour &neighbour : neighbours)
-      if (neighbour.received.is_due(turn))
-        receive(neighbour, position, false);
-    for (Neighbour &neighbour : neighbours)
-      for (Stream *stream : { &neighbour.sent, &neighbour.received })
-        stream->since |= Turns(1) << turn;
+      {
+        Stream &sent = neighbour.streams[own];
+        sent.since |= turn;
+        if (!(sent.all & turn))
+          continue;
+        for (unsigned int next = position + 1; next < n_positions; ++next)
+          {
+            if (sent.is_due(turn_at(next)))
+              send(neighbour, false);
+            if (sent.since == 0 || sent.all >> turn_at(next) & 1)
+              break;
+          }
+      }
   }
 
 

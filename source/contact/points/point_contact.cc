@@ -18,9 +18,6 @@ namespace scree
     /// Overlap, cells, from which on a contact follows the rise of the interpolated distance.
     constexpr double overlap_with_full_rise = 0.08;
 
-    /// Cells as far apart along an axis share no nodes.
-    constexpr unsigned int colours_1d = 3;
-
     /// Of a node by its values, m^2/s^2; 0 without soil.
     template <int dim>
     double square_of_speed(const double *values)
@@ -116,15 +113,18 @@ namespace scree
 
 
   template <int dim>
-  void PointContact<dim>::cut_cell(const SoilBody<dim> &body, const unsigned int cell, const NodalField<dim> &field)
+  void PointContact<dim>::cut_cell(SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field)
   {
-    const auto &place   = grid.fine_cells().cells()[grid.fine_cells().of_index(cell)].place;
-    unsigned int colour = 0;
+    const unsigned int cell = points.cell;
+    const auto &place       = grid.fine_cells().cells()[grid.fine_cells().of_index(cell)].place;
+    unsigned int colour     = 0;
     for (unsigned int a = dim; a-- > 0;)
       colour = colours_1d * colour + place[a] % colours_1d;
     Cell entry{};
+    entry.costs                 = &body.points.costs();
     entry.number                = cell;
-    entry.colour                = colour;
+    entry.n_points              = points.n_points;
+    entry.part                  = 2 * colour;
     entry.first                 = contacts.size();
     entry.n                     = candidates.size();
     entry.nodes                 = nodes_of_cells.size();
@@ -235,7 +235,7 @@ namespace scree
 
 
   template <int dim>
-  void PointContact<dim>::add_cell(const SoilBody<dim> &body,
+  void PointContact<dim>::add_cell(SoilBody<dim> &body,
                                    const CellPoints<dim> &points,
                                    const NodalField<dim> &field,
                                    const double dt)
@@ -246,7 +246,7 @@ namespace scree
     find_candidates(body, points);
     if (candidates.empty())
       return;
-    cut_cell(body, points.cell, field);
+    cut_cell(body, points, field);
     for (const Candidate &candidate : candidates)
       {
         const unsigned int p = candidate.point;
@@ -289,18 +289,32 @@ namespace scree
   template <int dim>
   void PointContact<dim>::order_cells()
   {
-    constexpr unsigned int n_colours = Utilities::pow(colours_1d, dim);
-    first_of_colour.assign(n_colours + 1, 0);
-    for (const Cell &cell : cells)
-      ++first_of_colour[cell.colour + 1];
-    for (unsigned int c = 0; c < n_colours; ++c)
-      first_of_colour[c + 1] += first_of_colour[c];
-    // Cells of two bodies may be the same one: those of a colour stay in order.
-    std::array<unsigned int, n_colours> next;
-    std::copy_n(first_of_colour.begin(), n_colours, next.begin());
+    constexpr unsigned int n_parts = 2 * n_colours;
+    first_of_part.assign(n_parts + 1, 0);
+    for (Cell &cell : cells)
+      {
+        const auto first = nodes_of_cells.begin() + cell.nodes;
+        cell.part += std::none_of(first, first + grid.n_nodes_per_cell(), [this](const unsigned int node) {
+          return exchange.is_shared(node);
+        });
+        ++first_of_part[cell.part + 1];
+      }
+    for (unsigned int c = 0; c < n_parts; ++c)
+      first_of_part[c + 1] += first_of_part[c];
+    // Cells of two bodies may be the same one: those of a part stay in order.
+    std::array<unsigned int, n_parts> next;
+    std::copy_n(first_of_part.begin(), n_parts, next.begin());
     sequence.resize(cells.size());
     for (unsigned int b = 0; b < cells.size(); ++b)
-      sequence[next[cells[b].colour]++] = b;
+      sequence[next[cells[b].part]++] = b;
+  }
+
+
+  template <int dim>
+  void PointContact<dim>::add_costs(const double seconds)
+  {
+    for (const Cell &cell : cells)
+      cell.costs->add_contacts(cell.number, cell.n_points, seconds * cell.n / contacts.size());
   }
 
 
@@ -308,17 +322,24 @@ namespace scree
   template <int n>
   void PointContact<dim>::solve(NodalField<dim> &field, const double time_step, Budget<dim> &balance)
   {
+    const bool is_timed     = std::any_of(bodies.begin(), bodies.end(), [this](const auto &body) {
+      return body.group == group && !body.is_rigid && body.points.costs().is_due();
+    });
+    const double start_time = is_timed ? thread_time() : 0.;
+    double waited           = 0.;
     balance.obstacles.resize(n_obstacles);
     find_contacts(field, time_step);
-    order_cells();
     start<n>();
-    exchange.begin(field, first_of_colour.size() - 1, n_sweeps);
+    exchange.begin(field, n_colours, n_sweeps, is_timed ? &waited : nullptr);
+    order_cells();
     for (unsigned int s = 0; s < n_sweeps; ++s)
       sweep<n>(s);
     exchange.finish();
     nodes.write(field, balance);
     nodes.take_working_velocities(field);
     finish<n>(time_step, balance);
+    if (is_timed)
+      add_costs(thread_time() - start_time - waited);
   }
 
 

@@ -201,16 +201,29 @@ namespace scree
   template <int n>
   void PointContact<dim>::sweep(const unsigned int s)
   {
-    const bool is_forward        = s % 2 == 0;
-    const unsigned int n_colours = first_of_colour.size() - 1;
+    const bool is_forward = s % 2 == 0;
     for (unsigned int k = 0; k < n_colours; ++k)
       {
-        const unsigned int colour = is_forward ? k : n_colours - 1 - k;
-        const unsigned int first = first_of_colour[colour], last = first_of_colour[colour + 1];
-        exchange.before(s * n_colours + k);
-        for (unsigned int i = first; i < last; ++i)
-          sweep<n>(cells[sequence[is_forward ? i : first + last - 1 - i]], is_forward);
+        const unsigned int shared = 2 * (is_forward ? k : n_colours - 1 - k), position = s * n_colours + k;
+        const bool inner_first = !exchange.has_come(position);
+        if (inner_first)
+          sweep_part<n>(shared + 1, is_forward);
+        exchange.before(position);
+        sweep_part<n>(shared, is_forward);
+        exchange.after(position);
+        if (!inner_first)
+          sweep_part<n>(shared + 1, is_forward);
       }
+  }
+
+
+  template <int dim>
+  template <int n>
+  void PointContact<dim>::sweep_part(const unsigned int part, const bool is_forward)
+  {
+    const unsigned int first = first_of_part[part], last = first_of_part[part + 1];
+    for (unsigned int i = first; i < last; ++i)
+      sweep<n>(cells[sequence[is_forward ? i : first + last - 1 - i]], is_forward);
   }
 
 

@@ -75,7 +75,6 @@ void test(std::ostream &out)
     {
       partition.begin_step();
       partition.add(Work::to_points, 10. * cost_of_rank(true_cost<dim>));
-      partition.wait();
       for (const auto &cell : mesh.active_cell_iterators())
         if (cell->is_locally_owned() && step % 10 == 0)
           points.costs().add(cell->active_cell_index(), step == 30 ? 1. : true_cost<dim>(cell));

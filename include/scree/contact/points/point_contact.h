@@ -43,7 +43,7 @@ namespace scree
   ///
   /// The order of the sweeps does not depend on how cells are spread over ranks: cells that share no nodes have the
   /// same colour, one colour follows the other, and ranks tell each other what they have changed before another reads
-  /// it.
+  /// it. Of a colour, cells at the border of ranks come first, unless what they read is still on its way.
   template <int dim>
   class PointContact
   {
@@ -100,8 +100,10 @@ namespace scree
     /// The contacts of a body's points in a cell; its nodes lie behind each other.
     struct Cell
     {
+      CellCosts *costs;    ///< of the body's points
       unsigned int number; ///< active cell index
-      unsigned int colour;
+      unsigned int n_points;
+      unsigned int part;     ///< of the sweeps
       unsigned int first, n; ///< contacts
       unsigned int nodes;    ///< first of its nodes
       bool is_held;          ///< whether walls hold one of its nodes
@@ -127,11 +129,10 @@ namespace scree
     /// Lists the points of the cell that may touch them, in order.
     void find_candidates(const SoilBody<dim> &body, const CellPoints<dim> &points);
 
-    void
-    add_cell(const SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field, const double dt);
+    void add_cell(SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field, const double dt);
 
     /// Adds a cell for the contacts of the candidates.
-    void cut_cell(const SoilBody<dim> &body, const unsigned int cell, const NodalField<dim> &field);
+    void cut_cell(SoilBody<dim> &body, const CellPoints<dim> &points, const NodalField<dim> &field);
     void add_contact(const SoilBody<dim> &body,
                      const Candidate &candidate,
                      const PointView<dim, double> &point,
@@ -142,6 +143,9 @@ namespace scree
 
     /// Puts the cells into the sequence of the sweeps.
     void order_cells();
+
+    /// Shares out the time that contacts took, s, among the cells' costs.
+    void add_costs(const double seconds);
 
     /// Finds the contacts' shape functions and mobilities, and gives the nodes the impulses of the step before.
     template <int n>
@@ -154,9 +158,14 @@ namespace scree
     template <int n>
     void set_shapes(const Cell &cell, Contact &contact, double *shape) const;
 
+    static constexpr unsigned int colours_1d = 3; // cells as far apart along an axis share no nodes
+    static constexpr unsigned int n_colours  = dealii::Utilities::pow(colours_1d, dim);
+
     /// @param s of all sweeps
     template <int n>
     void sweep(const unsigned int s);
+    template <int n>
+    void sweep_part(const unsigned int part, const bool is_forward);
     template <int n>
     void sweep(const Cell &cell, const bool is_forward);
 
@@ -193,9 +202,9 @@ namespace scree
     std::vector<Contact> contacts;
     std::vector<double> shapes; // A_i of each contact; room for those of the step with the most
     std::vector<Cell> cells;
-    std::vector<unsigned int> nodes_of_cells;  // numbers in `nodes`
-    std::vector<unsigned int> sequence;        // of the cells in a sweep
-    std::vector<unsigned int> first_of_colour; // in it
+    std::vector<unsigned int> nodes_of_cells; // numbers in `nodes`
+    std::vector<unsigned int> sequence;       // of the cells in a sweep
+    std::vector<unsigned int> first_of_part;  // in it: of each colour, cells with shared nodes and then the others
   };
 } // namespace scree
 
