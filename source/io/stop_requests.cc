@@ -2,6 +2,7 @@
 #include <scree/io/stop_requests.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 
@@ -9,7 +10,8 @@ namespace scree
 {
   namespace
   {
-    volatile std::sig_atomic_t received = 0; // the last signal
+    std::atomic<int> received{ 0 }; // the last signal, which any thread may get
+    static_assert(std::atomic<int>::is_always_lock_free, "A signal must not wait.");
 
     extern "C" void remember(const int signal)
     {
@@ -103,9 +105,9 @@ namespace scree
       return false;
     longest_step = std::max(longest_step, seconds(now - last_call));
     last_call    = now;
-    // The longest step had the dearest output so far. Room for this step, the checkpoint after it, and twice as slow a
-    // disk.
-    const double left = std::max(0.01 * wall_time_limit, 3 * longest_step);
+    // The longest step had the dearest output so far. Room for this step, what is being written (at most two pictures
+    // or checkpoints), the checkpoint after it, and a slower disk.
+    const double left = std::max(0.01 * wall_time_limit, 5 * longest_step);
     return seconds(now - start) + left >= wall_time_limit;
   }
 

@@ -85,7 +85,9 @@ namespace scree
 
   void write_whole_file(const std::string &file, std::string content)
   {
-    write_whole_files({ { file, std::move(content) } });
+    std::vector<FileContent> files;
+    files.emplace_back(file, std::move(content));
+    write_whole_files(files);
   }
 
 

@@ -334,7 +334,7 @@ namespace scree
           path *= block / std::max(path.norm(), 1e-3 * block);
           place = next;
         }
-      blocks.push_back(own);
+      blocks.push_back(own); // so that append_blocks() skips the next point of the same block
     }
   } // namespace
 

@@ -99,19 +99,23 @@ namespace scree
       alone,
       number
     };
-    const auto of_ranks    = Utilities::MPI::min_max_avg(std::vector<double>{ to_nodes + solving,
-                                                                              to_nodes,
-                                                                              to_points,
-                                                                              to_nodes + solving + to_points,
-                                                                              to_nodes + contact + to_points,
-                                                                              contact,
-                                                                              number_of_points() },
+    const auto of_ranks = Utilities::MPI::min_max_avg(std::vector<double>{ to_nodes + solving,
+                                                                           to_nodes,
+                                                                           to_points,
+                                                                           to_nodes + solving + to_points,
+                                                                           to_nodes + contact + to_points,
+                                                                           contact,
+                                                                           number_of_points() },
                                                       communicator);
-    const bool has_contact = of_ranks[alone].max > 0.;
-    const auto work        = [&](const unsigned int w) { return WorkOfRanks{ of_ranks[w].max, of_ranks[w].avg }; };
-    const std::array<WorkOfRanks, 3> works{
-      { work(has_contact ? without : with_solving), work(points), work(has_contact ? all : all_with_solving) }
+    has_contact         = has_contact || of_ranks[alone].max > 0.;
+    const auto work     = [&](const unsigned int w) { return WorkOfRanks{ of_ranks[w].max, of_ranks[w].avg }; };
+    // A rank with little to do waits in solving, in the processor's time: what is uneven is the rest.
+    const auto with_waits = [&](const unsigned int own, const unsigned int whole) {
+      return WorkOfRanks{ of_ranks[whole].avg + of_ranks[own].max - of_ranks[own].avg, of_ranks[whole].avg };
     };
+    const std::array<WorkOfRanks, 3> works{ { has_contact ? work(without) : with_waits(without, with_solving),
+                                              work(points),
+                                              has_contact ? work(all) : with_waits(all, all_with_solving) } };
     for (const WorkOfRanks &one : { works[0], works[1], work(alone) })
       {
         sum_of_largest += one.largest;

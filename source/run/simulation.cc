@@ -116,15 +116,23 @@ namespace scree
       report();
     const double updates_before = point_updates;
     const double first_step     = stable_step();
-    while (!is_at_end() && control.stop_reason() == StopReason::none)
+    try
       {
-        const double largest_step = stable_step();
-        control.require_stable_step(largest_step, first_step);
-        progress->count(control.limit(), control.part_left());
-        step(largest_step, output_times.next(largest_step));
-        report();
-        if (progress_is_due || is_at_end())
-          progress->report(clock.time(), clock.step(), last_time_step, motion.value(), motion.kinetic_energy());
+        while (!is_at_end() && control.stop_reason() == StopReason::none)
+          {
+            const double largest_step = stable_step();
+            control.require_stable_step(largest_step, first_step);
+            progress->count(control.limit(), control.part_left());
+            step(largest_step, output_times.next(largest_step));
+            report();
+            if (progress_is_due || is_at_end())
+              progress->report(clock.time(), clock.step(), last_time_step, motion.value(), motion.kinetic_energy());
+          }
+      }
+    catch (const InputError &)
+      {
+        results.writer().finish(); // Such errors are known to all ranks.
+        throw;
       }
     const End end = is_at_end() ? End::complete : End::stopped;
     if (end == End::stopped)
@@ -196,6 +204,7 @@ namespace scree
   void Simulation<dim>::advance(const double time_step)
   {
     adaptation.follow_points(time_step, [this] {
+      // By numbers of points: on a new mesh no cell has been measured.
       if (partition.is_worth_changing_with_mesh())
         partition.repartition([this] { reinit(); });
       else
@@ -224,6 +233,7 @@ namespace scree
       {
         AssertThrow(false, ExcMessage(fault.text(number_text(clock.time()))));
       }
+    partition.add(Work::to_points, -step.messages);
     place_points(time_step, step.speeds);
 
     totals.balance += step.balance;

@@ -18,8 +18,8 @@ namespace scree
     prm.add_parameter(
         "Courant number",
         courant,
-        "Time step times (wave speed + velocity), over the cell size, at most 2. auto: 1.1 in dry cases with Method = "
-        "FLIP or PIC, else 0.6.",
+        "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Beyond auto the stress oscillates or "
+        "the run diverges. auto: 1.1 in dry cases with Method = FLIP or PIC in subsection Transfer, else 0.6.",
         Patterns::Anything());
     prm.add_parameter("Advection number",
                       advection_number,

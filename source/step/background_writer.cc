@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
 #include <scree/step/background_writer.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,6 +23,10 @@ namespace scree
           for (const auto &write : stages)
             if (write)
               write();
+        }
+      catch (const ExceptionBase &error)
+        {
+          return plain_text(error);
         }
       catch (const std::exception &error)
         {
@@ -91,7 +96,7 @@ namespace scree
     // A single rank waits for nobody between the stages.
     auto &all       = jobs.front().stages;
     const auto next = all.begin() + stage;
-    stage           = n_ranks == 1 ? all.size() : stage + 1;
+    stage           = n_ranks == 1 ? all.size() : std::min<std::size_t>(stage + 1, all.size());
     std::vector<std::function<void()>> stages;
     std::move(next, all.begin() + stage, std::back_inserter(stages));
     running = std::async(std::launch::async, [stages = std::move(stages)]() mutable {
@@ -126,7 +131,10 @@ namespace scree
     try
       {
         if (!fault.empty())
-          job.failed(fault);
+          {
+            AssertThrow(job.failed, ExcMessage(fault));
+            job.failed(fault);
+          }
         else if (job.done)
           job.done();
       }

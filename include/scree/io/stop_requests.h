@@ -39,7 +39,7 @@ namespace scree
     /// of the wall time limit has to be left for the checkpoint. A file that is found is removed.
     StopReason reason();
 
-    /// What was written while steps went on may take `seconds`: as long as a step that writes it.
+    /// Output in the background took up to `seconds`: it counts like a step of that length.
     void allow_for(const double seconds)
     {
       longest_step = std::max(longest_step, seconds);

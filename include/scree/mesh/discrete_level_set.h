@@ -66,7 +66,7 @@ namespace scree
     /// How far a place is from a surface at rest, m; three cells if it is not near. Where the cells see it inside, it
     /// is so only if it truly is: they do not resolve ground that is thinner than they are.
     /// @param x the place, m
-    /// @param enough m, at most 0: from there on the distance may be the one that the cells see
+    /// @param enough m, at most 0: a larger distance that the cells see is returned as it is
     double distance_of(const unsigned int cell,
                        const dealii::Point<dim> &place,
                        const dealii::Point<dim> &x,

@@ -52,7 +52,7 @@ namespace scree
     void update_velocities(const double time_step, StepReport<dim> &report);
 
     /// Moves bodies and loads after the solve of a step, and updates stress and state.
-    /// Where there is `projected`, it holds a velocity by now.
+    /// `projected`, if any, must hold the velocity of the strain (ExplicitUpdate::project).
     /// @param mixture of which the soil is a part, after its solve; null: dry
     void to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture = nullptr);
 

@@ -25,7 +25,8 @@ namespace scree
   ///
   /// A cut through the mesh's curve of cells can even out one kind of work: sorting and points to grid cost the same
   /// for each point, the law up to fifteen times more where the soil yields, and not all points touch the ground. It
-  /// evens out the longer one of the first two, or the sum of all where contact takes over half of it.
+  /// evens out the longer one of points to grid and the law, or the sum of these and contact where contact takes over
+  /// half of it.
   ///
   /// Costs are times of the processor, so on several ranks the partition may differ from run to run; results then
   /// differ by rounding.
@@ -84,7 +85,7 @@ namespace scree
     {
       points, ///< all cost the same
       costs,  ///< the work to the points, as measured
-      all     ///< both and contact with the ground
+      all     ///< points to grid, their law and contact with the ground
     };
 
     /// s
@@ -123,6 +124,7 @@ namespace scree
     double calibration                = 1;     // work to the points over what this rank's cells say
     double to_nodes_of_point          = 0;     // s a step, mean of all ranks
     bool has_begun                    = false; // whether a look was taken before
+    bool has_contact                  = false; // whether a rank's points have met the ground since then
     unsigned int n_steps              = 0;     // since the last look
     double surplus                    = 0;     // of the slowest rank's work over the mean since the last repartition, s
     double duration                   = 0;     // of the last repartition, s

@@ -20,7 +20,7 @@ namespace scree
     /// No stage may use MPI or what a step changes.
     std::vector<std::function<void()>> stages;
     std::function<void()> done; ///< after the last stage, on all ranks
-    /// With the first rank's fault after a stage that threw, on all ranks; may throw.
+    /// With the first rank's fault after a stage that threw, on all ranks; may throw. Empty: the fault is thrown.
     std::function<void(const std::string &)> failed;
   };
 
@@ -32,7 +32,7 @@ namespace scree
     /// Without a job.
     explicit BackgroundWriter(const MPI_Comm communicator);
 
-    /// On a single rank all jobs are written first; faults are of no interest any more.
+    /// On a single rank all jobs are written first; faults are ignored.
     ~BackgroundWriter();
 
     /// Begins the job after those before it, of which it waits for all but one. Collective.
