@@ -21,14 +21,13 @@ namespace scree
                               const StabilisationParameters &stabilisation,
                               std::list<SoilBody<dim>> &bodies,
                               std::list<SurfaceLoad<dim>> &loads,
-                              const bool projects_velocity,
                               const unsigned int group)
       : field(grid)
       , transfer(grid, transfer, stabilisation)
       , bodies(bodies)
       , group(group)
   {
-    if (projects_velocity && strain_is_of_points(transfer.transfer_method()))
+    if (transfer.projects_velocity())
       projected = std::make_unique<NodalField<dim>>(grid);
     for (auto &load : loads)
       this->loads.emplace_back(grid, load);

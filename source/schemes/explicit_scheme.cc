@@ -14,13 +14,7 @@ namespace scree
                                     const unsigned int number,
                                     WallGaps<dim> &wall_gaps,
                                     TimerOutput &timer)
-      : soil(model.grid,
-             model.transfer,
-             model.stabilisation,
-             model.bodies,
-             model.loads,
-             /* projects_velocity */ true,
-             number)
+      : soil(model.grid, model.transfer, model.stabilisation, model.bodies, model.loads, number)
       , wall_gaps(wall_gaps)
       , momentum(*model.constraints[number], wall_gaps, model.forces)
       , contact(model.grid,

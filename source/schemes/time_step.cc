@@ -15,12 +15,12 @@ namespace scree
   void TimeStepParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Time step");
-    prm.add_parameter(
-        "Courant number",
-        courant,
-        "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Beyond auto the stress oscillates or "
-        "the run diverges. auto: 1.1 in dry cases with Method = FLIP or PIC in subsection Transfer, else 0.6.",
-        Patterns::Anything());
+    prm.add_parameter("Courant number",
+                      courant,
+                      "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Beyond auto the "
+                      "stress oscillates or "
+                      "the run diverges. auto: 0.6; 1.1 with Stress update = MUSL in subsection Transfer.",
+                      Patterns::Anything());
     prm.add_parameter("Advection number",
                       advection_number,
                       "Largest distance that a point moves in a time step, over the cell size.",
@@ -61,8 +61,8 @@ namespace scree
                                   const double gravity,
                                   const double cell_size)
   {
-    constexpr double of_projected = 1.1, otherwise = 0.6; // doc/theory/single_phase.md
-    courant_number = courant != "auto" ? number_of(courant) : projects_velocity ? of_projected : otherwise;
+    constexpr double of_projected = 1.1, of_nodes = 0.6; // doc/theory/single_phase.md
+    courant_number = courant != "auto" ? number_of(courant) : projects_velocity ? of_projected : of_nodes;
     choose_maximum(has_water, gravity, cell_size);
   }
 

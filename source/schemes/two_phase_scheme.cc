@@ -24,7 +24,7 @@ namespace scree
       , faces_closed_to_water(model.water_walls->closed_faces())
       , inflows(model.inflows)
       , timer(timer)
-      , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads, /* projects_velocity */ false)
+      , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads)
       , transfer(grid,
                  model.transfer,
                  model.water_parameters,

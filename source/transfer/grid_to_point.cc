@@ -215,7 +215,7 @@ namespace scree
                                           const double time_step,
                                           NodalField<dim> &projected)
   {
-    Assert(strain_is_of_points(method), ExcInternalError());
+    Assert(!carries_affine(method), ExcInternalError());
     const auto dispatch = [&](auto n) {
       return method == TransferMethod::pic ? update_points<n, TransferMethod::pic>(body, field, time_step, projected)
                                            : update_points<n, TransferMethod::flip>(body, field, time_step, projected);

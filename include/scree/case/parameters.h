@@ -95,12 +95,6 @@ namespace scree
     /// The bodies that stick to each other, and which of them slide. Throws EntryError if contacts do not fit.
     ContactGroups contact_groups() const;
 
-    /// Whether points strain with their own velocity at the nodes, see SolidPhase::projected.
-    bool projects_velocity() const
-    {
-      return !has_water && strain_is_of_points(transfer.transfer_method());
-    }
-
     /// Every entry with its value.
     CaseEntries entries() const;
 

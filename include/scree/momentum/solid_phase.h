@@ -19,14 +19,12 @@ namespace scree
   {
   public:
     /// @param bodies of all groups
-    /// @param projects_velocity whether the strain of points may be that of their own velocity
     /// @param group number of this one
     SolidPhase(const BackgroundGrid<dim> &grid,
                const TransferParameters &transfer,
                const StabilisationParameters &stabilisation,
                std::list<SoilBody<dim>> &bodies,
                std::list<SurfaceLoad<dim>> &loads,
-               const bool projects_velocity,
                const unsigned int group = 0);
 
     /// Fits the nodes to the grid's current partition. Collective.
@@ -74,9 +72,9 @@ namespace scree
     /// The nodes of the soil: sums before the solve, velocity and its change after it.
     NodalField<dim> field;
 
-    /// The points' own velocity at the end of the step, which they strain with (after "modified update stress last",
-    /// @source{sulsky1995}): with FLIP and PIC in dry scenes, else null. What forces do then reaches the strain as
-    /// smooth as it reaches the points, and a step may be 1.8 times as long.
+    /// The velocity that points strain with if `Stress update` is MUSL (modified update stress last, after
+    /// @source{sulsky1995}), see ExplicitUpdate::project(); else null. What forces do then reaches the strain as smooth
+    /// as it reaches the points, and a step may be 1.8 times as long.
     std::unique_ptr<NodalField<dim>> projected;
 
   private:

@@ -36,13 +36,6 @@ namespace scree
     return method == TransferMethod::apic || carries_gradient(method);
   }
 
-  /// Whether strain can be that of the points' own velocity at the nodes: those that carry an affine field would
-  /// stretch twice by what the nodes say.
-  constexpr bool strain_is_of_points(const TransferMethod method)
-  {
-    return !carries_affine(method);
-  }
-
   /// Treatment of volumetric locking and stress oscillation.
   enum class FBar
   {
@@ -54,15 +47,17 @@ namespace scree
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method = "FLIP"; ///< FLIP | PIC | APIC | TPIC | AFLIP
-    std::string rate   = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
-    double pic_rate    = 1;      ///< 1/s, what choose_rate() has made of the entry
+    std::string method        = "FLIP"; ///< FLIP | PIC | APIC | TPIC | AFLIP
+    std::string rate          = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
+    double pic_rate           = 1;      ///< 1/s, what choose_rate() has made of the entry
+    std::string stress_update = "USL";  ///< USL | MUSL
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError at a rate that is none, or that the method does not read.
-    void check() const;
+    /// Throws EntryError at a rate that is none, or that the method does not read, and at a stress update that does not
+    /// fit.
+    void check(const bool has_water) const;
 
     /// Sets the PIC rate. `auto` is 1 1/s with FLIP; with AFLIP 5 sqrt(g/h), without gravity c/h.
     ///
@@ -76,6 +71,12 @@ namespace scree
 
     /// Entry `Method` as an enum.
     TransferMethod transfer_method() const;
+
+    /// Whether the strain of points is that of their own velocity at the nodes, see SolidPhase::projected.
+    bool projects_velocity() const
+    {
+      return stress_update == "MUSL";
+    }
 
     /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
