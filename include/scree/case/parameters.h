@@ -13,7 +13,7 @@
 #include <scree/postprocess/probe_parameters.h>
 #include <scree/geometry/bed_parameters.h>
 #include <scree/geometry/obstacle_parameters.h>
-#include <scree/bodies/surface_load.h>
+#include <scree/momentum/surface_load.h>
 #include <scree/bodies/water_parameters.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/momentum/explicit_update.h>

@@ -4,7 +4,7 @@
 
 #include <scree/step/timer_section.h>
 #include <scree/step/step_report.h>
-#include <scree/transfer/load_transfer.h>
+#include <scree/momentum/load_transfer.h>
 #include <scree/transfer/nonlocal_average.h>
 #include <scree/transfer/transfer.h>
 

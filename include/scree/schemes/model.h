@@ -6,7 +6,7 @@
 #include <scree/contact/contact_parameters.h>
 #include <scree/contact/points/point_contact.h>
 #include <scree/mesh/cut_cells.h>
-#include <scree/bodies/surface_load.h>
+#include <scree/momentum/surface_load.h>
 
 namespace scree
 {

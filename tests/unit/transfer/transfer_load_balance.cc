@@ -7,7 +7,7 @@
 
 #include <scree/materials/table.h>
 #include <scree/seeding/seeding.h>
-#include <scree/transfer/load_transfer.h>
+#include <scree/momentum/load_transfer.h>
 #include <scree/transfer/transfer.h>
 
 #include <deal.II/base/mpi.h>

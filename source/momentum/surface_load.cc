@@ -2,7 +2,7 @@
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/particles/lattice.h>
-#include <scree/bodies/surface_load.h>
+#include <scree/momentum/surface_load.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_bodies_surface_load_h
-#define scree_bodies_surface_load_h
+#ifndef scree_momentum_surface_load_h
+#define scree_momentum_surface_load_h
 
 #include <scree/mesh/background_grid.h>
 #include <scree/bodies/soil_body.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_transfer_load_transfer_h
-#define scree_transfer_load_transfer_h
+#ifndef scree_momentum_load_transfer_h
+#define scree_momentum_load_transfer_h
 
 #include <scree/mesh/nodal_field.h>
-#include <scree/bodies/surface_load.h>
+#include <scree/momentum/surface_load.h>
 
 #include <array>
 #include <list>

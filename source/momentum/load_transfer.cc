@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/mesh/shape_functions.h>
 #include <scree/mixture/closures.h>
-#include <scree/transfer/load_transfer.h>
+#include <scree/momentum/load_transfer.h>
 
 #include <deal.II/base/mpi.h>
 
