@@ -158,7 +158,6 @@ namespace scree
     results.writer().finish();
     if (step_of_checkpoint != clock.step())
       write_checkpoint();
-    results.writer().finish();
     require_entry(
         step_of_checkpoint == clock.step(),
         "Output",
@@ -348,7 +347,7 @@ namespace scree
     const TimedPart part(timer, TimerSection::output);
     results.report(state(), output_times);
     if (output_times.checkpoint_is_due(clock.time()))
-      write_checkpoint();
+      begin_checkpoint();
     output_times.begin(clock.time());
     if (is_at_end())
       results.writer().finish();
@@ -376,7 +375,7 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::write_checkpoint()
+  void Simulation<dim>::begin_checkpoint()
   {
     const RunTotals<dim> own = totals;
     totals                   = totals.sum_over_ranks(communicator);

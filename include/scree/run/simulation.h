@@ -63,8 +63,12 @@ namespace scree
     /// @param displacement of the soil that fails, over its height
     Trial try_strength(const double displacement);
 
-    /// Writes a checkpoint of the state as it is. Collective.
-    void write_checkpoint();
+    /// Writes a checkpoint of the state as it is, to the end. Collective.
+    void write_checkpoint()
+    {
+      begin_checkpoint();
+      results.writer().finish();
+    }
 
     /// One step of the run, of `largest_step` s and to the time `due`, s, at most.
     /// @return its length, s
@@ -155,6 +159,9 @@ namespace scree
     void place_points(const double time_step, const Speeds &of_rank);
 
     void report();
+
+    /// Gathers a checkpoint, which is written while the run goes on. Collective.
+    void begin_checkpoint();
     RunState<dim> state() const
     {
       return { totals, last_update, clock.time(), clock.step(), last_time_step };
