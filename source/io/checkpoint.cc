@@ -24,24 +24,6 @@ namespace scree
     const std::string name_of_entries = "entries", name_of_state = "state", name_of_points = "points.",
                       name_of_mesh = "mesh.";
 
-    /// What an action of this rank complains of; empty: nothing.
-    std::string fault_of(const std::function<void()> &action)
-    {
-      try
-        {
-          action();
-        }
-      catch (const ExceptionBase &error)
-        {
-          return plain_text(error);
-        }
-      catch (const std::exception &error)
-        {
-          return error.what();
-        }
-      return "";
-    }
-
     /// The fault of the first rank that has one, on all ranks. Collective.
     std::string fault_of_any_rank(const std::string &fault, const MPI_Comm communicator)
     {

@@ -87,13 +87,14 @@ namespace scree
                 below += bin_of_search[bin++];
               const double width = (end - begin) / n_bins;
               begin += bin * width;
-              end                            = begin + width;
-              const std::vector<Part> before = pass == 0 ? all : std::move(parts);
-              parts.clear();
+              end                = begin + width;
+              const auto &before = pass == 0 ? all : parts;
+              std::vector<Part> kept;
               // Rounding decides anew about the edges.
-              std::copy_if(before.begin(), before.end(), std::back_inserter(parts), [&](const Part &part) {
+              std::copy_if(before.begin(), before.end(), std::back_inserter(kept), [&](const Part &part) {
                 return part.place >= begin - width && part.place < end + width;
               });
+              parts = std::move(kept);
             }
         }
       std::vector<double> result;

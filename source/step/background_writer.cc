@@ -15,26 +15,33 @@ namespace scree
 
   namespace
   {
-    /// What the first stage that throws complains of; empty: nothing.
-    std::string fault_of(const std::vector<std::function<void()>> &stages)
+    std::string fault_of_stages(const std::vector<std::function<void()>> &stages)
     {
-      try
-        {
-          for (const auto &write : stages)
-            if (write)
-              write();
-        }
-      catch (const ExceptionBase &error)
-        {
-          return plain_text(error);
-        }
-      catch (const std::exception &error)
-        {
-          return error.what();
-        }
-      return "";
+      return fault_of([&] {
+        for (const auto &write : stages)
+          if (write)
+            write();
+      });
     }
   } // namespace
+
+
+  std::string fault_of(const std::function<void()> &action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const ExceptionBase &error)
+      {
+        return plain_text(error);
+      }
+    catch (const std::exception &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
 
 
   BackgroundWriter::BackgroundWriter(const MPI_Comm communicator)
@@ -50,7 +57,7 @@ namespace scree
       running.wait();
     if (n_ranks == 1)
       for (unsigned int j = 1; j < jobs.size(); ++j)
-        fault_of(jobs[j].stages);
+        fault_of_stages(jobs[j].stages);
   }
 
 
@@ -101,7 +108,7 @@ namespace scree
     std::move(next, all.begin() + stage, std::back_inserter(stages));
     running = std::async(std::launch::async, [stages = std::move(stages)]() mutable {
       const auto freed_here = std::move(stages);
-      return fault_of(freed_here);
+      return fault_of_stages(freed_here);
     });
   }
 

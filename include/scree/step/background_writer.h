@@ -13,6 +13,9 @@
 
 namespace scree
 {
+  /// What an action of this rank complains of; empty: nothing.
+  std::string fault_of(const std::function<void()> &action);
+
   /// Files of a picture or a checkpoint, whose content is gathered. Ranks write theirs stage by stage.
   struct FileJob
   {

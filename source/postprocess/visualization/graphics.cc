@@ -82,7 +82,8 @@ namespace scree
     const std::string name = series + '_' + Utilities::int_to_string(pictures.size(), 5);
     pictures.emplace_back(time, name + ".pvtu");
     files.pictures.emplace_back(folder + name, picture);
-    files.series.push_back(series_file(series, pictures));
+    if (rank == 0) // It alone writes them.
+      files.series.push_back(series_file(series, pictures));
   }
 
 
