@@ -137,7 +137,7 @@ namespace scree
     // breaks ran with 0.04 s/m.
     constexpr double free_water_step_over_cell = 0.04; // s/m
     present.courant = scene.is_elastic && scene.has_water && scene.water_fills_soil ? "0.9" : "auto";
-    present.choose(scene.has_water, scene.projects_velocity, scene.gravity, scene.cell_size);
+    present.choose(scene.has_water, scene.courant_of_transfer, scene.gravity, scene.cell_size);
     if (!scene.has_soil)
       present.maximum_time_step = free_water_step_over_cell * scene.cell_size;
     return present;

@@ -77,7 +77,7 @@ namespace scree
         water.find_fringe(size_of_gravity());
         if (safety.strength_factor != 1.)
           reduce_strength(safety.strength_factor);
-        time_step.choose(has_water, transfer.projects_velocity(), size_of_gravity(), grid.cell_size);
+        time_step.choose(has_water, transfer.courant_number(), size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
       }
     catch (const EntryError &error)

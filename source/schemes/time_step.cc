@@ -19,7 +19,8 @@ namespace scree
                       courant,
                       "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Beyond auto the "
                       "stress oscillates or "
-                      "the run diverges. auto: 0.6; 1.1 with Stress update = MUSL in subsection Transfer.",
+                      "the run diverges. auto: 0.6 with the methods FLIP and PIC, 0.75 with TPIC, AFLIP "
+                      "and APIC, 1.1 with Stress update = MUSL (subsection Transfer).",
                       Patterns::Anything());
     prm.add_parameter("Advection number",
                       advection_number,
@@ -57,12 +58,11 @@ namespace scree
 
 
   void TimeStepParameters::choose(const bool has_water,
-                                  const bool projects_velocity,
+                                  const double courant_of_transfer,
                                   const double gravity,
                                   const double cell_size)
   {
-    constexpr double of_projected = 1.1, of_nodes = 0.6; // doc/theory/single_phase.md
-    courant_number = courant != "auto" ? number_of(courant) : projects_velocity ? of_projected : of_nodes;
+    courant_number = courant != "auto" ? number_of(courant) : courant_of_transfer;
     choose_maximum(has_water, gravity, cell_size);
   }
 

@@ -132,5 +132,31 @@ def shaken_block(scree):
               at(free, "Momentum x (N s)", time) / at(free, "Mass (kg)", time) / relative, 0.9998, 1.0002)
 
 
+def stable_step(scree):
+    """An elastic body without weight, full of waves: with the default step its energy does not grow in 1000 steps and more, whatever the
+    transfer and wherever its points are in their cells; with a Courant number of 1.5 it does, so that the waves would tell."""
+    body = {"Stabilisation/F-bar": "modified", "Mesh/Cell size": "0.05", "End time": "3", "Output/Statistics interval": "0.1",
+            "Soil/Grain density": "1600", "Soil/Initial porosity": "0.4", "Transfer/PIC rate": "auto",
+            "Time step/Maximum time step": "1", "Time step/Advection number": "1"}
+    plane = {"Gravity": "0, 0", "Mesh/Upper corner": "1, 1", "Soil/Initial velocity": "1e-4*sin(50*x + 37*y); 1e-4*cos(91*x - 53*y)"}
+    space = {"Gravity": "0, 0, 0", "Mesh/Upper corner": "0.5, 0.5, 0.5",
+             "Soil/Initial velocity": "1e-4*sin(50*x + 37*y); 1e-4*cos(91*x - 53*z); 1e-4*sin(63*y + 71*z)"}
+    for case, entries, sides, points in (("elastic_2d", plane, (0.5, 0.4), (1, 2, 3)), ("elastic_3d", space, (0.15, 0.2, 0.15), (2,))):
+        for method in ("FLIP", "TPIC", "AFLIP", "APIC"):
+            of_flip = {"Transfer/PIC rate": "0"} if "FLIP" in method else {}
+            for n in points:
+                for shift in (0, 0.3, 0.6):
+                    region = " && ".join("%s > %g && %s < %g" % (axis, 0.15 + shift * 0.05, axis, 0.15 + shift * 0.05 + side)
+                                         for axis, side in zip("xyz", sides))
+                    scene = {**body, **entries, **of_flip, "Transfer/Method": method, "Soil/Points per cell": str(n), "Soil/Region": region,
+                             "Soil/Jitter": "0.49" if n == 1 else "0"}
+                    for courant, least, most in (("auto", 0, 1.01), ("1.5", 2, 1e99))[:1 if shift > 0 else 2]:
+                        table = run(scree, "benchmarks/" + case, "waves", {**scene, "Time step/Courant number": courant}, may_stop=True)
+                        energy = table["Kinetic energy (J)"] + table["Elastic energy (J)"]
+                        growth = energy[-1] / energy[0] if table["Time (s)"][-1] > 2.99 else 1e98  # a run that gets unstable stops
+                        check("%s, %s, %d points, shift %g, Courant number %s: energy at the end over that at the start" %
+                              (case, method, n, shift, courant), min(growth, 1e98), least, most)
+
+
 if __name__ == "__main__":
     main(globals())

@@ -34,15 +34,15 @@ namespace scree
 
     bool has_changing_forces = false; ///< a load that depends on time, or a body force
 
-    bool has_soil          = false; ///< whether any body can move
-    bool sticks            = false; ///< on a floor or bed that holds the soil
-    bool is_elastic        = false; ///< all bodies are linear elastic
-    bool projects_velocity = false; ///< whether points strain with theirs, see SolidPhase::projected
-    WaveMedium mean;                ///< means over the volume of the soil
-    WaveMedium fastest;             ///< the point with the fastest pressure wave
-    double grain_density  = 0;      ///< kg/m^3, mean
-    double porosity       = 0;      ///< mean
-    double grain_diameter = 0;      ///< of friction that grows with the rate, m, smallest of all bodies; 0: none
+    bool has_soil              = false; ///< whether any body can move
+    bool sticks                = false; ///< on a floor or bed that holds the soil
+    bool is_elastic            = false; ///< all bodies are linear elastic
+    double courant_of_transfer = 0;     ///< see TransferParameters::courant_number()
+    WaveMedium mean;                    ///< means over the volume of the soil
+    WaveMedium fastest;                 ///< the point with the fastest pressure wave
+    double grain_density  = 0;          ///< kg/m^3, mean
+    double porosity       = 0;          ///< mean
+    double grain_diameter = 0;          ///< of friction that grows with the rate, m, smallest of all bodies; 0: none
 
     bool has_water        = false; ///< whether there is a subsection Water
     bool is_single_point  = false; ///< whether the soil's points carry the water

@@ -24,13 +24,12 @@ namespace scree
     /// Throws EntryError if the Courant number or the maximum is no number.
     void check() const;
 
-    /// Sets what is `auto`. The Courant number is 1.1 where the strain of points is that of their own velocity at the
-    /// nodes, else 0.6. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water it is
-    /// 0.01 s, as its results depend on the step.
-    /// @param projects_velocity whether points do, see SolidPhase::projected
+    /// Sets what is `auto`. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water it
+    /// is 0.01 s, as its results depend on the step.
+    /// @param courant_of_transfer see TransferParameters::courant_number()
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m
-    void choose(const bool has_water, const bool projects_velocity, const double gravity, const double cell_size);
+    void choose(const bool has_water, const double courant_of_transfer, const double gravity, const double cell_size);
 
     /// The parameters while the pore pressure is held: an `auto` maximum is that of dry soil.
     TimeStepParameters with_held_pressure(const double gravity, const double cell_size) const
