@@ -19,7 +19,7 @@ namespace scree
                       courant,
                       "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Beyond auto the "
                       "stress oscillates or "
-                      "the run diverges. auto: 0.6 with the methods FLIP and PIC, 0.75 with TPIC, AFLIP "
+                      "the run diverges. auto: 0.6 with the methods FLIP and PIC, 0.7 with TPIC, AFLIP "
                       "and APIC, 1.1 with Stress update = MUSL (subsection Transfer).",
                       Patterns::Anything());
     prm.add_parameter("Advection number",

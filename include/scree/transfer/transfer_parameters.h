@@ -84,7 +84,7 @@ namespace scree
     /// Courant number at which elastic soil is stable wherever its points are (doc/theory/single_phase.md).
     double courant_number() const
     {
-      return projects_velocity() ? 1.1 : carries_affine_field() ? 0.75 : 0.6;
+      return projects_velocity() ? 1.1 : carries_affine_field() ? 0.7 : 0.6;
     }
   };
 
