@@ -19,15 +19,19 @@ namespace scree
 
   namespace
   {
-    // Measured in 2D and 3D: peaks of runs on one rank, over their numbers of cells and points, of a step and a picture
-    // and of runs whose fine cells follow their points, for which deal.II copies all of them. Good to a quarter.
-    constexpr double bytes_of_cell[2]         = { 1200, 1900 };
-    constexpr double bytes_of_wet_cell[2]     = { 0, 29000 }; // beside that: matrix and multigrid of the pressure
-    constexpr double bytes_of_pair_at_cell[2] = { 270, 400 }; // of bodies that slide: numbers of its nodes
-    constexpr double bytes_of_soil_point[2]   = { 900, 1500 };
-    constexpr double bytes_of_water_point[2]  = { 550, 900 };
-    constexpr double bytes_of_coarse_cell     = 300;
-    constexpr double bytes_of_program         = 1.7e8;
+    // Measured in 2D and 3D: peaks of runs on one rank, over their numbers of cells and points, and of runs whose fine
+    // cells follow their points, for which deal.II copies all of them (tests/cases/memory.py).
+    constexpr double bytes_of_cell[2]          = { 1200, 1900 };
+    constexpr double bytes_of_wet_cell[2]      = { 0, 2000 };  // beside that: matrix and multigrid of the pressure
+    constexpr double bytes_of_pair_at_cell[2]  = { 270, 400 }; // of bodies that slide: numbers of its nodes
+    constexpr double bytes_of_soil_point[2]    = { 550, 1000 };
+    constexpr double bytes_of_water_point[2]   = { 400, 600 };
+    constexpr double bytes_of_soil_picture[2]  = { 900, 1000 }; // of a point, in pictures that wait for the disk
+    constexpr double bytes_of_water_picture[2] = { 600, 500 };
+    constexpr double bytes_of_coarse_cell      = 300;
+    constexpr double bytes_of_program          = 1.7e8;
+    constexpr double bytes_of_solver           = 2.5e7; // for water
+    constexpr double bytes_of_writer           = 1.8e7; // for pictures
 
 
     template <int dim>
@@ -253,12 +257,19 @@ namespace scree
     if (parameters.water.point_sets_kind() == PointSets::double_point)
       estimate.n_water_points = n_wet_cells * std::pow(parameters.water.points_per_cell, dim) + n_entered_water;
 
-    const double n_pairs    = parameters.contact_groups().pairs.size();
-    estimate.bytes_of_cells = (bytes_of_cell[dim - 2] + n_pairs * bytes_of_pair_at_cell[dim - 2]) * estimate.n_cells +
+    const double n_ahead     = std::max(GridParameters::least_ahead, GridParameters::most_ahead * estimate.n_cells);
+    const double n_cells_met = grid.is_adaptive() ? std::min(n_ahead, n_cells) : n_cells;
+    const double n_pairs     = parameters.contact_groups().pairs.size();
+    const bool has_pictures  = parameters.output.graphics_kind() != Pictures::none;
+    const auto points        = [&](const double n, const double *bytes, const double *bytes_of_picture) {
+      return n * (bytes[dim - 2] + (has_pictures ? bytes_of_picture[dim - 2] : 0.));
+    };
+    estimate.bytes_of_cells = (bytes_of_cell[dim - 2] + n_pairs * bytes_of_pair_at_cell[dim - 2]) * n_cells_met +
                               bytes_of_wet_cell[dim - 2] * n_wet_cells;
-    estimate.bytes_of_points =
-        bytes_of_soil_point[dim - 2] * estimate.n_soil_points + bytes_of_water_point[dim - 2] * estimate.n_water_points;
-    estimate.bytes_of_rank = bytes_of_program + bytes_of_coarse_cell * n_coarse_cells;
+    estimate.bytes_of_points = points(estimate.n_soil_points, bytes_of_soil_point, bytes_of_soil_picture) +
+                               points(estimate.n_water_points, bytes_of_water_point, bytes_of_water_picture);
+    estimate.bytes_of_rank = bytes_of_program + (parameters.has_water ? bytes_of_solver : 0.) +
+                             (has_pictures ? bytes_of_writer : 0.) + bytes_of_coarse_cell * n_coarse_cells;
     return estimate;
   }
 

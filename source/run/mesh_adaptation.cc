@@ -49,15 +49,15 @@ namespace scree
   template <int dim>
   Blocks MeshAdaptation<dim>::blocks_ahead(const double time_step) const
   {
-    // A new mesh costs about 100 steps; a cell without points costs memory alone, and 50 000 of them less of it than
-    // the program itself.
-    constexpr double steps_ahead = 2000, most_blocks = 2, few_blocks = 5e4 / (1 << dim);
-    const auto blocks = [this](const double time) {
+    constexpr double steps_ahead = 2000; // A new mesh costs about 100 steps, a cell without points memory alone.
+    constexpr double few_blocks  = GridParameters::least_ahead / (1 << dim);
+    const auto blocks            = [this](const double time) {
       return scene.grid.with_surroundings(scene.blocks_of_points(time));
     };
     const Blocks around = blocks(0.);
     for (double steps = steps_ahead; steps > 1; steps /= 2)
-      if (Blocks ahead = blocks(steps * time_step); ahead.size() <= std::max(few_blocks, most_blocks * around.size()))
+      if (Blocks ahead = blocks(steps * time_step);
+          ahead.size() <= std::max(few_blocks, GridParameters::most_ahead * around.size()))
         return ahead;
     return around;
   }
