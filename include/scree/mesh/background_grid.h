@@ -48,9 +48,11 @@ namespace scree
     /// With more than this part of the box, all of it is made fine: that costs less than to follow the points.
     static constexpr double most_of_box = 0.5;
 
-    /// Cells ahead of points that move are fine, too: so many times those around the points, or so many. They take less
-    /// memory than the program.
-    static constexpr double most_ahead = 2., least_ahead = 5e4;
+    /// Cells ahead of points that move are fine, too: so many times those around the points...
+    static constexpr double most_ahead = 2.;
+
+    /// ...or so many, which take less memory than the program.
+    static constexpr double least_ahead = 5e4;
   };
 
   /// What refinement does to the ranks of cells.
