@@ -205,7 +205,7 @@ namespace scree
   {
     NodalForces sums;
     for (const Group &group : groups)
-      add_nodal_forces(group.soil.field, forces, time_step, sums);
+      add_nodal_forces<dim>(group.soil.field, nullptr, forces, time_step, sums);
     return sums;
   }
 

@@ -333,7 +333,7 @@ namespace scree
   NodalForces TwoPhaseScheme<dim>::nodal_forces(const double time_step) const
   {
     NodalForces sums;
-    add_nodal_forces(soil.field, forces, time_step, sums);
+    add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
     return sums;
   }
 

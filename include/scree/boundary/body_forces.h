@@ -12,7 +12,7 @@
 namespace scree
 {
   /// What acts on all nodes besides stress, pressure and walls: gravity, all kinds of body force, and the
-  /// damping of the settling.
+  /// damping of the trials of a factor search.
   template <int dim>
   class BodyForces
   {
@@ -59,7 +59,7 @@ namespace scree
       damping_rate = rate;
     }
 
-    /// Whether the damping of the settling is on.
+    /// Whether there is damping.
     bool is_damped() const
     {
       return damping_rate > 0.;
