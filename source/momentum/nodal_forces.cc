@@ -32,7 +32,7 @@ namespace scree
                         NodalForces &sums)
   {
     using Field          = NodalField<dim>;
-    const double gravity = forces.gravity().norm();
+    const double gravity = forces.fall().norm();
     for (const unsigned int node : soil.active_nodes())
       if (const double *of_soil = soil[node]; of_soil[Field::mass] > 0.)
         {
