@@ -10,11 +10,13 @@ namespace scree
   template <int dim>
   BodyForces<dim>::BodyForces(const BackgroundGrid<dim> &grid,
                               const std::vector<double> &gravity,
-                              const BodyForceParameters &parameters)
+                              const BodyForceParameters &parameters,
+                              const double mass_scaling)
       : grid(grid)
       , own_gravity(make_array_view(gravity))
       , forces(parameters.make<dim>())
-      , uniform(own_gravity)
+      , scaling(mass_scaling)
+      , uniform(fall())
   {
     for (const auto &force : forces)
       if (!force->is_uniform())
@@ -43,10 +45,10 @@ namespace scree
   template <int dim>
   void BodyForces<dim>::sum_uniform()
   {
-    uniform = own_gravity;
+    uniform = fall();
     for (const auto &force : forces)
       if (force->is_uniform())
-        uniform += force->at(Point<dim>());
+        uniform += force->at(Point<dim>()) / scaling;
   }
 
 

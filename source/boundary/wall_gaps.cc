@@ -113,7 +113,7 @@ namespace scree
       gap.compress(VectorOperation::min);
     std::array<double, 2 * dim> slow_of_face;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      slow_of_face[face] = slow(face, forcing.gravity().norm());
+      slow_of_face[face] = slow(face, forcing.fall().norm());
     for (const unsigned int node : on_walls)
       {
         if (node >= grid.n_owned_nodes() || !constraints.has_walls_alone(node))

@@ -166,6 +166,26 @@ namespace scree
                     parameters.settling.maximum_time,
                     no_soil + '.');
     }
+
+
+    /// What depends on the true inertia.
+    void check_mass_scaling(const Parameters &parameters)
+    {
+      const auto require = [&](const bool possible, const std::string &what) {
+        require_entry(possible || parameters.time_step.mass_scaling == 1.,
+                      "Time step",
+                      "Mass scaling",
+                      parameters.time_step.mass_scaling,
+                      "it is for slow motion, and " + what + " depends on the true inertia. Write 1, or remove that.");
+      };
+      require(!parameters.body_forces.is_set(), "a base motion or body force");
+      require(parameters.inflows.empty(), "what an inflow brings");
+      require(!parameters.rain.is_set(), "rain, as it falls on the soil,");
+      require(parameters.bed.turbulent_friction == 0., "\"Turbulent friction\" of the bed");
+      require(parameters.water.initial_velocity.empty(), "\"Initial velocity\" of the water");
+      for (const BodyParameters &body : parameters.bodies)
+        require(body.seeding.initial_velocity.empty(), "\"Initial velocity\" of " + quoted(body.name));
+    }
   } // namespace
 
 
@@ -219,6 +239,7 @@ namespace scree
     for (const auto &body : parameters.bodies)
       body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);
     check_contacts(parameters);
+    check_mass_scaling(parameters);
     check_points_of_water(parameters);
     require_entry(parameters.bed.turbulent_friction == 0. || !parameters.has_water,
                   "Bed",

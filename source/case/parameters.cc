@@ -79,6 +79,8 @@ namespace scree
           reduce_strength(safety.strength_factor);
         time_step.choose(has_water, transfer.courant_number(), size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
+        if (transfer.rate == "auto")
+          transfer.pic_rate /= std::sqrt(time_step.mass_scaling);
       }
     catch (const EntryError &error)
       {

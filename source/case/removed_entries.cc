@@ -15,11 +15,15 @@ namespace scree
     if (path == "Water/Pressure/Previous pressure" && (value == "grid" || value == "dropped"))
       return removed + "Remove the line, or write affine, which is the default, or average" + source;
     static const std::map<std::string, std::string> remedies{
-      { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\"." },
-      { "Water/Pressure/Free surface", "The surface is always found inside the cells, as with \"distance\"." },
-      { "Water/Pressure/Splitting", "Pressure and drag are always solved together, as with \"drag in correction\"." },
+      { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\". Remove the line" + source },
+      { "Water/Pressure/Free surface",
+        "The surface is always found inside the cells, as with \"distance\". Remove the line" + source },
+      { "Water/Pressure/Splitting",
+        "Pressure and drag are always solved together, as with \"drag in correction\". Remove the line" + source },
+      { "Settling/Damping rate", "Settling stops all where the kinetic energy is largest. Remove the line." },
+      { "Settling/Kinetic energy", "Settling ends by \"Unbalanced force\". Remove the line, or write that entry." },
     };
     const auto found = remedies.find(path);
-    return found == remedies.end() ? "" : removed + found->second + " Remove the line" + source;
+    return found == remedies.end() ? "" : removed + found->second;
   }
 } // namespace scree

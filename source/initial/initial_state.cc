@@ -83,21 +83,11 @@ namespace scree
         maximum_time,
         "s; longest duration of the damped motion under gravity before the release at t = 0; 0: no settling.",
         Patterns::Double(0));
-    prm.add_parameter("Damping rate",
-                      damping_rate,
-                      "1/s; decay rate of the velocity during undrained settling. Drained settling stops all where the "
-                      "kinetic energy "
-                      "is largest.",
-                      Patterns::Double(0));
-    prm.add_parameter("Kinetic energy",
-                      kinetic_energy,
-                      "Ratio of kinetic to elastic energy below which undrained settling ends.",
-                      Patterns::Double(0, 1));
-    prm.add_parameter("Unbalanced force",
-                      unbalanced_force,
-                      "Ratio of unbalanced force to weight, root mean square over the nodes, below which drained "
-                      "settling ends.",
-                      Patterns::Double(0, 1));
+    prm.add_parameter(
+        "Unbalanced force",
+        unbalanced_force,
+        "Ratio of unbalanced force to weight, root mean square over the nodes, below which settling ends.",
+        Patterns::Double(0, 1));
     prm.add_parameter("Gate",
                       gate,
                       "Nodes where this expression of x, y (z), in m, is true are held until the release, such as x > "
@@ -120,28 +110,11 @@ namespace scree
                   "Gate",
                   gate,
                   "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
-    const SettlingParameters defaults;
-    const bool is_drained = drainage() == Drainage::drained;
-    require_entry(!is_drained || maximum_time > 0,
+    require_entry(drainage() == Drainage::undrained || maximum_time > 0,
                   "Settling",
                   "Type",
                   type,
                   "settling has no time. Write a \"Maximum time\" above 0, in s.");
-    require_entry(!is_drained || kinetic_energy == defaults.kinetic_energy,
-                  "Settling",
-                  "Kinetic energy",
-                  kinetic_energy,
-                  "drained settling ends by \"Unbalanced force\". Write that, or \"Type = undrained\".");
-    require_entry(!is_drained || damping_rate == defaults.damping_rate,
-                  "Settling",
-                  "Damping rate",
-                  damping_rate,
-                  "drained settling has no rate. Remove the entry, or write \"Type = undrained\".");
-    require_entry(is_drained || unbalanced_force == defaults.unbalanced_force,
-                  "Settling",
-                  "Unbalanced force",
-                  unbalanced_force,
-                  "undrained settling ends by \"Kinetic energy\". Write that, or \"Type = drained\".");
     if (!gate.empty() && dim == 2)
       Region<2>(entry_name("Settling", "Gate"), gate);
     if (!gate.empty() && dim == 3)

@@ -22,7 +22,7 @@ namespace scree
                         ? std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries)
                         : nullptr)
       , constraints(grid, walls, water_walls.get())
-      , forcing(grid, parameters.gravity, parameters.body_forces)
+      , forcing(grid, parameters.gravity, parameters.body_forces, parameters.time_step.mass_scaling)
       , parameters(parameters)
       , water_at_start(parameters.water)
       , groups(parameters.contact_groups())

@@ -25,23 +25,33 @@ namespace scree
 
 
   template <int dim>
-  void add_nodal_forces(const NodalField<dim> &field,
+  void add_nodal_forces(const NodalField<dim> &soil,
+                        const NodalField<dim> *water,
                         const BodyForces<dim> &forces,
                         const double time_step,
                         NodalForces &sums)
   {
     using Field          = NodalField<dim>;
-    const double gravity = forces.gravity().norm();
-    for (const unsigned int node : field.active_nodes())
-      if (const double *values = field[node]; values[Field::mass] > 0.)
+    const double gravity = forces.fall().norm();
+    for (const unsigned int node : soil.active_nodes())
+      if (const double *of_soil = soil[node]; of_soil[Field::mass] > 0.)
         {
-          const double mass = values[Field::mass];
-          sums.unbalanced += (mass / time_step * vector_of<dim>(values + Field::velocity_change)).norm_square();
+          double mass            = of_soil[Field::mass];
+          Tensor<1, dim> impulse = mass * vector_of<dim>(of_soil + Field::velocity_change);
+          if (water != nullptr)
+            {
+              const double *of_water = (*water)[node];
+              mass += of_water[Field::mass];
+              impulse += of_water[Field::mass] * vector_of<dim>(of_water + Field::velocity_change);
+            }
+          sums.unbalanced += (impulse / time_step).norm_square();
           sums.weight += mass * gravity * mass * gravity;
-          sums.kinetic += mass * vector_of<dim>(values + Field::velocity).norm_square();
+          sums.kinetic += mass * vector_of<dim>(of_soil + Field::velocity).norm_square();
         }
   }
 
-  template void add_nodal_forces(const NodalField<2> &, const BodyForces<2> &, const double, NodalForces &);
-  template void add_nodal_forces(const NodalField<3> &, const BodyForces<3> &, const double, NodalForces &);
+  template void
+  add_nodal_forces(const NodalField<2> &, const NodalField<2> *, const BodyForces<2> &, const double, NodalForces &);
+  template void
+  add_nodal_forces(const NodalField<3> &, const NodalField<3> *, const BodyForces<3> &, const double, NodalForces &);
 } // namespace scree

@@ -89,7 +89,7 @@ namespace scree
       , wall_gaps(wall_gaps)
       , forcing(forcing)
       , grid(grid)
-      , water_density(water_density)
+      , water_density(forcing.mass_scaling() * water_density)
       , timer(timer)
       , friction(constraints)
       , pressure_impulses(grid.numbering())

@@ -2,7 +2,6 @@
 #include <scree/postprocess/measures.h>
 
 #include <scree/postprocess/cell_contents.h>
-#include <scree/postprocess/point_sums.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -158,16 +157,6 @@ namespace scree
 
 
   template <int dim>
-  double kinetic_to_elastic_energy(const std::list<SoilBody<dim>> &bodies,
-                                   const std::list<WaterPhase<dim>> &water,
-                                   const MPI_Comm communicator)
-  {
-    const PointSums<dim> sums(bodies, water, Tensor<1, dim>(), communicator);
-    return sums.elastic > 0 ? sums.kinetic / sums.elastic : std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
   WaterMeasures measure_water(const std::list<SoilBody<dim>> &bodies,
                               const std::list<WaterPhase<dim>> &water,
                               const BackgroundGrid<dim> &grid)
@@ -215,8 +204,6 @@ namespace scree
                                                 const BackgroundGrid<2> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
-  template double
-  kinetic_to_elastic_energy(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const MPI_Comm);
   template double least_distance(const std::list<SoilBody<2>> &,
                                  const std::list<WaterPhase<2>> &,
                                  const DiscreteLevelSet<2> &,
@@ -236,8 +223,6 @@ namespace scree
                                                 const BackgroundGrid<3> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
-  template double
-  kinetic_to_elastic_energy(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const MPI_Comm);
   template WaterMeasures
   measure_water(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
 } // namespace scree

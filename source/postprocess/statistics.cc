@@ -48,7 +48,7 @@ namespace scree
     if (!history.has_start)
       {
         history.has_start      = true;
-        history.start_momentum = now.sums.momentum - now.impulse();
+        history.start_momentum = now.momentum() - now.impulse();
         history.start_energy   = now.energy();
       }
     const Budget<dim> &balance = now.totals.balance;

@@ -17,6 +17,8 @@ namespace scree
     // Rounding stays far below the first two; doc/studies has the last.
     constexpr double bound_of_mass = 1e-6, bound_of_momentum = 1e-6, bound_of_gain = 0.005;
 
+    constexpr double bound_of_motion = 1e-3; // doc/theory/single_phase.md
+
     /// Of the bodies that can move, of all ranks, kg. Collective.
     template <int dim>
     double mass_of_soil(const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
@@ -48,12 +50,11 @@ namespace scree
 
 
   template <int dim>
-  BalanceChecks<dim>::BalanceChecks(const BackgroundGrid<dim> &grid,
-                                    const Tensor<1, dim> &gravity,
-                                    const bool energy_is_closed)
+  BalanceChecks<dim>::BalanceChecks(const BackgroundGrid<dim> &grid, const BodyForces<dim> &forces)
       : grid(grid)
-      , gravity(gravity)
-      , energy_is_closed(energy_is_closed)
+      , gravity(forces.gravity())
+      , energy_is_closed(forces.is_gravity_alone())
+      , mass_scaling(forces.mass_scaling())
   {
   }
 
@@ -65,7 +66,9 @@ namespace scree
   {
     const MPI_Comm communicator = grid.triangulation().get_communicator();
     const RunTotals<dim> totals = local.sum_over_ranks(communicator);
-    const PointSums<dim> sums(bodies, water, gravity, communicator);
+    PointSums<dim> sums(bodies, water, gravity, communicator);
+    sums.kinetic *= mass_scaling;
+    sums.momentum *= mass_scaling;
     const double soil_now      = mass_of_soil(bodies, communicator);
     const double mass_now      = mass_of_water(water, communicator);
     const double energy        = sums.kinetic + sums.potential + sums.elastic;
@@ -88,8 +91,9 @@ namespace scree
     look_at_mass(water_mass, mass_now, totals.lost_water_mass, totals.entered_water_mass);
 
     momentum_residual = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
-    momentum_scale    = std::max(
-        { momentum_scale, totals.balance.body_impulse.norm(), std::sqrt(2. * (soil_now + mass_now) * sums.kinetic) });
+    momentum_scale    = std::max({ momentum_scale,
+                                   totals.balance.body_impulse.norm(),
+                                   std::sqrt(2. * mass_scaling * (soil_now + mass_now) * sums.kinetic) });
 
     const Budget<dim> &balance = totals.balance;
     least_potential            = std::min(least_potential, own_potential);
@@ -98,6 +102,11 @@ namespace scree
     dissipation         = start_energy - energy - totals.energy_taken();
     largest_dissipation = std::max(largest_dissipation, dissipation);
     gain                = worse(gain, largest_dissipation - dissipation);
+
+    work_so_far = std::max(work_so_far,
+                           std::abs(start_potential - own_potential + balance.load_work + balance.obstacle_energy()));
+    if (work_so_far > 0.)
+      motion = worse(motion, sums.kinetic / work_so_far);
   }
 
 
@@ -139,6 +148,13 @@ namespace scree
               false,
               "" });
       }
+    if (mass_scaling > 1.)
+      list.push_back({ "largest kinetic energy " + short_text(100. * motion) + " % of the work, with masses times " +
+                           short_text(mass_scaling) + "; " + short_text(100. * motion / mass_scaling) +
+                           " % with true ones",
+                       short_text(100. * bound_of_motion) + " %, else \"Mass scaling\" is too large",
+                       motion > bound_of_motion,
+                       "" });
     return list;
   }
 

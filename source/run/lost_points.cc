@@ -29,9 +29,10 @@ namespace scree
       const double mass               = point.properties[mass_slot];
       const Tensor<1, dim> velocity(make_array_view(velocity_of_point, velocity_of_point + dim));
       lost_mass += mass;
-      totals.lost_momentum += mass * velocity;
+      const double inertia = scene.forcing.mass_scaling() * mass;
+      totals.lost_momentum += inertia * velocity;
       totals.lost_energy +=
-          mass * (0.5 * velocity.norm_square() - scene.forcing.gravity() * (point.location - Point<dim>()));
+          0.5 * inertia * velocity.norm_square() - mass * (scene.forcing.gravity() * (point.location - Point<dim>()));
     }
   } // namespace
 

@@ -24,7 +24,8 @@ namespace scree
                      !parameters.inflows.empty() || parameters.rain.is_set(),
                      parameters.contact_groups().n > 1,
                      scene.bed.get(),
-                     &scene.obstacles })
+                     &scene.obstacles,
+                     scene.forcing.mass_scaling() })
       , rows(folder, "statistics")
       , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
       , maps(parameters.output.maps,
@@ -33,7 +34,7 @@ namespace scree
              scene.grid,
              folder)
       , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
-      , balances(scene.grid, scene.forcing.gravity(), scene.forcing.is_gravity_alone())
+      , balances(scene.grid, scene.forcing)
       , files(scene.grid.triangulation().get_communicator())
   {
   }

@@ -30,6 +30,11 @@ namespace scree
                       "Material",
                       body.material.law,
                       "the hardening of this law depends on the strength that --safety divides. Write Mohr-Coulomb.");
+      require_entry(parameters.time_step.mass_scaling == 1.,
+                    "Time step",
+                    "Mass scaling",
+                    parameters.time_step.mass_scaling,
+                    "the times of --safety are those of the true inertia. Write 1.");
       require_entry(parameters.safety.strength_factor == 1.,
                     "Safety",
                     "Strength factor",

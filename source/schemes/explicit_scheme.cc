@@ -17,13 +17,7 @@ namespace scree
       : soil(model.grid, model.transfer, model.stabilisation, model.bodies, model.loads, number)
       , wall_gaps(wall_gaps)
       , momentum(*model.constraints[number], wall_gaps, model.forces)
-      , contact(model.grid,
-                *model.constraints[number],
-                model.surfaces,
-                model.forces.gravity().norm(),
-                model.bodies,
-                number,
-                timer)
+      , contact(model.grid, *model.constraints[number], model.surfaces, model.forces, model.bodies, number, timer)
   {
     wall_gaps.add({ &soil.field });
   }
@@ -124,6 +118,8 @@ namespace scree
       for (Group &group : groups)
         group.soil.field.add_contributions();
     }
+    for (Group &group : groups)
+      group.soil.field.scale_inertia(forces.mass_scaling());
     const TimedPart part(timer, TimerSection::nodes);
     for (WallGaps<dim> &gaps : wall_gaps)
       gaps.release(forces, time_step);
@@ -205,7 +201,7 @@ namespace scree
   {
     NodalForces sums;
     for (const Group &group : groups)
-      add_nodal_forces(group.soil.field, forces, time_step, sums);
+      add_nodal_forces<dim>(group.soil.field, nullptr, forces, time_step, sums);
     return sums;
   }
 

@@ -31,6 +31,15 @@ namespace scree
                       "s; upper bound of the time step. auto: 0.01 s with water; sqrt(0.2 h/g) in dry cases with "
                       "gravity; none in dry cases without gravity.",
                       Patterns::Anything());
+    prm.add_parameter(
+        "Mass scaling",
+        mass_scaling,
+        "Inertia of soil and water over the true one, for consolidation and other slow motion; weight and "
+        "all other forces are true. Time steps are longer by its square root, also the maximum of auto; a PIC rate of "
+        "auto is smaller by it. Keep 4 H/c times this root below 0.05 H^2/c_v, with layer height H, wave speed c and "
+        "coefficient "
+        "of consolidation c_v.",
+        Patterns::Double(1));
     prm.leave_subsection();
   }
 
@@ -69,12 +78,14 @@ namespace scree
 
   void TimeStepParameters::choose_maximum(const bool has_water, const double gravity, const double cell_size)
   {
-    constexpr double part_of_cell = 0.1;
+    constexpr double part_of_cell = 0.1, of_wet_soil = 1e-2;
     if (maximum != "auto")
       maximum_time_step = number_of(maximum);
-    else if (!has_water)
-      maximum_time_step =
-          gravity > 0. ? std::sqrt(2. * part_of_cell * cell_size / gravity) : std::numeric_limits<double>::infinity();
+    else if (has_water)
+      maximum_time_step = of_wet_soil * std::sqrt(mass_scaling);
+    else
+      maximum_time_step = gravity > 0. ? std::sqrt(2. * part_of_cell * cell_size * mass_scaling / gravity)
+                                       : std::numeric_limits<double>::infinity();
   }
 
 
@@ -90,7 +101,7 @@ namespace scree
       return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
     };
     return { { parameters.maximum_time_step,
-               over(parameters.courant_number * cell_size, wave_speed + speed),
+               over(parameters.courant_number * cell_size, wave_speed / std::sqrt(parameters.mass_scaling) + speed),
                over(parameters.advection_number * cell_size, speed) } };
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/boundary/clamp_to_box.h>
+#include <scree/contact/cut_cells/clamp_to_box.h>
 #include <scree/schemes/two_phase_scheme.h>
 
 #include <algorithm>
@@ -7,6 +7,17 @@
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// The water with the density that resists acceleration.
+    WaterParameters with_inertia(WaterParameters water, const double mass_scaling)
+    {
+      water.density *= mass_scaling;
+      return water;
+    }
+  } // namespace
+
 
   template <int dim>
   TwoPhaseScheme<dim>::TwoPhaseScheme(const Model<dim> &model, TimerOutput &timer)
@@ -27,17 +38,17 @@ namespace scree
       , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads)
       , transfer(grid,
                  model.transfer,
-                 model.water_parameters,
+                 with_inertia(model.water_parameters, forces.mass_scaling()),
                  model.pressure_parameters.uses_pressure_gradient() ? 1. : 0.)
       , mixture(grid, model.soil_points, model.cut_cells)
       , pores(grid)
       , water_field(grid)
-      , ground_gaps(grid, model.cut_cells, forces.gravity().norm())
+      , ground_gaps(grid, model.cut_cells, forces.fall().norm())
       , pressure(grid,
                  *model.water_walls,
                  model.pressure_parameters,
-                 model.water_parameters,
-                 forces.gravity(),
+                 with_inertia(model.water_parameters, forces.mass_scaling()),
+                 forces.fall(),
                  model.cut_cells,
                  ground_gaps,
                  timer)
@@ -97,6 +108,7 @@ namespace scree
     for (const Inflow<dim> &inflow : inflows)
       if (inflow.water_share > 0.)
         inflow.add_to(mixture);
+    mixture.scale_inertia(forces.mass_scaling());
     mixture.finish();
   }
 
@@ -194,6 +206,8 @@ namespace scree
     soil.field.add_contributions();
     water_field.add_contributions();
     pores.add_contributions();
+    soil.field.scale_inertia(forces.mass_scaling());
+    water_field.scale_inertia(forces.mass_scaling());
     wall_gaps.release(forces, time_step);
   }
 
@@ -203,7 +217,6 @@ namespace scree
   {
     const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
     Budget<dim> &budget = report.balance;
-
     sum_at_nodes(time_step);
     if (drainage == Drainage::drained)
       return solve_drained(nodes, time_step, budget);
@@ -333,7 +346,7 @@ namespace scree
   NodalForces TwoPhaseScheme<dim>::nodal_forces(const double time_step) const
   {
     NodalForces sums;
-    add_nodal_forces(soil.field, forces, time_step, sums);
+    add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
     return sums;
   }
 

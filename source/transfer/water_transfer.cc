@@ -71,6 +71,7 @@ namespace scree
       , pic_rate(transfer.pic_rate)
       , pressure_slope(pressure_slope)
       , point_sets(water.point_sets_kind())
+      , density(water.density)
   {
   }
 
@@ -217,7 +218,7 @@ namespace scree
     const CellVelocity<dim, n> velocity(ids, nodes.water, width);
     std::optional<PoreVelocity<dim, n>> by_place;
     if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes.pores))
-      by_place.emplace(ids, velocity, nodes, water.density, width);
+      by_place.emplace(ids, velocity, nodes, density, width);
 
     LargestSquare largest;
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {

@@ -65,6 +65,7 @@ namespace
     { "file_missing", { "no_such_case.prm" } },
     { "file_is_folder", { "." } },
     { "resume_without_checkpoint", { "--resume", "valid.prm" } },
+    { "mass_scaling_and_safety", { "--safety", "mass_scaling_and_safety.part" } },
     { "safety_nor_sand", { "--safety", "safety_nor_sand.part" } },
     { "command_line_element_option", { "--hepl" }, /* is_for_element */ true },
     { "element_rigid", { "element_rigid.part" }, /* is_for_element */ true },

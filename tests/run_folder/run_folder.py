@@ -228,7 +228,7 @@ def signals():
 
 def stop_while_settling():
     """Before the release a run ends with its exit code and a row as well, but there is nothing to go on from."""
-    damped = "Settling\n  set Maximum time = 1000\n  set Kinetic energy = 0"
+    damped = "Settling\n  set Maximum time = 1000\n  set Unbalanced force = 0"
     case = CASE + f"subsection {damped}\nend\n"
     requests = [(lambda process, n=number: process.send_signal(n), number.name, [], ranks)
                 for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGUSR1, 1), (signal.SIGUSR1, 2))]

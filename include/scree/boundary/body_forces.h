@@ -12,21 +12,35 @@
 namespace scree
 {
   /// What acts on all nodes besides stress, pressure and walls: gravity, all kinds of body force, and the
-  /// damping of the settling.
+  /// damping of the trials of a factor search.
   template <int dim>
   class BodyForces
   {
   public:
     /// Makes the forces that are set; throws EntryError if that fails.
     /// @param gravity m/s^2, one number an axis
+    /// @param mass_scaling mass that resists acceleration over mass that has weight
     BodyForces(const BackgroundGrid<dim> &grid,
                const std::vector<double> &gravity,
-               const BodyForceParameters &parameters);
+               const BodyForceParameters &parameters,
+               const double mass_scaling = 1.);
 
     /// Gravity without other forces, m/s^2.
     const dealii::Tensor<1, dim> &gravity() const
     {
       return own_gravity;
+    }
+
+    /// Mass that resists acceleration over mass that has weight: that of the nodes over that of the points.
+    double mass_scaling() const
+    {
+      return scaling;
+    }
+
+    /// Acceleration of what falls, m/s^2.
+    dealii::Tensor<1, dim> fall() const
+    {
+      return own_gravity / scaling;
     }
 
     /// Whether nothing acts besides gravity.
@@ -49,7 +63,7 @@ namespace scree
     {
       dealii::Tensor<1, dim> sum = uniform;
       for (const BodyForce<dim> *force : varying)
-        sum += force->at(grid.node_position(node));
+        sum += force->at(grid.node_position(node)) / scaling;
       return sum;
     }
 
@@ -59,7 +73,7 @@ namespace scree
       damping_rate = rate;
     }
 
-    /// Whether the damping of the settling is on.
+    /// Whether there is damping.
     bool is_damped() const
     {
       return damping_rate > 0.;
@@ -74,8 +88,9 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> own_gravity;
     const std::vector<std::unique_ptr<BodyForce<dim>>> forces;
+    const double scaling;                        // of masses
     std::vector<const BodyForce<dim> *> varying; // those that are not uniform
-    dealii::Tensor<1, dim> uniform;              // gravity, and the other ones
+    dealii::Tensor<1, dim> uniform;              // gravity, and the other ones, over the scaling
     double damping_rate = 0;
   };
 } // namespace scree

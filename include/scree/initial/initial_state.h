@@ -46,9 +46,7 @@ namespace scree
   {
     std::string type        = "undrained"; ///< undrained | drained
     double maximum_time     = 0;           ///< s; 0: no settling
-    double damping_rate     = 20;          ///< 1/s
-    double kinetic_energy   = 1e-8;        ///< undrained: ends below this part of the elastic energy
-    double unbalanced_force = 1e-3;        ///< drained: ends below this ratio
+    double unbalanced_force = 1e-3;        ///< ends below this part of the weight
     std::string gate;                      ///< nodes where this is true are held until the release
 
     /// Declares the subsection and its entries.

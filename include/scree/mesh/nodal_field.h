@@ -24,6 +24,16 @@ namespace scree
         : NodeValues<dim, n_components>(grid.numbering())
     {
     }
+
+    /// Mass and momentum of the active nodes times a factor.
+    void scale_inertia(const double factor)
+    {
+      if (factor == 1.)
+        return;
+      for (const unsigned int node : this->active_nodes())
+        for (unsigned int c = mass; c < force; ++c)
+          (*this)[node][c] *= factor;
+    }
   };
 } // namespace scree
 

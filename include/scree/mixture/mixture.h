@@ -143,6 +143,18 @@ namespace scree
     /// Effective saturation and fill, when all points are in.
     void finish();
 
+    /// Masses of the cells times a factor.
+    void scale_inertia(const double factor)
+    {
+      if (factor == 1.)
+        return;
+      for (MixtureCell<dim> &cell : records)
+        {
+          cell.soil_mass *= factor;
+          cell.water_mass *= factor;
+        }
+    }
+
     /// Counts a volume of water, m^3, about a place of a cell, from 0 to 1 along each axis, for which there is no point
     /// yet: where an inflow is between two layers. It fills the cell's vertices, if points have brought water there,
     /// and has no other effect.

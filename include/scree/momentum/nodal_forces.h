@@ -12,7 +12,7 @@ namespace scree
   {
     double unbalanced = 0, ///< squares of the out-of-balance forces, N^2
         weight        = 0, ///< squares of the weights, N^2
-        kinetic       = 0; ///< twice the kinetic energy, J
+        kinetic       = 0; ///< twice the kinetic energy of the soil's motion, J
 
     /// Of all ranks. Collective.
     NodalForces sum_over_ranks(const MPI_Comm communicator) const;
@@ -21,10 +21,13 @@ namespace scree
     double ratio() const;
   };
 
-  /// Adds the nodes of a solved field: mass times acceleration, with the reactions of walls and beds, where no damping
-  /// acts.
+  /// Adds the nodes with soil of a solved field: mass times acceleration, with the reactions of walls and beds, where
+  /// no damping acts. With water, mass and forces are those of the mixture, and the motion is the soil's: what seeps
+  /// through soil at rest does not count.
+  /// @param water null in a dry scene
   template <int dim>
-  void add_nodal_forces(const NodalField<dim> &field,
+  void add_nodal_forces(const NodalField<dim> &soil,
+                        const NodalField<dim> *water,
                         const BodyForces<dim> &forces,
                         const double time_step,
                         NodalForces &sums);

@@ -32,12 +32,6 @@ namespace scree
                         const DiscreteLevelSet<dim> &surface,
                         const MPI_Comm communicator);
 
-  /// Kinetic energy of soil and water over elastic energy of the soil; infinite without elastic energy. Collective.
-  template <int dim>
-  double kinetic_to_elastic_energy(const std::list<SoilBody<dim>> &bodies,
-                                   const std::list<WaterPhase<dim>> &water,
-                                   const MPI_Comm communicator);
-
   /// Oscillation of P: the rms, over the points of all bodies, of P minus a linear fit of P over the 3^dim cells around
   /// the point's cell, over the mean of P. 0 where the soil bears no stress. Collective.
   template <int dim>

@@ -2,6 +2,7 @@
 #ifndef scree_run_balance_checks_h
 #define scree_run_balance_checks_h
 
+#include <scree/boundary/body_forces.h>
 #include <scree/io/check_result.h>
 #include <scree/postprocess/run_totals.h>
 #include <scree/bodies/soil_body.h>
@@ -14,14 +15,14 @@ namespace scree
 {
   /// Watches mass, momentum and energy of a run from its start. The energy gain is the largest fall of the numerical
   /// dissipation, over the released energy: that of the start which the run has turned into motion or stored, and work
-  /// done on it.
+  /// done on it. With mass scaling, momentum and energy are those of the scaled masses, and the kinetic energy beside
+  /// the work tells whether the motion was slow.
   template <int dim>
   class BalanceChecks
   {
   public:
-    /// @param gravity m/s^2
-    /// @param energy_is_closed false: forces act whose work is not in the energy balance
-    BalanceChecks(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const bool energy_is_closed);
+    /// @param forces besides gravity alone, they do work that is not in the energy balance
+    BalanceChecks(const BackgroundGrid<dim> &grid, const BodyForces<dim> &forces);
 
     /// Compares the points with the start, which is the first look. Collective.
     /// @param totals of this rank
@@ -38,7 +39,7 @@ namespace scree
       archive &has_start &soil_mass &water_mass &mass_error;
       archive &start_momentum &momentum_residual &momentum_scale;
       archive &start_energy &start_kinetic &start_potential &least_potential &largest_work;
-      archive &dissipation &largest_dissipation &gain;
+      archive &dissipation &largest_dissipation &gain &work_so_far &motion;
     }
 
   private:
@@ -48,6 +49,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
     const bool energy_is_closed;
+    const double mass_scaling;
 
     bool has_start    = false;
     double soil_mass  = 0; // at the start, kg
@@ -64,6 +66,8 @@ namespace scree
     double dissipation         = 0; // numerical, now, J
     double largest_dissipation = 0; // so far
     double gain                = 0; // largest fall from that
+    double work_so_far         = 0; // of loads, obstacles and gravity since the start, the largest, J
+    double motion              = 0; // kinetic energy over that, the largest
   };
 } // namespace scree
 

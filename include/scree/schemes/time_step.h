@@ -17,6 +17,7 @@ namespace scree
     double advection_number  = 0.3;    ///< bound of speed dt/h
     std::string maximum      = "auto"; ///< the entry: s, or auto
     double maximum_time_step = 1e-2;   ///< s, what choose_maximum() has made of the entry
+    double mass_scaling      = 1.;     ///< mass that resists acceleration over mass that has weight
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -25,7 +26,8 @@ namespace scree
     void check() const;
 
     /// Sets what is `auto`. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water it
-    /// is 0.01 s, as its results depend on the step.
+    /// is 0.01 s, as its results depend on the step. Courant number and maximum grow with the root of the mass scaling,
+    /// as waves slow down by it.
     /// @param courant_of_transfer see TransferParameters::courant_number()
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m

@@ -137,6 +137,7 @@ namespace scree
     const double pic_rate;
     const double pressure_slope;
     const PointSets point_sets;
+    const double density; // of the water at the nodes, kg/m^3
   };
 } // namespace scree
 

@@ -31,7 +31,7 @@ namespace scree
   PointContact<dim>::PointContact(const BackgroundGrid<dim> &grid,
                                   const Constraints<dim> &constraints,
                                   const std::vector<RigidSurface<dim>> &surfaces,
-                                  const double gravity,
+                                  const BodyForces<dim> &forces,
                                   std::list<SoilBody<dim>> &bodies,
                                   const unsigned int group,
                                   TimerOutput &timer)
@@ -41,7 +41,8 @@ namespace scree
       , n_obstacles(
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , slack(0.01 * grid.cell_size())
-      , most_speed(0.03 * std::sqrt(gravity * grid.cell_size()))
+      , most_speed(0.03 * std::sqrt(forces.fall().norm() * grid.cell_size()))
+      , mass_scaling(forces.mass_scaling())
       , bodies(bodies)
       , group(group)
       , timer(timer)
@@ -128,7 +129,7 @@ namespace scree
     entry.first                 = contacts.size();
     entry.n                     = candidates.size();
     entry.nodes                 = nodes_of_cells.size();
-    entry.most_mobility         = 2. / (body.density * Utilities::fixed_power<dim>(grid.cell_size()));
+    entry.most_mobility         = 2. / (mass_scaling * body.density * Utilities::fixed_power<dim>(grid.cell_size()));
     const unsigned int *of_cell = grid.nodes(cell);
     for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
       {

@@ -22,10 +22,9 @@ namespace scree
         Column{ "Points", "", [](const auto &now) { return now.sums.soil_points; } },
         Column{ "Mass", "kg", [](const auto &now) { return now.sums.soil_mass; } },
         Column{ "Momentum", "N s", [](const auto &now) { return now.sums.momentum; } },
-        Column{
-            "Momentum residual",
-            "N s",
-            [](const auto &now) { return (now.sums.momentum - now.before.start_momentum - now.impulse()).norm(); } },
+        Column{ "Momentum residual",
+                "N s",
+                [](const auto &now) { return (now.momentum() - now.before.start_momentum - now.impulse()).norm(); } },
         Column{ "Kinetic energy", "J", [](const auto &now) { return now.sums.kinetic; } },
         Column{ "Potential energy", "J", [](const auto &now) { return now.sums.potential; } },
         Column{ "Elastic energy", "J", [](const auto &now) { return now.sums.elastic; } },

@@ -2,6 +2,7 @@
 #ifndef scree_contact_points_point_contact_h
 #define scree_contact_points_point_contact_h
 
+#include <scree/boundary/body_forces.h>
 #include <scree/mesh/discrete_level_set.h>
 #include <scree/bodies/soil_body.h>
 #include <scree/contact/points/contact_exchange.h>
@@ -49,13 +50,12 @@ namespace scree
   {
   public:
     /// @param surfaces in the order of the points' slots; none: all calls return at once
-    /// @param gravity m/s^2
     /// @param bodies of all groups
     /// @param group of the bodies whose points these are
     PointContact(const BackgroundGrid<dim> &grid,
                  const Constraints<dim> &constraints,
                  const std::vector<RigidSurface<dim>> &surfaces,
-                 const double gravity,
+                 const BodyForces<dim> &forces,
                  std::list<SoilBody<dim>> &bodies,
                  const unsigned int group,
                  dealii::TimerOutput &timer);
@@ -186,6 +186,7 @@ namespace scree
     const unsigned int n_obstacles; // the last of the surfaces
     const double slack;             // m, gap that counts as touching
     const double most_speed;        // m/s, at which overlap is undone
+    const double mass_scaling;      // of the nodes
     std::list<SoilBody<dim>> &bodies;
     const unsigned int group;
     dealii::TimerOutput &timer;

@@ -20,6 +20,7 @@ namespace scree
         contacts                              = false;   ///< contact between bodies
     const DiscreteLevelSet<dim> *bed          = nullptr; ///< the bed; null without it
     const std::list<Obstacle<dim>> *obstacles = nullptr; ///< the obstacles; null without them
+    double mass_scaling                       = 1.;      ///< see BodyForces
   };
 
   /// What rows need of the start of a run, and of all ranks at the last row.
@@ -58,10 +59,16 @@ namespace scree
     const unsigned long long step;           ///< steps of the run
     const double time_step;                  ///< s
 
-    /// Kinetic, potential and elastic energy, J.
+    /// Kinetic, potential and elastic energy of the balance, with scaled masses, J.
     double energy() const
     {
-      return sums.kinetic + sums.potential + sums.elastic;
+      return further.mass_scaling * sums.kinetic + sums.potential + sums.elastic;
+    }
+
+    /// Momentum of the balance, with scaled masses, N s.
+    dealii::Tensor<1, dim> momentum() const
+    {
+      return further.mass_scaling * sums.momentum;
     }
 
     /// What soil and water have been given since the start, N s.

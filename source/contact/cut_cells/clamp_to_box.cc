@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/boundary/clamp_to_box.h>
+#include <scree/contact/cut_cells/clamp_to_box.h>
 #include <scree/particles/batch_pointers.h>
 
 namespace scree

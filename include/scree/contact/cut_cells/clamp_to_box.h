@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_boundary_clamp_to_box_h
-#define scree_boundary_clamp_to_box_h
+#ifndef scree_contact_cut_cells_clamp_to_box_h
+#define scree_contact_cut_cells_clamp_to_box_h
 
 #include <scree/mesh/background_grid.h>
 #include <scree/mesh/rigid_boundary.h>
