@@ -26,8 +26,8 @@ namespace scree
     void check() const;
 
     /// Sets what is `auto`. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water it
-    /// is 0.01 s, as its results depend on the step. Courant number and maximum grow with the root of the mass scaling,
-    /// as waves slow down by it.
+    /// is 0.01 s, as its results depend on the step. Both maxima grow with the root of the mass scaling, as waves slow
+    /// down by it.
     /// @param courant_of_transfer see TransferParameters::courant_number()
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m
