@@ -3,7 +3,8 @@
 
 PYTHONPATH=source/python python3 -m scree.case_times
 
-A case of which the study ran the first part only has "~" and its time in proportion. Whole runs by hand are in BY_HAND.
+A case of which the study ran the first part only has "~" and its time in proportion. Runs by hand have "*":
+whole ones are in BY_HAND, first parts in PARTS_BY_HAND.
 """
 
 import re
@@ -19,6 +20,8 @@ BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_
            "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "mountain_outline": 5, "acheron": 31, "entrainment": 3, "debris_flow": 9,
            "slope_jefferies_been": 6, "cut": 40, "graded_slope": 45, "quick_clay": 35, "mud": 32, "steady_dam": 4, "earth_dam": 1,
            "capillary_fringe": 1, "green_ampt": 1, "rain_column": 2, "rain": 17, "wet_cut": 8}
+# The same of a first part: processor time, s, and its length, s.
+PARTS_BY_HAND = {"slope_loose": (27.8, 3.19), "slope_loose_fine": (13.95, 0.2)}
 
 
 def rounded(seconds):
@@ -34,6 +37,9 @@ def time_of(name, rows):
     entries = read_entries(path)
     if "Path" in entries:
         return None
+    if name in PARTS_BY_HAND:
+        seconds, simulated = PARTS_BY_HAND[name]
+        return f"~{rounded(seconds * float(entries['End time']) / simulated)} *"
     if name in BY_HAND or name not in rows:
         return f"{BY_HAND[name]} *" if name in BY_HAND else "-"
     row = rows[name]

@@ -5,6 +5,7 @@ These are the fronts of 90 and 99 % of the water and the height of the centre of
 Sentences and table add the distance of the reference to the limit, A (1/60 m)^p, from the fit error = A (h^p - (1/60 m)^p) to the three meshes of the case.
 The case has TPIC, splines, 4 x 4 points per cell, a relative tolerance of the pressure of 1e-4, time steps of at most 0.04 s/m times h, Advection number 0.3
 and a volume correction of 7 1/s.
+It keeps 4 x 4 points: with 3 x 3 it gains 0.58 % of the released energy up to 0.9 s (bound 0.5 %), with 4 x 4 it gains 0.04 %.
 """
 
 import math
