@@ -44,11 +44,25 @@ namespace scree
     new_filled.clear();
     new_slots.clear();
     const Entrant *entrant = entrants.data(), *end = entrant + entrants.size();
-    for (unsigned int c = 0; c < filled.size(); ++c)
+    for (unsigned int c = 0; c < filled.size();)
       {
+        // Cells that no point has left or entered are copied together.
+        unsigned int changed = c;
+        while (changed < filled.size() && filled[changed].n_points == cell_list[changed].n_points &&
+               (entrant == end || filled[changed].number < entrant->number))
+          ++changed;
+        if (changed > c)
+          {
+            const auto &last = cell_list[changed - 1];
+            new_slots.insert(new_slots.end(), cell_list[c].slots, last.slots + last.n_points);
+            new_filled.insert(new_filled.end(), filled.begin() + c, filled.begin() + changed);
+            c = changed;
+            continue;
+          }
         while (entrant != end && entrant->number < filled[c].number)
           entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
         entrant = append_cell(filled[c], cell_list[c].slots, entrant, end);
+        ++c;
       }
     while (entrant != end)
       entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
@@ -78,8 +92,8 @@ namespace scree
   template <int dim>
   void PointLists<dim>::point_to_records()
   {
-    cell_list.clear();
-    const_cell_list.clear();
+    cell_list.resize(filled.size());
+    const_cell_list.resize(filled.size());
     slots.insert(slots.end(), points_ahead, 0);
     if (filled.empty())
       return;
@@ -97,11 +111,12 @@ namespace scree
     double *properties          = pool.get_properties(0).data();
     const unsigned int stride   = pool.n_properties_per_slot();
     const unsigned int *of_cell = slots.data();
-    for (const FilledCell &cell : filled)
+    for (unsigned int c = 0; c < filled.size(); ++c)
       {
+        const FilledCell &cell   = filled[c];
         const unsigned int index = table[cell.in_table].index;
-        cell_list.push_back({ index, cell.n_points, of_cell, stride, properties, locations, places });
-        const_cell_list.push_back({ index, cell.n_points, of_cell, stride, properties, locations, places });
+        cell_list[c]             = { index, cell.n_points, of_cell, stride, properties, locations, places };
+        const_cell_list[c]       = { index, cell.n_points, of_cell, stride, properties, locations, places };
         of_cell += cell.n_points;
       }
   }

@@ -71,22 +71,22 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  double Transfer<dim>::move_cell(const SoilBody<dim> &body,
-                                  const CellPoints<dim> &cell,
-                                  const NodalField<dim> &field,
-                                  const double time_step,
-                                  const double keep,
-                                  const unsigned int first)
+  void Transfer<dim>::move_cell(const SoilBody<dim> &body,
+                                const CellPoints<dim> &cell,
+                                const NodalField<dim> &field,
+                                const double time_step,
+                                const double keep,
+                                const unsigned int first,
+                                LargestSquare &largest)
   {
     using Layout         = PropertyLayout<dim>;
     const OpenKnots open = grid.open_knots(cell.cell);
     const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());
 
-    LargestSquare largest;
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
       const BatchPointers<dim> points(cell, indices);
       for (const unsigned int p : indices)
-        cell.prefetch_after(p);
+        cell.prefetch_all_after(p);
       const BatchShape<dim, n> shape(points.places, open);
       const NodesAtPoints<dim> at_points = nodes.template at<method, true>(shape);
 
@@ -109,7 +109,6 @@ namespace scree
         simd::store_records<dim * dim>(affine, points.slots_at(body.layout.affine));
       set_motion(body, at_points.gradient, own[Layout::mass], own[Layout::volume], time_step, first + indices[0]);
     });
-    return largest.value;
   }
 
 
@@ -130,7 +129,7 @@ namespace scree
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int) {
       const BatchPointers<dim> points(cell, indices);
       for (const unsigned int p : indices)
-        cell.prefetch_after(p);
+        cell.prefetch_all_after(p);
       const BatchShape<dim, n> shape(points.places, open);
       const NodesAtPoints<dim> at_points = nodes.template at<TransferMethod::flip, true>(shape);
 
@@ -155,6 +154,7 @@ namespace scree
                                                               const unsigned int p)
   {
     Batch increment[dim * dim];
+#pragma GCC unroll 9 // else each one goes through memory
     for (unsigned int c = 0; c < dim * dim; ++c)
       {
         increment[c] = time_step * gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
@@ -205,7 +205,7 @@ namespace scree
         projected.activate_cell(cell.cell);
         sums.scatter(node_numbers, projected);
       }
-    return std::sqrt(largest.value);
+    return largest.speed();
   }
 
 
@@ -247,14 +247,14 @@ namespace scree
         unsigned int first = 0;
         for (auto cell = begin; cell != end; first += (cell++)->n_points)
           {
-            largest.include(move_cell(*cell, first));
+            move_cell(*cell, first, largest);
             const double volume_factor = mixture ? mixture->volume_factor(cell->cell) : 1.;
             apply_f_bar(f_bar, first, body.material_points(*cell), volume_factor, motion);
           }
         update_state(body, *begin, n_points, time_step, report.material);
         costs.finish_cells(begin, end, n_points);
       }
-    report.largest_speed = std::sqrt(largest.value);
+    report.largest_speed = largest.speed();
     return report;
   }
 
@@ -297,15 +297,15 @@ namespace scree
   {
     const auto move_by = [&](auto n, auto method) {
       const double keep = kept_velocity(method, pic_rate, time_step);
-      return move_points(body, time_step, mixture, [&](const CellPoints<dim> &cell, const unsigned int first) {
-        return move_cell<n, method>(body, cell, field, time_step, keep, first);
-      });
+      const auto move   = [&](const CellPoints<dim> &cell, const unsigned int first, LargestSquare &largest) {
+        move_cell<n, method>(body, cell, field, time_step, keep, first, largest);
+      };
+      return move_points(body, time_step, mixture, move);
     };
     const auto dispatch = [&](auto n) {
       if (projected)
-        return move_points(body, time_step, mixture, [&](const CellPoints<dim> &cell, const unsigned int first) {
-          strain_cell<n>(body, cell, field, *projected, time_step, first);
-          return 0.; // told by update_velocities()
+        return move_points(body, time_step, mixture, [&](const auto &cell, const unsigned int first, const auto &) {
+          strain_cell<n>(body, cell, field, *projected, time_step, first); // the speed: see update_velocities()
         });
       switch (method)
         {

@@ -19,8 +19,7 @@ namespace scree
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         CellSums<dim, n> sums(grid.cell_size());
-        for_each_record(cell, [&](const auto &point) {
-          const PointShape<dim, n> shape(point.reference_location, open);
+        for_each_record_with_shape<n>(cell, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
           const double *properties = point.properties;
           sums.template add<method>(shape,
                                     properties[layout.mass],

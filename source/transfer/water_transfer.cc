@@ -41,23 +41,6 @@ namespace scree
           result[1 + a] = slope / width;
         }
     }
-
-
-    /// 1 over the porosity about the points of a batch; 1 without soil.
-    template <int dim>
-    Batch inverse_porosity_at(const PorosityOfParts<dim> *porosity, const std::array<Batch, dim> &x)
-    {
-      Batch result = simd::broadcast<Batch>(1.);
-      if (porosity != nullptr)
-        for (unsigned int l = 0; l < batch_size; ++l)
-          {
-            Point<dim> place;
-            for (unsigned int a = 0; a < dim; ++a)
-              place[a] = x[a][l];
-            result[l] = porosity->inverse_at(place);
-          }
-      return result;
-    }
   } // namespace
 
 
@@ -86,12 +69,11 @@ namespace scree
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
-        NodeRow *moments          = mixture.grain_moments(record);
-        MixtureCell<dim> sums     = mixture.cells()[record];
-        auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
+        MomentSums<dim, n> moments;
+        MixtureCell<dim> sums = mixture.cells()[record];
+        auto *parts           = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
 
-        for_each_record(cell, [&](const auto &point) {
-          const PointShape<dim, n> shape(point.reference_location, open);
+        for_each_record_with_shape<n>(cell, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
           const double *properties    = point.properties;
           const double mass           = properties[layout.mass];
           const double volume         = properties[layout.volume];
@@ -99,7 +81,7 @@ namespace scree
           const double porosity       = std::max(1. - grains / volume, smallest_porosity);
           const double pores_of_point = porosity * volume;
 
-          add_moments(shape, grains, moments);
+          moments.add(shape, grains);
           if (parts != nullptr)
             parts->add_soil(shape.x, grains, volume);
           add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
@@ -109,6 +91,7 @@ namespace scree
           sums.drag += volume * law.linear(porosity);
           sums.inertial += grains * law.inertial(porosity);
         });
+        moments.add_to(mixture.grain_moments(record));
         sums.is_rigid           = sums.is_rigid || soil.is_rigid;
         mixture.cells()[record] = sums;
       }
@@ -129,7 +112,7 @@ namespace scree
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
-        NodeRow *moments          = mixture.water_moments(record);
+        MomentSums<dim, n> moments;
         for_each_point(
             cell, [&](const auto &point) { mixture.cells()[record].water_volume += point.properties[layout.volume]; });
         const PorosityOfParts<dim> *porosity = mixture.porosity_of_parts(cell.cell);
@@ -139,12 +122,11 @@ namespace scree
         CellSums<dim, n> sums(width);
         NodeRow grains_about[n_rows] = {};
 
-        for_each_record(cell, [&](const auto &point) {
-          const PointShape<dim, n> shape(point.reference_location, open);
+        for_each_record_with_shape<n>(cell, open, width, [&](const auto &point, const auto &shape) {
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
-          add_moments(shape, volume, moments);
+          moments.add(shape, volume);
           if (porosity != nullptr)
             add_row_sums(shape, volume * (porosity->inverse_at(shape.x) - 1.), grains_about);
 
@@ -155,6 +137,7 @@ namespace scree
               shape.x, volume, properties[layout.pressure], rise, properties[layout.forgotten], totals);
           totals.water_mass += mass;
         });
+        moments.add_to(mixture.water_moments(record));
         mixture.cells()[record] = totals;
 
         field.activate_cell(cell.cell);
@@ -186,8 +169,8 @@ namespace scree
         CellPressure<dim> pressure{ multilinear_of<dim>(vertex_pressure(cell.cell)), {} };
         if (vertex_forgotten)
           pressure.forgotten = multilinear_of<dim>(vertex_forgotten(cell.cell));
-        largest.include(
-            move_cell<n, method>(water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step, keep));
+        move_cell<n, method>(
+            water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step, keep, largest);
         if (const SoilBody<dim> *soil = water.carrier())
           for_each_point(cell, [&](const auto &point) {
             double &volume                      = point.properties[water.layout.volume];
@@ -196,19 +179,20 @@ namespace scree
           });
         costs.finish_cell(cell.cell, cell.n_points);
       }
-    return std::sqrt(largest.value);
+    return largest.speed();
   }
 
 
   template <int dim>
   template <int n, TransferMethod method>
-  double WaterTransfer<dim>::move_cell(const WaterPhase<dim> &water,
-                                       const CellPoints<dim> &cell,
-                                       const MixtureNodes<dim> &nodes,
-                                       const PorosityOfParts<dim> *porosity,
-                                       const CellPressure<dim> &pressure,
-                                       const double time_step,
-                                       const double keep) const
+  void WaterTransfer<dim>::move_cell(const WaterPhase<dim> &water,
+                                     const CellPoints<dim> &cell,
+                                     const MixtureNodes<dim> &nodes,
+                                     const PorosityOfParts<dim> *porosity,
+                                     const CellPressure<dim> &pressure,
+                                     const double time_step,
+                                     const double keep,
+                                     LargestSquare &largest) const
   {
     const double width      = grid.cell_size();
     const auto &layout      = water.layout;
@@ -220,14 +204,14 @@ namespace scree
     if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes.pores))
       by_place.emplace(ids, velocity, nodes, density, width);
 
-    LargestSquare largest;
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
       const BatchPointers<dim> points(cell, indices);
       for (const unsigned int p : indices)
-        cell.prefetch_after(p);
+        cell.prefetch_all_after(p);
       const BatchShape<dim, n> shape(points.places, open);
       const NodesAtPoints<dim> at_points =
-          by_place ? by_place->template at<method>(shape, inverse_porosity_at<dim>(porosity, shape.x))
+          by_place ? by_place->template at<method>(
+                         shape, porosity ? porosity->inverse_at(shape.x) : simd::broadcast<Batch>(1.))
                    : velocity.template at<method, false>(shape);
 
       Batch own[dim], affine[dim * dim], pressure_there[2 + dim];
@@ -252,7 +236,6 @@ namespace scree
       else
         simd::store_records<1 + dim>(pressure_there, points.slots_at(layout.pressure));
     });
-    return largest.value;
   }
 
 

@@ -35,6 +35,8 @@ namespace scree
     update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const override
     {
       UpdateReport own;
+      own.largest_bulk_modulus = report.largest_bulk_modulus; // so that few batches have larger ones
+      own.largest_compression  = report.largest_compression;
       for (unsigned int first = 0; first < points.n_points; first += block_size)
         update_block(first, std::min(points.n_points - first, block_size), points, motion, own);
       own.n_updates = points.n_points;

@@ -150,10 +150,9 @@ namespace scree
     if (simd::any(modulus > report.largest_bulk_modulus))
       report.largest_bulk_modulus = simd::largest_lane<Batch>(modulus);
 
-    // No principal value of a deviator is beyond sqrt(2/3) of its size: the largest compression is rarely in a batch.
+    // The largest compression is rarely in a batch.
     const Batch slope   = 2. * shear * factor;
-    const Batch size    = simd::sqrt<Batch>(2. / 3. * strain.square);
-    const Mask is_large = counted & (slope * size - mean_stress > report.largest_compression);
+    const Mask is_large = counted & (-(mean_stress + slope * strain.bound_of_deviator()) > report.largest_compression);
     if (!simd::any(is_large))
       return;
     const Batch compression    = -(mean_stress + slope * strain.least_deviator());

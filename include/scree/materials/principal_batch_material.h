@@ -31,6 +31,8 @@ namespace scree
     update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const override
     {
       UpdateReport own;
+      own.largest_bulk_modulus = report.largest_bulk_modulus; // so that few batches have larger ones
+      own.largest_compression  = report.largest_compression;
       Gathered in_substeps;
       for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
         update_batch(indices, n, points, motion, in_substeps, own);

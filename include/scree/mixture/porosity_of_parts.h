@@ -3,11 +3,14 @@
 #define scree_mixture_porosity_of_parts_h
 
 #include <scree/mixture/closures.h>
+#include <scree/simd/batch.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace scree
 {
@@ -55,12 +58,31 @@ namespace scree
       return parts[part_of(x)].inverse_porosity;
     }
 
+    /// The same about a batch of places.
+    Batch inverse_at(const std::array<Batch, dim> &x) const
+    {
+      using Integers   = int __attribute__((vector_size(batch_size * sizeof(int))));
+      const Batch zero = simd::broadcast<Batch>(0.), last = simd::broadcast<Batch>(n_1d - 1.);
+      Integers part{};
+      for (unsigned int a = 0; a < dim; ++a)
+        part = part * static_cast<int>(n_1d) +
+               __builtin_convertvector(simd::min<Batch>(simd::max<Batch>(x[a] * double(n_1d), zero), last), Integers);
+      return inverse_of(part, std::make_index_sequence<batch_size>());
+    }
+
   private:
     struct Part
     {
       double grains = 0, volume = 0; // m^3
       double inverse_porosity = 1;
     };
+
+    /// In registers: numbers that are stored one by one and read as a vector wait for each other.
+    template <typename Integers, std::size_t... lane>
+    Batch inverse_of(const Integers &part, std::index_sequence<lane...>) const
+    {
+      return Batch{ parts[part[lane]].inverse_porosity... };
+    }
 
     unsigned int part_of(const dealii::Point<dim> &x) const
     {

@@ -5,6 +5,9 @@
 #include <scree/particles/point_set.h>
 #include <scree/simd/records.h>
 
+#include <cmath>
+#include <limits>
+
 namespace scree
 {
   /// Where the records of a batch of a cell's points lie.
@@ -37,24 +40,26 @@ namespace scree
   };
 
 
-  /// The largest of squares of speeds, m^2/s^2; not a number if any was not.
+  /// The largest of squares of speeds, m^2/s^2, lane by lane; not a number if any was not.
   struct LargestSquare
   {
-    double value = 0; ///< largest square so far, m^2/s^2
+    Batch of_lanes = simd::broadcast<Batch>(0.); ///< largest square so far
 
-    /// Takes in the square of a speed, m^2/s^2.
-    void include(const double square)
-    {
-      if (value == value && !(square <= value))
-        value = square;
-    }
-
-    /// The first `n` of a batch.
+    /// Takes in the first `n` of a batch.
     void include(const Batch &squares, const unsigned int n)
     {
-      if (simd::any(!(squares <= value)))
-        for (unsigned int l = 0; l < n; ++l)
-          include(squares[l]);
+      const simd::Mask<Batch> is_larger = simd::first_lanes(n) & !(squares <= of_lanes) & (of_lanes == of_lanes);
+      of_lanes                          = simd::select<Batch>(is_larger, squares, of_lanes);
+    }
+
+    /// Largest speed, m/s.
+    double speed() const
+    {
+      double largest = 0;
+      for (unsigned int l = 0; l < batch_size; ++l)
+        if (!(of_lanes[l] <= largest))
+          largest = of_lanes[l];
+      return simd::any(of_lanes != of_lanes) ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(largest);
     }
   };
 } // namespace scree

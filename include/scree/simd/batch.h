@@ -10,6 +10,10 @@
 #include <limits>
 #include <type_traits>
 
+#if defined(__AVX2__)
+#  include <immintrin.h>
+#endif
+
 namespace scree
 {
   /// Doubles that the processor which is compiled for computes with at a time.
@@ -63,11 +67,9 @@ namespace scree
         return value;
       else
         {
-          // Number{} + value would be an addition, for the sake of -0.
-          Number number;
-          for (unsigned int lane = 0; lane < batch_size; ++lane)
-            number[lane] = value;
-          return number;
+          // No addition, which would change -0, and no loop over lanes, of which GCC makes two halves in memory:
+          // reading them as one vector waits for both stores.
+          return value - Number{};
         }
     }
 
@@ -177,10 +179,16 @@ namespace scree
         return std::sqrt(x);
       else
         {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+          return _mm512_mask_sqrt_pd(x, 0xff, x); // GCC 12 warns of the one without a mask
+#elif defined(__AVX2__)
+          return _mm256_sqrt_pd(x);
+#else
           Number root;
           for (unsigned int lane = 0; lane < batch_size; ++lane)
             root[lane] = std::sqrt(x[lane]);
           return root;
+#endif
         }
     }
 
@@ -190,7 +198,8 @@ namespace scree
     {
       double largest = lane(x, 0);
       for (unsigned int l = 1; l < n_lanes<Number>; ++l)
-        largest = std::fmax(largest, lane(x, l));
+        if (lane(x, l) > largest || largest != largest)
+          largest = lane(x, l);
       return largest;
     }
 
@@ -268,20 +277,29 @@ namespace scree
       return result;
     }
 
-    /// The cube root to a few units in the last place; near 1, where ratios of volumes lie, by two steps of Halley's
-    /// method from the tangent.
+    /// The cube root to a few units in the last place: near 1, where ratios of volumes lie, by the binomial series,
+    /// farther by two steps of Halley's method from the tangent.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number cube_root(const Number &x)
     {
-      Number root = 1. + (x - 1.) * (1. / 3.);
-      for (unsigned int step = 0; step < 2; ++step)
+      const Number e = x - 1., e2 = e * e;
+      Number root =
+          1. + e * ((1. / 3. - e * (1. / 9.)) + e2 * ((5. / 81. - e * (10. / 243.)) +
+                                                      e2 * ((22. / 729. - e * (154. / 6561.)) + e2 * (374. / 19683.))));
+      const Mask<Number> is_near = simd::abs<Number>(e) < 0.01;
+      if (any(!is_near))
         {
-          const Number cube = root * root * root;
-          root *= (cube + 2. * x) / (2. * cube + x);
+          Number other = 1. + e * (1. / 3.);
+          for (unsigned int step = 0; step < 2; ++step)
+            {
+              const Number cube = other * other * other;
+              other *= (cube + 2. * x) / (2. * cube + x);
+            }
+          root                        = select<Number>(is_near, root, other);
+          const Mask<Number> is_usual = simd::abs<Number>(e) < 0.1;
+          if (any(!is_usual))
+            set_lanes_by([](const double value) { return std::cbrt(value); }, x, !is_usual, root);
         }
-      const Mask<Number> is_usual = simd::abs<Number>(x - 1.) < 0.1;
-      if (any(!is_usual))
-        set_lanes_by([](const double value) { return std::cbrt(value); }, x, !is_usual, root);
       return root;
     }
   } // namespace simd

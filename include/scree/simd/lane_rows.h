@@ -2,9 +2,9 @@
 #ifndef scree_simd_lane_rows_h
 #define scree_simd_lane_rows_h
 
-#include <scree/simd/batch.h>
+#include <scree/simd/records.h>
 
-#include <cstring>
+#include <type_traits>
 
 namespace scree
 {
@@ -17,10 +17,8 @@ namespace scree
     /// Appends the lanes whose bits are set.
     void append(const Batches &batches, const unsigned int bits)
     {
-      Batch values[n_rows];
-      std::memcpy(values, &batches, sizeof(values));
       for (unsigned int row = 0; row < n_rows; ++row)
-        append(values[row], bits, &rows[row][size]);
+        append(simd::load(reinterpret_cast<const double *>(&batches) + row * batch_size), bits, &rows[row][size]);
       size += __builtin_popcount(bits);
     }
 
@@ -31,11 +29,9 @@ namespace scree
         for (auto &row : rows)
           for (unsigned int lane = size; lane < first + batch_size; ++lane)
             row[lane] = row[size - 1];
-      Batch values[n_rows];
-      for (unsigned int row = 0; row < n_rows; ++row)
-        std::memcpy(&values[row], &rows[row][first], sizeof(Batch));
       Batches batches;
-      std::memcpy(&batches, values, sizeof(values));
+      for (unsigned int row = 0; row < n_rows; ++row)
+        simd::store(simd::load(&rows[row][first]), reinterpret_cast<double *>(&batches) + row * batch_size);
       return batches;
     }
 
@@ -49,7 +45,7 @@ namespace scree
     {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
       const Batch first = __builtin_ia32_compressdf512_mask(batch, Batch{}, static_cast<unsigned char>(bits));
-      std::memcpy(end, &first, sizeof(first));
+      simd::store(first, end);
 #else
       unsigned int n = 0;
       for (unsigned int lane = 0; lane < batch_size; ++lane)

@@ -196,18 +196,20 @@ namespace scree
           records[l][c] = batches[c][l];
     }
 
+    /// A batch anywhere among doubles. GCC would copy halves of it.
+    using BatchInMemory =
+        double __attribute__((vector_size(batch_size * sizeof(double)), aligned(alignof(double)), may_alias));
+
     /// Reads `batch_size` doubles one behind the other.
     DEAL_II_ALWAYS_INLINE inline Batch load(const double *values)
     {
-      Batch batch;
-      std::memcpy(&batch, values, sizeof(batch));
-      return batch;
+      return *reinterpret_cast<const BatchInMemory *>(values);
     }
 
     /// Writes `batch_size` doubles one behind the other.
     DEAL_II_ALWAYS_INLINE inline void store(const Batch &batch, double *values)
     {
-      std::memcpy(values, &batch, sizeof(batch));
+      *reinterpret_cast<BatchInMemory *>(values) = batch;
     }
 
     /// The lanes below `n`.

@@ -51,6 +51,12 @@ namespace scree
       return simd::min<Number>(principal[0], simd::min<Number>(principal[1], principal[2]));
     }
 
+    /// A number below which it is not, cheap.
+    Number bound_of_deviator() const
+    {
+      return least_deviator();
+    }
+
     Number volume;               ///< tr
     Number deviator[4],          ///< components of dev(eps)
         square;                  ///< |dev(eps)|^2
@@ -118,6 +124,12 @@ namespace scree
             b[c] += 1. + sum.identity;
           b[c] *= size;
         }
+    }
+
+    /// A number below which the smallest principal value of the deviator is not: none is beyond sqrt(2/3) of its size.
+    Number bound_of_deviator() const
+    {
+      return -1. * simd::sqrt<Number>(2. / 3. * square);
     }
 
     /// By Newton's method on the characteristic cubic from below its smallest root, which it cannot pass.

@@ -11,15 +11,17 @@
 
 namespace scree
 {
-  /// Mass, momentum and force of a cell's points at its nodes: one kernel for points of soil and of water.
-  ///
-  /// Lanes are the numbers of a node, in as many parts as they take registers. Lane by lane a point gives node
-  /// (i, j, k)
+  /// Mass, momentum and force of a cell's points at its nodes: one kernel for points of soil and of water. A point
+  /// gives node (i, j, k), component by component,
   ///
   /// f_i f_j f_k value + g_i f_j f_k slope_0 + f_i g_j f_k slope_1 + f_i f_j g_k slope_2
   ///
   /// with the shape functions f of the axes. For the force, g is the derivative of f; for the momentum, f times the
   /// node's distance from the point.
+  ///
+  /// In three dimensions lanes are the components, in as many parts as they take registers. In two, the two terms of a
+  /// force have lanes of their own, with their f or g, so that a point gives each node but one product of three factors
+  /// (and one more for the affine momentum); they are added in the end.
   template <int dim, int n>
   class CellSums
   {
@@ -35,27 +37,26 @@ namespace scree
     ///
     /// @param velocity the point's slots
     /// @param affine its slots of the affine field, which FLIP and PIC do not read
-    template <TransferMethod method>
+    template <TransferMethod method, typename Shape>
     DEAL_II_ALWAYS_INLINE inline void
-    add_momentum(const PointShape<dim, n> &shape, const double mass, const double *velocity, const double *affine)
+    add_momentum(const Shape &shape, const double mass, const double *velocity, const double *affine)
     {
       add<true, false, carries_affine(method)>(
-          shape, momentum_of(mass, velocity), affine_momentum<method>(shape, width, mass, affine), no_stress);
+          shape, momentum_of(mass, velocity), affine_momentum<method, dim, n>(shape, width, mass, affine), no_stress);
     }
 
     /// Adds -V sigma grad phi_i.
     ///
     /// @param stress symmetric, dim x dim, Pa
-    template <typename Matrix>
-    DEAL_II_ALWAYS_INLINE inline void
-    add_force(const PointShape<dim, n> &shape, const double volume, const Matrix &stress)
+    template <typename Shape, typename Matrix>
+    DEAL_II_ALWAYS_INLINE inline void add_force(const Shape &shape, const double volume, const Matrix &stress)
     {
       add<false, true, false>(shape, {}, {}, force_of(volume, stress));
     }
 
     /// Adds both.
-    template <TransferMethod method, typename Matrix>
-    DEAL_II_ALWAYS_INLINE inline void add(const PointShape<dim, n> &shape,
+    template <TransferMethod method, typename Shape, typename Matrix>
+    DEAL_II_ALWAYS_INLINE inline void add(const Shape &shape,
                                           const double mass,
                                           const double *velocity,
                                           const double *affine,
@@ -64,7 +65,7 @@ namespace scree
     {
       add<true, true, carries_affine(method)>(shape,
                                               momentum_of(mass, velocity),
-                                              affine_momentum<method>(shape, width, mass, affine),
+                                              affine_momentum<method, dim, n>(shape, width, mass, affine),
                                               force_of(volume, stress));
     }
 
@@ -72,7 +73,21 @@ namespace scree
     void scatter(const unsigned int *nodes, NodalField<dim> &field) const
     {
       for (unsigned int i = 0; i < n_nodes; ++i)
-        simd::add_doubles<Field::n_components>(reinterpret_cast<const double *>(sums[i]), field[nodes[i]]);
+        {
+          const double *sum = reinterpret_cast<const double *>(sums[i]);
+          double *values    = field[nodes[i]];
+          if constexpr (dim == 2)
+            {
+              simd::TwoDoubles force, other;
+              std::memcpy(&force, sum + Field::force, sizeof(force));
+              std::memcpy(&other, sum + Field::force + dim, sizeof(other));
+              force += other;
+              simd::add_doubles<Field::force>(sum, values);
+              simd::add_doubles<dim>(reinterpret_cast<const double *>(&force), values + Field::force);
+            }
+          else
+            simd::add_doubles<Field::n_components>(sum, values);
+        }
     }
 
   private:
@@ -80,7 +95,8 @@ namespace scree
     using Momentum                        = std::array<double, 1 + dim>;              // after the mass
     using Matrix                          = std::array<std::array<double, dim>, dim>; // by component and axis
     static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
-    static constexpr unsigned int n_parts = (Field::n_components + batch_size - 1) / batch_size;
+    static constexpr unsigned int n_lanes = dim == 2 ? 1 + dim + dim * dim : Field::n_components;
+    static constexpr unsigned int n_parts = (n_lanes + batch_size - 1) / batch_size;
     static constexpr Matrix no_stress{};
 
     static Momentum momentum_of(const double mass, const double *velocity)
@@ -115,11 +131,9 @@ namespace scree
       return Batch{ function(part * batch_size + lane)... };
     }
 
-    template <bool with_momentum, bool with_force, bool is_affine>
-    DEAL_II_ALWAYS_INLINE inline void add(const PointShape<dim, n> &shape,
-                                          const Momentum &momentum,
-                                          const AffineMomentum<dim, n> &affine,
-                                          const Matrix &force)
+    template <bool with_momentum, bool with_force, bool is_affine, typename Shape>
+    DEAL_II_ALWAYS_INLINE inline void
+    add(const Shape &shape, const Momentum &momentum, const AffineMomentum<dim, n> &affine, const Matrix &force)
     {
       add_part<0, with_momentum, with_force, is_affine>(shape, momentum, affine, force);
       if constexpr (n_parts > 1)
@@ -130,66 +144,123 @@ namespace scree
         add_part<3, with_momentum, with_force, is_affine>(shape, momentum, affine, force);
     }
 
-    template <unsigned int part, bool with_momentum, bool with_force, bool is_affine>
-    DEAL_II_ALWAYS_INLINE inline void add_part(const PointShape<dim, n> &shape,
-                                               const Momentum &momentum,
-                                               const AffineMomentum<dim, n> &affine,
-                                               const Matrix &force)
+    template <unsigned int part, bool with_momentum, bool with_force, bool is_affine, typename Shape>
+    DEAL_II_ALWAYS_INLINE inline void
+    add_part(const Shape &shape, const Momentum &momentum, const AffineMomentum<dim, n> &affine, const Matrix &force)
     {
       constexpr unsigned int begin = part * batch_size, end = begin + batch_size;
       constexpr bool momentum_here = with_momentum && begin < Field::force;
       constexpr bool force_here    = with_force && end > Field::force;
       constexpr bool affine_here   = is_affine && momentum_here;
-      constexpr bool slope_here    = force_here || affine_here;
       if constexpr (momentum_here || force_here)
         {
-          [[maybe_unused]] const Batch value =
-              part_of<part>([&](const unsigned int c) { return c < Field::force ? momentum[c] : 0.; });
-          [[maybe_unused]] Batch slope[dim];
-          if constexpr (slope_here)
-            for (unsigned int a = 0; a < dim; ++a)
-              slope[a] = part_of<part>([&](const unsigned int c) {
-                if (c >= Field::momentum && c < Field::force)
-                  return affine.slope[c - Field::momentum][a];
-                return c >= Field::force && c < Field::n_components ? force[c - Field::force][a] : 0.;
-              });
-          const auto &f = shape.basis.value;
-          // g, in all lanes the same unless there are force and momentum among them
-          const auto g = [&](const unsigned int a, const unsigned int i) {
-            if constexpr (affine_here && force_here)
-              return part_of<part>([&](const unsigned int c) {
-                return c < Field::force ? affine.factor[a][i] : shape.basis.derivative[a][i];
-              });
-            else if constexpr (affine_here)
-              return affine.factor[a][i];
-            else
-              return shape.basis.derivative[a][i];
-          };
-          const auto add_line = [&](const Batch &of_line, const Batch &slope_of_line, const unsigned int first) {
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                Batch &sum = sums[first + i][part];
-                sum += f[0][i] * of_line;
-                if constexpr (slope_here)
-                  sum += g(0, i) * slope_of_line;
-              }
-          };
-          const auto add_plane =
-              [&](const Batch &of_plane, const Batch &slope_0, const Batch &slope_1, const unsigned int first) {
-                for (unsigned int j = 0; j < n; ++j)
-                  if constexpr (slope_here)
-                    add_line(f[1][j] * of_plane + g(1, j) * slope_1, f[1][j] * slope_0, first + j * n);
-                  else
-                    add_line(f[1][j] * of_plane, of_plane, first + j * n);
-              };
           if constexpr (dim == 2)
-            add_plane(value, slope[0], slope[1], 0);
+            add_products<part, force_here, affine_here>(shape, momentum, affine, force);
           else
-            for (unsigned int k = 0; k < n; ++k)
+            add_slopes<part, force_here, affine_here>(shape, momentum, affine, force);
+        }
+    }
+
+    /// The momentum's slope along an axis, in its lanes.
+    template <unsigned int part>
+    static DEAL_II_ALWAYS_INLINE inline Batch slope_of(const AffineMomentum<dim, n> &affine, const unsigned int a)
+    {
+      return part_of<part>([&](const unsigned int c) {
+        return c >= Field::momentum && c < Field::force ? affine.slope[c - Field::momentum][a] : 0.;
+      });
+    }
+
+    /// Two dimensions: products of a factor of each axis and a number, lane by lane.
+    template <unsigned int part, bool force_here, bool affine_here, typename Shape>
+    DEAL_II_ALWAYS_INLINE inline void add_products(const Shape &shape,
+                                                   const Momentum &momentum,
+                                                   const AffineMomentum<dim, n> &affine,
+                                                   const Matrix &force)
+    {
+      const Batch value = part_of<part>([&](const unsigned int c) {
+        const unsigned int of_force = c - Field::force;
+        return c < Field::force ? momentum[c] : c < n_lanes ? force[of_force % dim][of_force / dim] : 0.;
+      });
+      // f, or g in the lanes of the force that have the derivative along this axis
+      const auto factor = [&](const unsigned int a, const unsigned int i) {
+        const Batch f = simd::broadcast<Batch>(shape.basis.value[a][i]);
+        if constexpr (!force_here)
+          return f;
+        const simd::Mask<Batch> is_derived = part_of<part>([&](const unsigned int c) {
+                                               const bool here = c >= Field::force + a * dim;
+                                               return here && c < Field::force + (a + 1) * dim ? 1. : 0.;
+                                             }) > 0.;
+        return simd::select<Batch>(is_derived, simd::broadcast<Batch>(shape.basis.derivative[a][i]), f);
+      };
+      Batch line[n], slope_of_line[n];
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          const Batch f = factor(1, j);
+          line[j]       = f * value;
+          if constexpr (affine_here)
+            {
+              line[j] += affine.factor[1][j] * slope_of<part>(affine, 1);
+              slope_of_line[j] = f * slope_of<part>(affine, 0);
+            }
+        }
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const Batch f = factor(0, i);
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              Batch &sum = sums[j * n + i][part];
+              sum += f * line[j];
+              if constexpr (affine_here)
+                sum += affine.factor[0][i] * slope_of_line[j];
+            }
+        }
+    }
+
+    /// Three dimensions: value and slopes, component by component.
+    template <unsigned int part, bool force_here, bool affine_here, typename Shape>
+    DEAL_II_ALWAYS_INLINE inline void
+    add_slopes(const Shape &shape, const Momentum &momentum, const AffineMomentum<dim, n> &affine, const Matrix &force)
+    {
+      constexpr bool slope_here = force_here || affine_here;
+      const Batch value = part_of<part>([&](const unsigned int c) { return c < Field::force ? momentum[c] : 0.; });
+      [[maybe_unused]] Batch slope[dim];
+      if constexpr (slope_here)
+        for (unsigned int a = 0; a < dim; ++a)
+          slope[a] = part_of<part>([&](const unsigned int c) {
+            if (c >= Field::momentum && c < Field::force)
+              return affine.slope[c - Field::momentum][a];
+            return c >= Field::force && c < Field::n_components ? force[c - Field::force][a] : 0.;
+          });
+      const auto &f = shape.basis.value;
+      // g, in all lanes the same unless there are force and momentum among them
+      const auto g = [&](const unsigned int a, const unsigned int i) {
+        if constexpr (affine_here && force_here)
+          return part_of<part>([&](const unsigned int c) {
+            return c < Field::force ? affine.factor[a][i] : shape.basis.derivative[a][i];
+          });
+        else if constexpr (affine_here)
+          return affine.factor[a][i];
+        else
+          return shape.basis.derivative[a][i];
+      };
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          Batch of_plane = f[2][k] * value;
+          if constexpr (slope_here)
+            of_plane += g(2, k) * slope[2];
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              Batch of_line = f[1][j] * of_plane;
               if constexpr (slope_here)
-                add_plane(f[2][k] * value + g(2, k) * slope[2], f[2][k] * slope[0], f[2][k] * slope[1], k * n * n);
-              else
-                add_plane(f[2][k] * value, value, value, k * n * n);
+                of_line += g(1, j) * (f[2][k] * slope[1]);
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  Batch &sum = sums[(k * n + j) * n + i][part];
+                  sum += f[0][i] * of_line;
+                  if constexpr (slope_here)
+                    sum += g(0, i) * (f[1][j] * (f[2][k] * slope[0]));
+                }
+            }
         }
     }
 

@@ -61,23 +61,44 @@ namespace scree
     return values;
   }
 
-  /// Adds the moments of a point's volume to rows of nodes.
+  /// Moments of volumes of a cell's points at rows of nodes, m^3. Not those of the mixture, so that they may stay in
+  /// registers from point to point.
   template <int dim, int n>
-  DEAL_II_ALWAYS_INLINE inline void add_moments(const PointShape<dim, n> &shape, const double volume, NodeRow *moments)
+  class MomentSums
   {
-    const NodeRow volume_x = shape.value_x * volume;
-    const auto powers      = monomials<dim, double>(shape.x);
-    for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
-      {
-        const NodeRow volume_of_row = volume_x * shape.rows.value[r];
-        for (unsigned int m = 0; m < Mixture<dim>::n_moments; ++m)
-          *moments++ += volume_of_row * powers[m];
-      }
-  }
+  public:
+    /// Adds the moments of a point's volume.
+    template <typename Shape>
+    DEAL_II_ALWAYS_INLINE inline void add(const Shape &shape, const double volume)
+    {
+      const NodeRow volume_x = shape.value_x * volume;
+      const auto powers      = monomials<dim, double>(shape.x);
+      for (unsigned int r = 0; r < n_rows; ++r)
+        {
+          const NodeRow volume_of_row = volume_x * shape.rows.value[r];
+          for (unsigned int m = 0; m < n_moments; ++m)
+            sums[r][m] += volume_of_row * powers[m];
+        }
+    }
+
+    /// Adds the sums to rows of the mixture.
+    void add_to(NodeRow *moments) const
+    {
+      for (unsigned int r = 0; r < n_rows; ++r)
+        for (unsigned int m = 0; m < n_moments; ++m)
+          moments[r * n_moments + m] += sums[r][m];
+    }
+
+  private:
+    static constexpr unsigned int n_rows    = RowFactors<dim, n>::n_rows;
+    static constexpr unsigned int n_moments = Mixture<dim>::n_moments;
+
+    NodeRow sums[n_rows][n_moments] = {};
+  };
 
   /// Adds a point's number, shared by the shape functions, to rows of nodes.
-  template <int dim, int n, unsigned long n_rows>
-  void add_row_sums(const PointShape<dim, n> &shape, const double number, NodeRow (&sums)[n_rows])
+  template <typename Shape, unsigned long n_rows>
+  DEAL_II_ALWAYS_INLINE inline void add_row_sums(const Shape &shape, const double number, NodeRow (&sums)[n_rows])
   {
     const NodeRow number_x = shape.value_x * number;
     for (unsigned int r = 0; r < n_rows; ++r)

@@ -4,6 +4,7 @@
 
 #include <scree/mesh/nodal_field.h>
 #include <scree/bodies/soil_body.h>
+#include <scree/particles/batch_pointers.h>
 #include <scree/transfer/f_bar.h>
 #include <scree/mixture/mixture.h>
 #include <scree/transfer/transfer_parameters.h>
@@ -64,23 +65,22 @@ namespace scree
                          const double time_step,
                          NodalField<dim> &projected) const;
 
-    /// @param move_cell moves the points of a cell and fills `motion` from a number on; returns the largest square of a
-    /// speed, m^2/s^2
+    /// @param move_cell moves the points of a cell, fills `motion` from a number on and includes the squares of speeds
     template <typename MoveCell>
     MotionReport
     move_points(SoilBody<dim> &body, const double time_step, const Mixture<dim> *mixture, const MoveCell &move_cell);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
-    /// Returns the largest square of a speed, m^2/s^2; not a number if any point's is not.
     ///
     /// @param keep see kept_velocity()
     template <int n, TransferMethod method>
-    double move_cell(const SoilBody<dim> &body,
-                     const CellPoints<dim> &cell,
-                     const NodalField<dim> &field,
-                     const double time_step,
-                     const double keep,
-                     const unsigned int first);
+    void move_cell(const SoilBody<dim> &body,
+                   const CellPoints<dim> &cell,
+                   const NodalField<dim> &field,
+                   const double time_step,
+                   const double keep,
+                   const unsigned int first,
+                   LargestSquare &largest);
 
     /// Places of a cell's points, whose velocity has been updated before; into `motion` from number `first` on what the
     /// rest needs, with the gradient of the velocity `projected`.

@@ -3,9 +3,9 @@
 #define scree_transfer_velocity_transfer_h
 
 #include <scree/mesh/nodal_field.h>
-#include <scree/simd/records.h>
 #include <scree/tensor/matrix.h>
-#include <scree/transfer/affine_field.h>
+#include <scree/transfer/batch_shape.h>
+#include <scree/transfer/transfer_parameters.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,33 +13,6 @@
 
 namespace scree
 {
-  /// A batch of points as the nodes of their cell see it.
-  template <int dim, int n>
-  struct BatchShape
-  {
-    const OpenKnots open;                 ///< walls that the cell touches
-    const std::array<Batch, dim> x;       ///< places in the cell
-    const CellBasis<dim, n, Batch> basis; ///< shape functions along the axes
-
-    /// Evaluates the shape functions.
-    /// @param places of the points in the cell, from 0 to 1 along each axis
-    BatchShape(const RecordPointers<const double> &places, const OpenKnots open)
-        : open(open)
-        , x(read(places))
-        , basis(x, open)
-    {
-    }
-
-  private:
-    static std::array<Batch, dim> read(const RecordPointers<const double> &places)
-    {
-      std::array<Batch, dim> x;
-      simd::load_records<dim>(places, x.data());
-      return x;
-    }
-  };
-
-
   /// From the velocity gradient L over the places of a step's start, 1/s, to that over the places of its end,
   /// L (I + dt L)^-1, if it is smaller: so a lone point, to which no node says anything new, does not stretch for ever
   /// at the same rate, and one that is compressed does not shrink to nothing in a finite time.

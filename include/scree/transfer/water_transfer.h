@@ -118,19 +118,19 @@ namespace scree
                       const ForgottenOfCell<dim> &forgotten,
                       const double time_step) const;
 
-    /// Velocity, pressure and, if the points are the water's own, place of a cell's points. Returns the largest square
-    /// of a speed, m^2/s^2; not a number if any point's is not.
+    /// Velocity, pressure and, if the points are the water's own, place of a cell's points.
     ///
     /// @param porosity about the cell's points; may be null
     /// @param keep see kept_velocity()
     template <int n, TransferMethod method>
-    double move_cell(const WaterPhase<dim> &water,
-                     const CellPoints<dim> &cell,
-                     const MixtureNodes<dim> &nodes,
-                     const PorosityOfParts<dim> *porosity,
-                     const CellPressure<dim> &pressure,
-                     const double time_step,
-                     const double keep) const;
+    void move_cell(const WaterPhase<dim> &water,
+                   const CellPoints<dim> &cell,
+                   const MixtureNodes<dim> &nodes,
+                   const PorosityOfParts<dim> *porosity,
+                   const CellPressure<dim> &pressure,
+                   const double time_step,
+                   const double keep,
+                   LargestSquare &largest) const;
 
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
