@@ -21,7 +21,7 @@ BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_
            "slope_jefferies_been": 6, "cut": 40, "graded_slope": 45, "quick_clay": 35, "mud": 32, "steady_dam": 4, "earth_dam": 1,
            "capillary_fringe": 1, "green_ampt": 1, "rain_column": 2, "rain": 17, "wet_cut": 8}
 # The same of a first part: processor time, s, and its length, s.
-PARTS_BY_HAND = {"slope_loose": (27.8, 3.19), "slope_loose_fine": (13.95, 0.2)}
+PARTS_BY_HAND = {"slope_loose": (27.8, 3.19), "slope_loose_fine": (53.9, 0.8)}
 
 
 def rounded(seconds):
