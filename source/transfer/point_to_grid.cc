@@ -19,15 +19,16 @@ namespace scree
       {
         const OpenKnots open = grid.open_knots(cell.cell);
         CellSums<dim, n> sums(grid.cell_size());
-        for_each_record_with_shape<n>(cell, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
-          const double *properties = point.properties;
-          sums.template add<method>(shape,
-                                    properties[layout.mass],
-                                    properties + layout.velocity,
-                                    properties + layout.affine,
-                                    properties[layout.volume],
-                                    matrix_of_components<dim>(properties + layout.stress));
-        });
+        for_each_record_with_shape<n>(
+            cell, cell.stride, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
+              const double *properties = point.properties;
+              sums.template add<method>(shape,
+                                        properties[layout.mass],
+                                        properties + layout.velocity,
+                                        properties + layout.affine,
+                                        properties[layout.volume],
+                                        matrix_of_components<dim>(properties + layout.stress));
+            });
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
       }

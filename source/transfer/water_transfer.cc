@@ -73,24 +73,25 @@ namespace scree
         MixtureCell<dim> sums = mixture.cells()[record];
         auto *parts           = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
 
-        for_each_record_with_shape<n>(cell, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
-          const double *properties    = point.properties;
-          const double mass           = properties[layout.mass];
-          const double volume         = properties[layout.volume];
-          const double grains         = mass / soil.grain_density;
-          const double porosity       = std::max(1. - grains / volume, smallest_porosity);
-          const double pores_of_point = porosity * volume;
+        for_each_record_with_shape<n>(
+            cell, layout.volume + 1, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
+              const double *properties    = point.properties;
+              const double mass           = properties[layout.mass];
+              const double volume         = properties[layout.volume];
+              const double grains         = mass / soil.grain_density;
+              const double porosity       = std::max(1. - grains / volume, smallest_porosity);
+              const double pores_of_point = porosity * volume;
 
-          moments.add(shape, grains);
-          if (parts != nullptr)
-            parts->add_soil(shape.x, grains, volume);
-          add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
-          sums.soil_mass += mass;
-          sums.grain_volume += grains;
-          sums.pore_volume += pores_of_point;
-          sums.drag += volume * law.linear(porosity);
-          sums.inertial += grains * law.inertial(porosity);
-        });
+              moments.add(shape, grains);
+              if (parts != nullptr)
+                parts->add_soil(shape.x, grains, volume);
+              add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
+              sums.soil_mass += mass;
+              sums.grain_volume += grains;
+              sums.pore_volume += pores_of_point;
+              sums.drag += volume * law.linear(porosity);
+              sums.inertial += grains * law.inertial(porosity);
+            });
         moments.add_to(mixture.grain_moments(record));
         sums.is_rigid           = sums.is_rigid || soil.is_rigid;
         mixture.cells()[record] = sums;
@@ -122,7 +123,7 @@ namespace scree
         CellSums<dim, n> sums(width);
         NodeRow grains_about[n_rows] = {};
 
-        for_each_record_with_shape<n>(cell, open, width, [&](const auto &point, const auto &shape) {
+        for_each_record_with_shape<n>(cell, cell.stride, open, width, [&](const auto &point, const auto &shape) {
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);

@@ -49,18 +49,23 @@ namespace scree
       return reference_locations[slots[p]];
     }
 
-    /// Asks the memory for the properties and the place of the point that comes `points_ahead` after point `p`, here or
-    /// in the cells that follow.
-    /// Inlined by force: GCC drops calls of a function that only prefetches.
-    DEAL_II_ALWAYS_INLINE inline void prefetch_after(const unsigned int p) const
+    /// Asks the memory for the first `n` properties and the place of the point that comes `points_ahead` after point
+    /// `p`, here or in the cells that follow. Inlined by force: GCC drops calls of a function that only prefetches.
+    DEAL_II_ALWAYS_INLINE inline void prefetch_after(const unsigned int p, const unsigned int n) const
     {
       constexpr unsigned int cache_line = 64 / sizeof(double);
       const Number *record              = properties_of(p + points_ahead);
 #pragma GCC unroll 1 // a loop of two or three lines, which GCC would unroll to eight
-      for (unsigned int first = 0; first < stride; first += cache_line)
+      for (unsigned int first = 0; first < n; first += cache_line)
         __builtin_prefetch(record + first);
-      __builtin_prefetch(record + stride - 1);
+      __builtin_prefetch(record + n - 1);
       __builtin_prefetch(&reference_location_of(p + points_ahead));
+    }
+
+    /// The same with all properties.
+    DEAL_II_ALWAYS_INLINE inline void prefetch_after(const unsigned int p) const
+    {
+      prefetch_after(p, stride);
     }
 
     /// The same, and for its location.

@@ -137,13 +137,15 @@ namespace scree
   };
 
 
-  /// Calls `act(point, shape)` with a PointView of each of a cell's points and its LaneShape: for kernels that need
-  /// most of a record, for all of a set's cells in turn.
+  /// Calls `act(point, shape)` with a PointView of each of a cell's points and its LaneShape, for all of a set's cells
+  /// in turn.
   ///
+  /// @param n_read of a point's properties, from the first on: memory is asked for these ahead
   /// @param open walls that the cell touches
   /// @param width of the cell, m
   template <int n, int dim, typename Number, typename Act>
   DEAL_II_ALWAYS_INLINE inline void for_each_record_with_shape(const CellPoints<dim, Number> &cell,
+                                                               const unsigned int n_read,
                                                                const OpenKnots open,
                                                                const double width,
                                                                const Act &act)
@@ -156,7 +158,7 @@ namespace scree
       for (unsigned int l = 0; l < n_used; ++l)
         {
           const unsigned int p = indices[0] + l;
-          cell.prefetch_after(p);
+          cell.prefetch_after(p, n_read);
           act(
               PointView<dim, Number>{
                   cell.cell, cell.properties_of(p), cell.location_of(p), cell.reference_location_of(p) },
