@@ -297,10 +297,13 @@ namespace
       for (int l = 0; any && l < 8; ++l)
         if (left[l])
           {
-            leavers.emplace_back();
-            for (int i = 0; i < Pack<dim>::n_values; ++i)
-              leavers.back().values[i] = pack.lane(l)[8 * i];
-            set_free(pack, l, place);
+            if (pack.volume[l] > 0)
+              {
+                leavers.emplace_back();
+                for (int i = 0; i < Pack<dim>::n_values; ++i)
+                  leavers.back().values[i] = pack.lane(l)[8 * i];
+              }
+            set_free(pack, l, place); // free lanes move, too
           }
     }
 

@@ -45,6 +45,7 @@ namespace scree
                                    { "", "Coordinate system", Change::free },
                                    { "Output", "", Change::free },
                                    { "Output/Maps", "Format", Change::free },
+                                   { "Time step", "Mass scaling", Change::refused },
                                    { "Time step", "", Change::noted },
                                    { "Safety", "", Change::noted },
                                    { "Transfer", "Method", Change::noted, methods_of_same_points },

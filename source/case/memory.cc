@@ -22,7 +22,7 @@ namespace scree
     // Measured in 2D and 3D: peaks of runs on one rank, over their numbers of cells and points, and of runs whose fine
     // cells follow their points, for which deal.II copies all of them (tests/cases/memory.py).
     constexpr double bytes_of_cell[2]          = { 1200, 1900 };
-    constexpr double bytes_of_wet_cell[2]      = { 0, 2000 };  // beside that: matrix and multigrid of the pressure
+    constexpr double bytes_of_wet_cell[2]      = { 0, 5000 };  // beside that: matrix and multigrid of the pressure
     constexpr double bytes_of_pair_at_cell[2]  = { 270, 400 }; // of bodies that slide: numbers of its nodes
     constexpr double bytes_of_soil_point[2]    = { 550, 1000 };
     constexpr double bytes_of_water_point[2]   = { 400, 600 };

@@ -86,6 +86,7 @@ refused "$(in_subsection Stabilisation 'F-bar = none')" 'subsection Stabilisatio
 # APIC reads no PIC rate.
 refused "$(in_subsection Transfer 'PIC rate = auto')
 $(in_subsection Transfer 'Method = APIC')" 'subsection Transfer, entry "Method" = APIC'
+refused "$(in_subsection 'Time step' 'Mass scaling = 2')" 'subsection Time step, entry "Mass scaling" = 2'
 refused "$(in_subsection Transfer 'Method = AFLIP')" 'subsection Transfer, entry "Method" = AFLIP'
 refused "set End time = 0.004" 'entry "End time" = 0.004: the checkpoint results/checkpoint/step-'
 goes_on "" ""

@@ -81,7 +81,8 @@ namespace scree
     /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
 
-    /// Courant number at which elastic soil is stable wherever its points are (doc/theory/single_phase.md).
+    /// Courant number at which elastic soil is stable, with spline and linear bases, wherever its points are
+    /// (doc/theory/single_phase.md).
     double courant_number() const
     {
       return projects_velocity() ? 1.1 : carries_affine_field() ? 0.7 : 0.6;

@@ -20,23 +20,24 @@ using namespace scree;
 SceneNumbers terzaghi()
 {
   SceneNumbers scene;
-  scene.gravity          = 0;
-  scene.end_time         = 8.829;
-  scene.height           = 1;
-  scene.has_soil         = true;
-  scene.is_elastic       = true;
-  scene.mean             = { 1e6 / (3 * (1 - 2 * 0.2)), 1e6 / (2 * 1.2), 1590 };
-  scene.fastest          = scene.mean;
-  scene.grain_density    = 2650;
-  scene.porosity         = 0.4;
-  scene.has_water        = true;
-  scene.water_fills_soil = true;
-  scene.conductivity     = 1e-3;
-  scene.cell_size        = 0.05;
-  scene.n_cells          = 48;
-  scene.n_occupied       = 40;
-  scene.n_soil_points    = 640;
-  scene.n_water_points   = 640;
+  scene.gravity             = 0;
+  scene.end_time            = 8.829;
+  scene.height              = 1;
+  scene.has_soil            = true;
+  scene.courant_of_transfer = 0.6;
+  scene.is_elastic          = true;
+  scene.mean                = { 1e6 / (3 * (1 - 2 * 0.2)), 1e6 / (2 * 1.2), 1590 };
+  scene.fastest             = scene.mean;
+  scene.grain_density       = 2650;
+  scene.porosity            = 0.4;
+  scene.has_water           = true;
+  scene.water_fills_soil    = true;
+  scene.conductivity        = 1e-3;
+  scene.cell_size           = 0.05;
+  scene.n_cells             = 48;
+  scene.n_occupied          = 40;
+  scene.n_soil_points       = 640;
+  scene.n_water_points      = 640;
   return scene;
 }
 
