@@ -48,6 +48,7 @@ namespace scree
                                   &balance.viscous_dissipation,
                                   &balance.load_work,
                                   &balance.correction_work,
+                                  &balance.motion,
                                   &balance.n_iterations,
                                   &balance.n_preconditioners,
                                   &balance.n_viscous_iterations,

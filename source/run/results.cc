@@ -52,7 +52,7 @@ namespace scree
     if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
       folder.require_presence();
     if (row_is_due && checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end))
-      balances.look(scene.bodies, scene.water, state.totals);
+      balances.look(scene.bodies, scene.water, state.totals, time);
     if (row_is_due)
       write_row(state);
     else if (picture_is_due)

@@ -236,6 +236,8 @@ namespace scree
     place_points(time_step, step.speeds);
 
     totals.balance += step.balance;
+    if (is_released && scene.forcing.mass_scaling() > 1.)
+      totals.balance.motion += 0.5 * time_step * scheme->nodal_forces(time_step).kinetic;
     totals.add(step.material);
     last_update = step.material;
     point_updates += step.n_updates;

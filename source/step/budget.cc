@@ -66,6 +66,7 @@ namespace scree
     viscous_dissipation += other.viscous_dissipation;
     load_work += other.load_work;
     correction_work += other.correction_work;
+    motion += other.motion;
     n_iterations += other.n_iterations;
     n_preconditioners += other.n_preconditioners;
     n_viscous_iterations += other.n_viscous_iterations;

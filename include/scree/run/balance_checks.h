@@ -15,8 +15,9 @@ namespace scree
 {
   /// Watches mass, momentum and energy of a run from its start. The energy gain is the largest fall of the numerical
   /// dissipation, over the released energy: that of the start which the run has turned into motion or stored, and work
-  /// done on it. With mass scaling, momentum and energy are those of the scaled masses, and the kinetic energy beside
-  /// the work tells whether the motion was slow.
+  /// done on it. With mass scaling, momentum and energy are those of the scaled masses, and the kinetic energy over the
+  /// work W tells whether the motion was slow: its integral over time, over that of W(end) - W. So it depends neither
+  /// on the rows nor on the time after the motion.
   template <int dim>
   class BalanceChecks
   {
@@ -26,8 +27,11 @@ namespace scree
 
     /// Compares the points with the start, which is the first look. Collective.
     /// @param totals of this rank
-    void
-    look(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water, const RunTotals<dim> &totals);
+    /// @param time s
+    void look(const std::list<SoilBody<dim>> &bodies,
+              const std::list<WaterPhase<dim>> &water,
+              const RunTotals<dim> &totals,
+              const double time);
 
     /// The worst of all looks. What does not apply is left out.
     std::vector<CheckResult> results() const;
@@ -39,10 +43,16 @@ namespace scree
       archive &has_start &soil_mass &water_mass &mass_error;
       archive &start_momentum &momentum_residual &momentum_scale;
       archive &start_energy &start_kinetic &start_potential &least_potential &largest_work;
-      archive &dissipation &largest_dissipation &gain &work_so_far &motion;
+      archive &dissipation &largest_dissipation &gain &start_time &last_time &work &work_in_time &motion;
     }
 
   private:
+    /// Energy below which nothing has moved, J.
+    double least_energy() const;
+
+    /// Whether the motion was slow, for mass scaling.
+    CheckResult check_of_motion() const;
+
     /// Energy that the run had to spend, J; 0 if too little of it for percentages.
     double released_energy() const;
 
@@ -61,13 +71,15 @@ namespace scree
     double start_energy        = 0; // kinetic, potential and elastic, J
     double start_kinetic       = 0;
     double start_potential     = 0;
-    double least_potential     = 0; // with that of what has left, without that of what has entered
-    double largest_work        = 0; // of loads, obstacles and volume correction, J
-    double dissipation         = 0; // numerical, now, J
-    double largest_dissipation = 0; // so far
-    double gain                = 0; // largest fall from that
-    double work_so_far         = 0; // of loads, obstacles and gravity since the start, the largest, J
-    double motion              = 0; // kinetic energy over that, the largest
+    double least_potential     = 0;       // with that of what has left, without that of what has entered
+    double largest_work        = 0;       // of loads, obstacles and volume correction, J
+    double dissipation         = 0;       // numerical, now, J
+    double largest_dissipation = 0;       // so far
+    double gain                = 0;       // largest fall from that
+    double start_time = 0, last_time = 0; // s
+    double work         = 0;              // of loads, obstacles and gravity since the start, J
+    double work_in_time = 0;              // its integral, J s
+    double motion       = 0;              // that of the kinetic energy, J s
   };
 } // namespace scree
 

@@ -60,6 +60,7 @@ namespace scree
     double viscous_dissipation = 0;              ///< of water and suspended soil, J
     double load_work           = 0;              ///< of the surface load, J
     double correction_work     = 0;              ///< of the volume correction against gravity, J
+    double motion              = 0; ///< integral of the kinetic energy over time, only with mass scaling, J s
 
     // Counts; doubles hold them exactly and travel like the rest.
     double n_iterations         = 0, ///< of pressure solves; on the writing rank only
@@ -83,7 +84,7 @@ namespace scree
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse &bed_impulse;
       archive &soil_walls &water_walls &obstacles;
       archive &wall_dissipation &bed_dissipation &contact_dissipation;
-      archive &drag_dissipation &viscous_dissipation &load_work &correction_work;
+      archive &drag_dissipation &viscous_dissipation &load_work &correction_work &motion;
       archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
     }
   };

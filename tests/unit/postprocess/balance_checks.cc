@@ -34,11 +34,12 @@ void check_scaled_masses()
   const BodyForces<2> forces(scene.grid, { 0., -10. }, BodyForceParameters(), 4.);
   BalanceChecks<2> checks(scene.grid, forces);
   RunTotals<2> totals;
-  checks.look(scene.bodies, scene.water, totals);
+  checks.look(scene.bodies, scene.water, totals, 0.);
   set_velocity(scene, -1.);
   totals.balance.body_impulse = 4. * PointSums<2>(scene.bodies, scene.water, forces.gravity(), MPI_COMM_WORLD).momentum;
   totals.balance.load_work    = 400.;
-  checks.look(scene.bodies, scene.water, totals);
+  totals.balance.motion       = 320.; // J s, over 2 s in which the work grows evenly
+  checks.look(scene.bodies, scene.water, totals, 2.);
   std::cout << "masses times 4, in motion: 80 J are missing\n" << verdict(checks.results()) << '\n';
 }
 
@@ -55,26 +56,26 @@ void run()
   std::cout << "nothing known: " << checks.results().size() << " results\n";
 
   RunTotals<2> totals;
-  checks.look(scene.bodies, scene.water, totals);
+  checks.look(scene.bodies, scene.water, totals, 0.);
   std::cout << "at rest\n" << verdict(checks.results()) << '\n';
 
   set_velocity(scene, -1.);
   totals.balance.body_impulse = PointSums<2>(scene.bodies, scene.water, gravity, MPI_COMM_WORLD).momentum;
   totals.balance.load_work    = 100.;
-  checks.look(scene.bodies, scene.water, totals);
+  checks.look(scene.bodies, scene.water, totals, 0.);
   std::cout << "in motion: 20 J are missing\n" << verdict(checks.results()) << '\n';
 
   set_velocity(scene, 0.);
   totals.balance.wall_impulse = -totals.balance.body_impulse;
   totals.plastic_dissipation  = 79.5;
-  checks.look(scene.bodies, scene.water, totals);
+  checks.look(scene.bodies, scene.water, totals, 0.);
   totals.plastic_dissipation = 81.5; // 2 J more than there were
-  checks.look(scene.bodies, scene.water, totals);
+  checks.look(scene.bodies, scene.water, totals, 0.);
   std::cout << "stopped, with a gain of 2 J\n" << verdict(checks.results()) << '\n';
 
   totals.lost_mass = 1.6;
   totals.balance.wall_impulse[0] += 0.16;
-  checks.look(scene.bodies, scene.water, totals);
+  checks.look(scene.bodies, scene.water, totals, 0.);
   std::cout << "1.6 kg and 0.16 N s too much\n" << verdict(checks.results()) << '\n';
 
   check_scaled_masses();
