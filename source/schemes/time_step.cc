@@ -18,8 +18,8 @@ namespace scree
     prm.add_parameter("Courant number",
                       courant,
                       "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Above auto the "
-                      "stress may oscillate or the run diverge. auto: 0.6 with the methods FLIP and PIC, 0.7 with "
-                      "TPIC, AFLIP and APIC, 1.1 with Stress update = MUSL (subsection Transfer).",
+                      "stress may oscillate or the run diverge. auto: 0.6; 1.1 with Stress update = MUSL in "
+                      "subsection Transfer.",
                       Patterns::Anything());
     prm.add_parameter("Advection number",
                       advection_number,

@@ -85,7 +85,7 @@ namespace scree
     /// (doc/theory/single_phase.md).
     double courant_number() const
     {
-      return projects_velocity() ? 1.1 : carries_affine_field() ? 0.7 : 0.6;
+      return projects_velocity() ? 1.1 : 0.6;
     }
   };
 
