@@ -13,74 +13,24 @@ namespace scree
     using simd::load;
     using simd::store;
 
-    /// Reads b_e of points of the cell; returns where the records are.
+    /// Of a batch of points: J_e = sqrt(det b_e) of those under stress, else 0.
     template <int dim>
-    DEAL_II_ALWAYS_INLINE inline RecordPointers<double>
-    read_left_cauchy_green(const MaterialPoints<dim> &points, const BatchIndices &indices, Batch *b)
+    DEAL_II_ALWAYS_INLINE inline Batch elastic_ratio_under_stress(const MaterialPoints<dim> &points,
+                                                                  const BatchIndices &indices)
     {
-      RecordPointers<double> records;
+      RecordPointers<const double> states, stresses;
       for (unsigned int l = 0; l < batch_size; ++l)
-        records[l] = apart(points.left_cauchy_green + points.offset(indices[l]));
-      simd::load_records<n_symmetric_components<dim>>(as_constant(records), b);
-      return records;
-    }
-
-
-    /// Gives all points the cell's J_e = sum V / sum (V/J_e), with J_e^2 = det b_e.
-    template <int dim>
-    void average_elastic_volume_ratio(const double *volumes, const MaterialPoints<dim> &points)
-    {
-      if (points.n_points == 1)
-        return;
-      const Batch zero = simd::broadcast<Batch>(0.);
-      Batch unloaded = zero, volume = zero, b[n_symmetric_components<dim>];
-      for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
-        read_left_cauchy_green(points, indices, b);
-        const Batch own = simd::select<Batch>(simd::first_lanes(n), load(volumes + indices[0]), zero);
-        unloaded += own / simd::sqrt<Batch>(determinant_of_components<dim>(b));
-        volume += own;
-      });
-      const double ratio       = simd::sum_of_lanes(volume) / simd::sum_of_lanes(unloaded);
-      const double determinant = ratio * ratio; // of b_e; b scales by the cube root of its change
-      for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int) {
-        const auto records = read_left_cauchy_green(points, indices, b);
-        const Batch scale  = simd::cube_root<Batch>(determinant / determinant_of_components<dim>(b));
-        for (Batch &component : b)
-          component *= scale;
-        simd::store_records<n_symmetric_components<dim>>(b, records);
-      });
-    }
-
-
-    template <int dim>
-    void average_volume_change(const FBar kind,
-                               const unsigned int first,
-                               const unsigned int n_points,
-                               const double volume_factor,
-                               BlockMotion<dim> &motion)
-    {
-      double *volumes = &motion.volume[first], *changes = &motion.volume_change[first];
-      const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
-      Batch weighted = zero, volume = zero;
-      for_each_batch(n_points, [&](const BatchIndices &indices, const unsigned int n) {
-        const auto used = simd::first_lanes(n);
-        const Batch own = simd::select<Batch>(used, load(volumes + indices[0]), zero);
-        weighted += own * simd::select<Batch>(used, load(changes + indices[0]), one);
-        volume += own;
-      });
-      const double mean = volume_factor * simd::sum_of_lanes(weighted) / simd::sum_of_lanes(volume);
-      for_each_batch(n_points, [&](const BatchIndices &indices, const unsigned int n) {
-        const unsigned int p = indices[0];
-        const Batch change   = simd::select<Batch>(simd::first_lanes(n), load(changes + p), mean * one);
-        const Batch scale    = simd::cube_root<Batch>(mean / change);
-        for (unsigned int c = 0; c < dim * dim; ++c)
-          {
-            double *component = &motion.deformation_increment[c * motion.pitch + first + p];
-            store(scale * load(component), component);
-          }
-        store(scale, &motion.out_of_plane_stretch[first + p]);
-        store(kind == FBar::modified ? mean * one : volume_factor * change, changes + p);
-      });
+        {
+          const std::size_t offset = points.offset(indices[l]);
+          states[l]                = apart<const double>(points.left_cauchy_green + offset);
+          stresses[l]              = apart<const double>(points.stress + offset);
+        }
+      Batch b[n_symmetric_components<dim>], stress[3];
+      simd::load_records<n_symmetric_components<dim>>(states, b);
+      simd::load_records<3>(stresses, stress); // the normal ones
+      const Batch zero   = simd::broadcast<Batch>(0.);
+      const Batch square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2];
+      return simd::select<Batch>(square > 0., simd::sqrt<Batch>(determinant_of_components<dim>(b)), zero);
     }
   } // namespace
 
@@ -94,9 +44,35 @@ namespace scree
   {
     if (kind == FBar::none)
       return;
-    if (kind == FBar::modified)
-      average_elastic_volume_ratio(&motion.volume[first], points);
-    average_volume_change(kind, first, points.n_points, volume_factor, motion);
+    const bool is_modified = kind == FBar::modified;
+    double *volumes = &motion.volume[first], *changes = &motion.volume_change[first];
+    double *ratios   = &motion.elastic_ratio[first];
+    const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
+    Batch volume = zero, unloaded = zero;
+    for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+      const Batch ratio      = is_modified ? elastic_ratio_under_stress(points, indices) : one;
+      const auto is_averaged = simd::first_lanes(n) & (ratio > 0.);
+      const Batch own        = load(volumes + indices[0]);
+      volume += simd::select<Batch>(is_averaged, own * load(changes + indices[0]), zero);
+      unloaded += simd::select<Batch>(is_averaged, own / ratio, zero);
+      store(ratio, ratios + indices[0]);
+    });
+    const double mean = simd::sum_of_lanes(volume) / simd::sum_of_lanes(unloaded);
+    for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+      const unsigned int p   = indices[0];
+      const Batch ratio      = load(ratios + p);
+      const auto is_averaged = simd::first_lanes(n) & (ratio > 0.);
+      const Batch change     = simd::select<Batch>(simd::first_lanes(n), load(changes + p), one);
+      const Batch averaged   = simd::select<Batch>(is_averaged, mean / ratio, change);
+      const Batch scale      = simd::cube_root<Batch>(volume_factor * averaged / change);
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        {
+          double *component = &motion.deformation_increment[c * motion.pitch + first + p];
+          store(scale * load(component), component);
+        }
+      store(scale, &motion.out_of_plane_stretch[first + p]);
+      store(volume_factor * (is_modified ? averaged : change), changes + p);
+    });
   }
 
   template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<2> &, const double, BlockMotion<2> &);

@@ -20,6 +20,7 @@ namespace scree
     std::vector<double> volume_change;         ///< dJ of the points' volume
     std::vector<double> volume;                ///< V at the start of the step, m^3
     std::vector<double> volume_ratio;          ///< J = V/V_0 at its end
+    std::vector<double> elastic_ratio;         ///< J_e at the start, 0 of points without stress; for apply_f_bar()
     std::vector<double> reference_volume;      ///< V_0, m^3
     std::size_t pitch = 0;                     ///< doubles from one component of dF to the next
 
@@ -30,7 +31,8 @@ namespace scree
         return;
       pitch = n_points + batch_size;
       deformation_increment.resize(dim * dim * pitch);
-      for (auto *list : { &out_of_plane_stretch, &volume_change, &volume, &volume_ratio, &reference_volume })
+      for (auto *list :
+           { &out_of_plane_stretch, &volume_change, &volume, &volume_ratio, &elastic_ratio, &reference_volume })
         list->resize(pitch);
     }
 
@@ -49,14 +51,15 @@ namespace scree
     }
   };
 
-  /// Cell averages against volumetric locking, on the motion and the stored elastic state of one cell's points.
+  /// Cell averages against volumetric locking, on the motion of one cell's points.
   ///
   /// Standard (@source{coombs2018}): dF becomes (mean dJ / dJ)^(1/3) dF with the cell's volume-weighted mean of dJ.
-  /// Modified (after @source{xie2024}, who take the mean of ln J_e): the same, and before it J_e of every
-  /// point becomes that of the cell, sum V / sum (V/J_e); the deviator stays. So the volume that the points would have
-  /// without stress stays: the mean of ln J_e loses some where gaps, J_e > 1, mix with soil in contact. The points'
-  /// volume follows the mean dJ, too: with the points' own dJ the volumes of a cell drift apart unfelt, until dense
-  /// points dilate against loose ones (doc/developer/development_log.md, "Stress averaging").
+  /// Modified (after @source{xie2024}, who take the mean of ln J_e): dF is scaled such that all points under stress
+  /// have the trial elastic volume ratio of the cell, J_e = sum V dJ / sum (V/J_e), and the volumes of these points
+  /// change by as much as their J_e. So V/J_e, the volume without stress, stays that of each point, and the sum of the
+  /// volumes is that of their own dJ. Points without stress (separated grains) keep their own dJ and take no part in
+  /// the sums: with them, gaps would become pores of soil in contact (doc/developer/development_log.md, "Stress
+  /// averaging").
   ///
   /// @param first of the cell's points in the block
   /// @param volume_factor what the mean of dJ, and the change of the points' volume, are multiplied by
