@@ -107,6 +107,7 @@ namespace scree
   {
     // The one place that knows whose points carry the water.
     const bool affine      = parameters.transfer.carries_affine_field();
+    const double inertia   = parameters.transfer.affine_inertia(grid.cell_size());
     const bool water_rides = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
     for (const BodyParameters &body : parameters.bodies)
       {
@@ -123,9 +124,10 @@ namespace scree
                             layout,
                             grid.triangulation(),
                             grid.mapping());
-        bodies.back().is_rigid = body.is_rigid();
-        bodies.back().group    = groups.of_body[bodies.size() - 1];
-        bodies.back().spacing  = grid.cell_size() / body.seeding.points_per_cell;
+        bodies.back().is_rigid       = body.is_rigid();
+        bodies.back().group          = groups.of_body[bodies.size() - 1];
+        bodies.back().spacing        = grid.cell_size() / body.seeding.points_per_cell;
+        bodies.back().affine_inertia = inertia;
         if (parameters.has_water)
           bodies.back().drag.emplace(body.seepage.in_place_of(parameters.water), body.initial_porosity());
         if (water_rides)
@@ -133,6 +135,8 @@ namespace scree
       }
     if (parameters.has_water && !water_rides)
       water.emplace_back(parameters.water.density, affine, grid.triangulation(), grid.mapping());
+    for (auto &part : water)
+      part.affine_inertia = inertia;
   }
 
 

@@ -74,7 +74,7 @@ namespace scree
       }
     for (const auto &one : water)
       for_each_point(one.points(), [&](const auto &point) {
-        add_motion(point.properties[one.layout.mass], point.properties + one.layout.velocity, point.location, gravity);
+        add_motion(one.layout, one.affine_inertia, point.properties, point.location, gravity);
       });
 
     std::vector<double> sums{ soil_points, soil_mass, kinetic, potential, elastic, pressure };
@@ -102,7 +102,7 @@ namespace scree
     const double P    = mean_effective_stress(properties + body.layout.stress);
     soil_points += 1;
     soil_mass += mass;
-    add_motion(mass, properties + body.layout.velocity, x, gravity);
+    add_motion(body.layout, body.affine_inertia, properties, x, gravity);
     pressure += P;
     largest_pressure = std::max(largest_pressure, P);
     height           = std::max(height, x[dim - 1]);
@@ -111,14 +111,25 @@ namespace scree
 
 
   template <int dim>
-  void PointSums<dim>::add_motion(const double mass,
-                                  const double *velocity,
+  template <typename Layout>
+  void PointSums<dim>::add_motion(const Layout &layout,
+                                  const double affine_inertia,
+                                  const double *properties,
                                   const Point<dim> &x,
                                   const Tensor<1, dim> &gravity)
   {
-    const Tensor<1, dim> v(make_array_view(velocity, velocity + dim));
-    momentum += mass * v;
-    kinetic += 0.5 * mass * v.norm_square();
+    const double mass         = properties[layout.mass];
+    const double *velocity    = properties + layout.velocity;
+    double square_of_velocity = 0.;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        momentum[a] += mass * velocity[a];
+        square_of_velocity += velocity[a] * velocity[a];
+      }
+    if (affine_inertia > 0.)
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        square_of_velocity += affine_inertia * properties[layout.affine + c] * properties[layout.affine + c];
+    kinetic += 0.5 * mass * square_of_velocity;
     potential -= mass * (gravity * (x - Point<dim>()));
   }
 

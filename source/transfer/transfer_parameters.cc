@@ -101,6 +101,14 @@ namespace scree
   }
 
 
+  double TransferParameters::affine_inertia(const double cell_size) const
+  {
+    const double inertia = cell_size * cell_size / 4.;
+    const auto kind      = transfer_method();
+    return kind == TransferMethod::aflip ? inertia : kind == TransferMethod::apic ? 1. / inertia : 0.;
+  }
+
+
   void StabilisationParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Stabilisation");

@@ -20,7 +20,8 @@ namespace scree
     std::string name;                        ///< name of its subsection
     double density;                          ///< bulk density of the dry soil at J = 1, kg/m^3
     double grain_density;                    ///< kg/m^3
-    double spacing = 0;                      ///< of its points at the start, m
+    double spacing        = 0;               ///< of its points at the start, m
+    double affine_inertia = 0;               ///< see TransferParameters::affine_inertia()
     std::unique_ptr<Material<dim>> material; ///< the law; holds no state of points
     PropertyLayout<dim> layout;              ///< offsets of the quantities of a point
     PointSet<dim> points;                    ///< its points on this rank

@@ -72,6 +72,7 @@ namespace scree
 
     const double density;          ///< kg/m^3
     const WaterLayout<dim> layout; ///< offsets of the water's quantities
+    double affine_inertia = 0;     ///< see TransferParameters::affine_inertia()
 
     /// Points that carry the water: its own, or those of carrier().
     PointSet<dim> &points()

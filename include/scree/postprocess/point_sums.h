@@ -16,7 +16,7 @@ namespace scree
     double soil_points = 0;          ///< number of points
     double soil_mass   = 0;          ///< kg
     dealii::Tensor<1, dim> momentum; ///< N s
-    double kinetic          = 0;     ///< J
+    double kinetic          = 0;     ///< of velocities and affine fields, J
     double potential        = 0;     ///< of gravity, J
     double elastic          = 0;     ///< of the soil, J
     double pressure         = 0;     ///< P of the soil, Pa, summed over points
@@ -40,8 +40,12 @@ namespace scree
              const dealii::Tensor<1, dim> &gravity);
 
     /// Mass and velocity of a point of any phase: its momentum and energies.
-    void add_motion(const double mass,
-                    const double *velocity,
+    /// @param layout of the phase
+    /// @param affine_inertia see TransferParameters
+    template <typename Layout>
+    void add_motion(const Layout &layout,
+                    const double affine_inertia,
+                    const double *properties,
                     const dealii::Point<dim> &x,
                     const dealii::Tensor<1, dim> &gravity);
   };

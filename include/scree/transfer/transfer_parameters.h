@@ -81,6 +81,12 @@ namespace scree
     /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
 
+    /// Twice the energy of a point's affine velocity field over its mass and the square of the field as it is stored:
+    /// h^2/4 with AFLIP, whose field is a gradient, 4/h^2 with APIC; 0 with others, as TPIC sets it anew in each step.
+    /// h^2/4 is the inertia of quadratic splines about a point, @source{jiang2015}.
+    /// @param cell_size h, m
+    double affine_inertia(const double cell_size) const;
+
     /// Courant number at which elastic soil is stable, with spline and linear bases, wherever its points are
     /// (doc/theory/single_phase.md).
     double courant_number() const
