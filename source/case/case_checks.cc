@@ -211,7 +211,7 @@ namespace scree
         !parameters.output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
     parameters.grid.check(parameters.dimension);
     parameters.time_step.check();
-    parameters.transfer.check(parameters.has_water);
+    parameters.transfer.check();
     parameters.output.check(parameters.end_time);
     parameters.output.maps.check(!parameters.bodies.empty(), parameters.dimension);
     parameters.boundaries.check(parameters.dimension);

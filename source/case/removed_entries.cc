@@ -8,22 +8,32 @@ namespace scree
 {
   std::string removed_entry_remedy(const std::string &subsection, const std::string &entry, const std::string &value)
   {
-    const std::string removed = "It was removed after version 0.9. ";
-    const std::string source =
-        " (measurements: doc/developer/development_log.md#choices-for-the-pressure-that-failed).";
-    const std::string path = subsection_path(subsection, entry);
-    if (path == "Water/Pressure/Previous pressure" && (value == "grid" || value == "dropped"))
-      return removed + "Remove the line, or write affine, which is the default, or average" + source;
-    static const std::map<std::string, std::string> remedies{
-      { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\". Remove the line" + source },
+    const auto measured = [](const std::string &section) {
+      return " (measurements: doc/developer/development_log.md#" + section + ").";
+    };
+    const std::string pressure = measured("choices-for-the-pressure-that-failed");
+    const std::string transfer = measured("removed-transfers"), affine = "Remove the line, or write affine, which is "
+                                                                         "the default, or average";
+    // Entries, or values of entries that are still there.
+    const std::map<std::string, std::string> remedies{
+      { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\". Remove the line" + pressure },
       { "Water/Pressure/Free surface",
-        "The surface is always found inside the cells, as with \"distance\". Remove the line" + source },
+        "The surface is always found inside the cells, as with \"distance\". Remove the line" + pressure },
       { "Water/Pressure/Splitting",
-        "Pressure and drag are always solved together, as with \"drag in correction\". Remove the line" + source },
+        "Pressure and drag are always solved together, as with \"drag in correction\". Remove the line" + pressure },
+      { "Water/Pressure/Previous pressure = grid", affine + pressure },
+      { "Water/Pressure/Previous pressure = dropped", affine + pressure },
       { "Settling/Damping rate", "Settling stops all where the kinetic energy is largest. Remove the line." },
       { "Settling/Kinetic energy", "Settling ends by \"Unbalanced force\". Remove the line, or write that entry." },
+      { "Transfer/Method = PIC", "Write FLIP, which with \"PIC rate = 1e9\" is the same" + transfer },
+      { "Transfer/Stress update",
+        "The strain is always that of \"USL\". Remove the line, and a \"Courant number\" above 0.6" + transfer },
+      { "Mesh/Basis = quadratic", "Write spline, which is the default" + transfer },
     };
-    const auto found = remedies.find(path);
-    return found == remedies.end() ? "" : removed + found->second;
+    const std::string path = subsection_path(subsection, entry);
+    for (const std::string &name : { path, path + " = " + value })
+      if (const auto found = remedies.find(name); found != remedies.end())
+        return "It was removed after version 0.9. " + found->second;
+    return "";
   }
 } // namespace scree

@@ -117,8 +117,8 @@ namespace scree
                       Patterns::Double(1e-12));
     prm.add_parameter("Basis",
                       basis,
-                      "Shape functions: spline (C1 quadratic B-splines), quadratic (C0) or linear.",
-                      Patterns::Selection("spline|quadratic|linear"));
+                      "Shape functions: spline (C1 quadratic B-splines) or linear.",
+                      Patterns::Selection("spline|linear"));
     prm.add_parameter("Fine cells",
                       fine,
                       "Region with cells of this size. around points: near points, with a margin that moves with them; "
@@ -171,9 +171,7 @@ namespace scree
 
   Basis GridParameters::basis_kind() const
   {
-    static const std::map<std::string, Basis> table{ { "spline", Basis::spline },
-                                                     { "quadratic", Basis::quadratic },
-                                                     { "linear", Basis::linear } };
+    static const std::map<std::string, Basis> table{ { "spline", Basis::spline }, { "linear", Basis::linear } };
     return table.at(basis);
   }
 

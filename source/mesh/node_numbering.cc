@@ -13,11 +13,11 @@ namespace scree
 
   namespace
   {
-    /// The walls of the box that a cell touches: bit f for face f.
+    /// The walls of the box that a cell touches.
     template <int dim>
-    std::uint8_t walls_of(const CellPlace<dim> &place, const CellPlace<dim> &n)
+    OpenKnots walls_of(const CellPlace<dim> &place, const CellPlace<dim> &n)
     {
-      std::uint8_t walls = 0;
+      OpenKnots walls = 0;
       for (unsigned int a = 0; a < dim; ++a)
         walls |= (place[a] == 0) << (2 * a) | (place[a] == n[a] - 1) << (2 * a + 1);
       return walls;
@@ -35,13 +35,9 @@ namespace scree
   template <int dim>
   void NodeNumbering<dim>::distribute(const FineCells<dim> &cells)
   {
-    constexpr OpenKnots all = (1 << 2 * dim) - 1;
-    cell_walls.assign(cells.mesh().n_active_cells(), 0);
+    cell_open_knots.assign(cells.mesh().n_active_cells(), 0);
     for (const Cell &cell : cells.cells())
-      cell_walls[cell.index] = walls_of<dim>(cell.place, cells.box().n);
-    cell_open_knots = cell_walls;
-    if (basis != Basis::spline)
-      cell_open_knots.assign(cell_walls.size(), all);
+      cell_open_knots[cell.index] = walls_of<dim>(cell.place, cells.box().n);
 
     unsigned int n_owned    = 0;
     Homes homes             = number_own(cells, n_owned);
@@ -54,14 +50,13 @@ namespace scree
   std::pair<CellPlace<dim>, unsigned int>
   NodeNumbering<dim>::home(const CellPlace<dim> &cell, const unsigned int i, const CellPlace<dim> &n) const
   {
-    const int stride = basis == Basis::quadratic ? 2 : 1;
     CellPlace<dim> place;
     unsigned int node = 0;
     for (unsigned int a = 0, rest = i, power = 1; a < dim; ++a, rest /= n_nodes_1d(), power *= n_nodes_1d())
       {
-        const int along = stride * cell[a] + int(rest % n_nodes_1d());
-        place[a]        = std::min(std::max(along - 1, 0) / stride, n[a] - 1);
-        node += power * (along - stride * place[a]);
+        const int along = cell[a] + int(rest % n_nodes_1d());
+        place[a]        = std::clamp(along - 1, 0, n[a] - 1);
+        node += power * (along - place[a]);
       }
     return { place, node };
   }
@@ -170,10 +165,9 @@ namespace scree
     for (const Cell &cell : cells.cells())
       if (cells.is_owned(cell))
         {
-          const std::size_t first  = std::size_t(cell.index) * n_nodes;
-          const OpenKnots open     = cell_open_knots[cell.index];
-          const std::uint8_t walls = cell_walls[cell.index];
-          const Point<dim> corner  = cells.box().corner(cell.place);
+          const std::size_t first = std::size_t(cell.index) * n_nodes;
+          const OpenKnots open    = cell_open_knots[cell.index];
+          const Point<dim> corner = cells.box().corner(cell.place);
           for (unsigned int i = 0; i < n_nodes; ++i)
             {
               const unsigned int node = distribution->global_to_local(global_nodes[first + i]);
@@ -186,7 +180,7 @@ namespace scree
                       corner[a] + cells.box().width * (n == 3 ? CellBasis<dim, 3>::node_positions(open, a)[position]
                                                               : CellBasis<dim, 2>::node_positions(open, a)[position]);
                   if (position == 0 || position == n - 1)
-                    face_flags[node] |= walls & (1 << face);
+                    face_flags[node] |= open & (1 << face);
                 }
             }
         }

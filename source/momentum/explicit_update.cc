@@ -67,28 +67,6 @@ namespace scree
     return balance;
   }
 
-  template <int dim>
-  void ExplicitUpdate<dim>::project(const NodalField<dim> &field, NodalField<dim> &projected) const
-  {
-    constexpr double share_of_end = 0.3;
-    for (const unsigned int node : projected.active_nodes())
-      {
-        double *values    = projected[node];
-        const double *end = field[node];
-        const double mass = values[NodalField<dim>::mass];
-        if (mass <= 0.)
-          continue;
-        Tensor<1, dim> velocity;
-        for (unsigned int c = 0; c < dim; ++c)
-          velocity[c] = (1. - share_of_end) * values[NodalField<dim>::momentum + c] / mass +
-                        share_of_end * end[NodalField<dim>::velocity + c];
-        if (const NodeConstraints<dim> *walls = constraints.at(node))
-          walls->apply(velocity, walls->soil_velocity + wall_gaps.closing_velocity(node));
-        for (unsigned int c = 0; c < dim; ++c)
-          values[NodalField<dim>::velocity + c] = velocity[c];
-      }
-  }
-
   template class ExplicitUpdate<2>;
   template class ExplicitUpdate<3>;
 } // namespace scree

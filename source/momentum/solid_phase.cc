@@ -27,8 +27,6 @@ namespace scree
       , bodies(bodies)
       , group(group)
   {
-    if (transfer.projects_velocity())
-      projected = std::make_unique<NodalField<dim>>(grid);
     for (auto &load : loads)
       this->loads.emplace_back(grid, load);
     for (const auto &body : bodies)
@@ -41,8 +39,6 @@ namespace scree
   void SolidPhase<dim>::reinit()
   {
     field.reinit();
-    if (projected)
-      projected->reinit();
     for (auto &one : loads)
       one.reinit();
     if (nonlocal)
@@ -86,22 +82,12 @@ namespace scree
 
 
   template <int dim>
-  void SolidPhase<dim>::update_velocities(const double time_step, StepReport<dim> &report)
-  {
-    projected->clear();
-    for (auto &body : bodies)
-      if (moves(body))
-        report.speeds.include_point(transfer.update_velocities(body, field, time_step, *projected));
-  }
-
-
-  template <int dim>
   void SolidPhase<dim>::to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture)
   {
     for (auto &body : bodies)
       if (moves(body))
         {
-          const MotionReport motion = transfer.to_points(body, field, projected.get(), time_step, mixture);
+          const MotionReport motion = transfer.to_points(body, field, time_step, mixture);
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);

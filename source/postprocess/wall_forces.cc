@@ -54,7 +54,7 @@ namespace scree
       for (const auto &cell : water.points().cells())
         wet_cells.insert(cell.cell);
     for (const unsigned int cell : wet_cells)
-      if (const std::uint8_t walls = grid.numbering().walls(cell); walls != 0 && grid.numbering().has_nodes(cell))
+      if (const std::uint8_t walls = grid.open_knots(cell); walls != 0 && grid.numbering().has_nodes(cell))
         {
           const auto corners = view.pressure_of_cell(cell);
           for (const unsigned int face : GeometryInfo<dim>::face_indices())

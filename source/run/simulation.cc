@@ -232,7 +232,6 @@ namespace scree
       {
         AssertThrow(false, ExcMessage(fault.text(number_text(clock.time()))));
       }
-    partition.add(Work::to_points, -step.messages);
     place_points(time_step, step.speeds);
 
     totals.balance += step.balance;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/particles/cell_costs.h>
 #include <scree/schemes/explicit_scheme.h>
 
 #include <algorithm>
@@ -175,24 +174,7 @@ namespace scree
   {
     const TimedPart part(timer, TimerSection::stress);
     for (Group &group : groups)
-      {
-        if (group.soil.projected)
-          project_velocity(group, time_step, report);
-        group.soil.to_points(time_step, report);
-      }
-  }
-
-
-  template <int dim>
-  void ExplicitScheme<dim>::project_velocity(Group &group, const double time_step, StepReport<dim> &report) const
-  {
-    NodalField<dim> &projected = *group.soil.projected;
-    group.soil.update_velocities(time_step, report); // its sums are now in the projected field
-    const double start = thread_time();
-    projected.add_contributions();
-    group.momentum.project(group.soil.field, projected);
-    projected.update_ghosts();
-    report.messages += thread_time() - start;
+      group.soil.to_points(time_step, report);
   }
 
 

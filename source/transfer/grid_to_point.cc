@@ -107,133 +107,32 @@ namespace scree
       simd::store_records<dim>(location, points.locations);
       if constexpr (carries_affine(method))
         simd::store_records<dim * dim>(affine, points.slots_at(body.layout.affine));
-      set_motion(body, at_points.gradient, own[Layout::mass], own[Layout::volume], time_step, first + indices[0]);
-    });
-  }
 
-
-  template <int dim>
-  template <int n>
-  void Transfer<dim>::strain_cell(const SoilBody<dim> &body,
-                                  const CellPoints<dim> &cell,
-                                  const NodalField<dim> &field,
-                                  const NodalField<dim> &projected,
-                                  const double time_step,
-                                  const unsigned int first)
-  {
-    using Layout                     = PropertyLayout<dim>;
-    const OpenKnots open             = grid.open_knots(cell.cell);
-    const unsigned int *node_numbers = grid.nodes(cell.cell);
-    const CellVelocity<dim, n> nodes(node_numbers, projected, field, grid.cell_size());
-
-    for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int) {
-      const BatchPointers<dim> points(cell, indices);
-      for (const unsigned int p : indices)
-        cell.prefetch_all_after(p);
-      const BatchShape<dim, n> shape(points.places, open);
-      const NodesAtPoints<dim> at_points = nodes.template at<TransferMethod::flip, true>(shape);
-
-      static_assert(Layout::volume == Layout::mass + 1, "These lie in a row.");
-      Batch mass_and_volume[2], location[dim];
-      simd::load_records<2>(as_constant(points.slots_at(Layout::mass)), mass_and_volume);
-      simd::load_records<dim>(as_constant(points.locations), location);
-      for (unsigned int c = 0; c < dim; ++c)
-        location[c] += time_step * at_points.change[c];
-      simd::store_records<dim>(location, points.locations);
-      set_motion(body, at_points.gradient, mass_and_volume[0], mass_and_volume[1], time_step, first + indices[0]);
-    });
-  }
-
-
-  template <int dim>
-  DEAL_II_ALWAYS_INLINE inline void Transfer<dim>::set_motion(const SoilBody<dim> &body,
-                                                              const Batch *gradient,
-                                                              const Batch &mass,
-                                                              const Batch &volume,
-                                                              const double time_step,
-                                                              const unsigned int p)
-  {
-    Batch increment[dim * dim];
+      const unsigned int p = first + indices[0];
+      Batch increment[dim * dim];
 #pragma GCC unroll 9 // else each one goes through memory
-    for (unsigned int c = 0; c < dim * dim; ++c)
-      {
-        increment[c] = time_step * gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
-        simd::store(increment[c], &motion.deformation_increment[c * motion.pitch + p]);
-      }
-    simd::store(simd::broadcast<Batch>(1.), &motion.out_of_plane_stretch[p]);
-    simd::store(determinant_of_rows<dim>(increment), &motion.volume_change[p]);
-    simd::store(volume, &motion.volume[p]);
-    simd::store(mass / body.density, &motion.reference_volume[p]);
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        {
+          increment[c] = time_step * at_points.gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
+          simd::store(increment[c], &motion.deformation_increment[c * motion.pitch + p]);
+        }
+      simd::store(simd::broadcast<Batch>(1.), &motion.out_of_plane_stretch[p]);
+      simd::store(determinant_of_rows<dim>(increment), &motion.volume_change[p]);
+      simd::store(own[Layout::volume], &motion.volume[p]);
+      simd::store(own[Layout::mass] / body.density, &motion.reference_volume[p]);
+    });
   }
 
 
   template <int dim>
   template <int n, TransferMethod method>
-  double Transfer<dim>::update_points(SoilBody<dim> &body,
-                                      const NodalField<dim> &field,
-                                      const double time_step,
-                                      NodalField<dim> &projected) const
-  {
-    using Layout      = PropertyLayout<dim>;
-    const auto &cells = body.points.cells();
-    const double keep = kept_velocity(method, pic_rate, time_step);
-    LargestSquare largest;
-    for (const auto &cell : cells)
-      {
-        const OpenKnots open             = grid.open_knots(cell.cell);
-        const unsigned int *node_numbers = grid.nodes(cell.cell);
-        const CellVelocity<dim, n> nodes(node_numbers, field, grid.cell_size());
-        for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
-          const BatchPointers<dim> points(cell, indices);
-          for (const unsigned int p : indices)
-            cell.prefetch_after(p);
-          const BatchShape<dim, n> shape(points.places, open);
-          Batch velocity[dim];
-          simd::load_records<dim>(as_constant(points.properties), velocity);
-          largest.include(
-              nodes.template at<method, false>(shape).template update<method>(velocity, nullptr, keep, time_step),
-              n_used);
-          simd::store_records<dim>(velocity, points.slots_at(Layout::velocity));
-        });
-        CellSums<dim, n> sums(grid.cell_size());
-        for_each_point(cell, [&](const auto &point) {
-          sums.template add_momentum<TransferMethod::flip>(PointShape<dim, n>(point.reference_location, open),
-                                                           point.properties[Layout::mass],
-                                                           point.properties + Layout::velocity,
-                                                           nullptr);
-        });
-        projected.activate_cell(cell.cell);
-        sums.scatter(node_numbers, projected);
-      }
-    return largest.speed();
-  }
-
-
-  template <int dim>
-  double Transfer<dim>::update_velocities(SoilBody<dim> &body,
+  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
                                           const NodalField<dim> &field,
                                           const double time_step,
-                                          NodalField<dim> &projected)
-  {
-    Assert(!carries_affine(method), ExcInternalError());
-    const auto dispatch = [&](auto n) {
-      return method == TransferMethod::pic ? update_points<n, TransferMethod::pic>(body, field, time_step, projected)
-                                           : update_points<n, TransferMethod::flip>(body, field, time_step, projected);
-    };
-    if (grid.n_nodes_1d() == 2)
-      return dispatch(std::integral_constant<int, 2>());
-    return dispatch(std::integral_constant<int, 3>());
-  }
-
-
-  template <int dim>
-  template <typename MoveCell>
-  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
-                                          const double time_step,
-                                          const Mixture<dim> *mixture,
-                                          const MoveCell &move_cell)
+                                          const Mixture<dim> *mixture)
   {
     const auto &cells = body.points.cells();
+    const double keep = kept_velocity(method, pic_rate, time_step);
     MotionReport report;
     LargestSquare largest;
     CellCosts &costs = body.points.costs();
@@ -247,7 +146,7 @@ namespace scree
         unsigned int first = 0;
         for (auto cell = begin; cell != end; first += (cell++)->n_points)
           {
-            move_cell(*cell, first, largest);
+            move_cell<n, method>(body, *cell, field, time_step, keep, first, largest);
             const double volume_factor = mixture ? mixture->volume_factor(cell->cell) : 1.;
             apply_f_bar(f_bar, first, body.material_points(*cell), volume_factor, motion);
           }
@@ -291,34 +190,20 @@ namespace scree
   template <int dim>
   MotionReport Transfer<dim>::to_points(SoilBody<dim> &body,
                                         const NodalField<dim> &field,
-                                        const NodalField<dim> *projected,
                                         const double time_step,
                                         const Mixture<dim> *mixture)
   {
-    const auto move_by = [&](auto n, auto method) {
-      const double keep = kept_velocity(method, pic_rate, time_step);
-      const auto move   = [&](const CellPoints<dim> &cell, const unsigned int first, LargestSquare &largest) {
-        move_cell<n, method>(body, cell, field, time_step, keep, first, largest);
-      };
-      return move_points(body, time_step, mixture, move);
-    };
     const auto dispatch = [&](auto n) {
-      if (projected)
-        return move_points(body, time_step, mixture, [&](const auto &cell, const unsigned int first, const auto &) {
-          strain_cell<n>(body, cell, field, *projected, time_step, first); // the speed: see update_velocities()
-        });
       switch (method)
         {
         case TransferMethod::flip:
-          return move_by(n, std::integral_constant<TransferMethod, TransferMethod::flip>());
-        case TransferMethod::pic:
-          return move_by(n, std::integral_constant<TransferMethod, TransferMethod::pic>());
+          return move_points<n, TransferMethod::flip>(body, field, time_step, mixture);
         case TransferMethod::apic:
-          return move_by(n, std::integral_constant<TransferMethod, TransferMethod::apic>());
+          return move_points<n, TransferMethod::apic>(body, field, time_step, mixture);
         case TransferMethod::aflip:
-          return move_by(n, std::integral_constant<TransferMethod, TransferMethod::aflip>());
+          return move_points<n, TransferMethod::aflip>(body, field, time_step, mixture);
         default:
-          return move_by(n, std::integral_constant<TransferMethod, TransferMethod::tpic>());
+          return move_points<n, TransferMethod::tpic>(body, field, time_step, mixture);
         }
     };
     if (grid.n_nodes_1d() == 2)

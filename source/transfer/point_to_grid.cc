@@ -46,7 +46,7 @@ namespace scree
         case TransferMethod::tpic:
         case TransferMethod::aflip: // They differ on the way back only.
           return add_points<n, TransferMethod::tpic>(body, field);
-        default: // FLIP and PIC differ on the way back only.
+        default:
           return add_points<n, TransferMethod::flip>(body, field);
         }
     };

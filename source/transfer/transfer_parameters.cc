@@ -14,40 +14,20 @@ namespace scree
     prm.enter_subsection("Transfer");
     prm.add_parameter("Method",
                       method,
-                      "Transfer of velocity between points and nodes: FLIP, PIC, APIC, TPIC or AFLIP.",
-                      Patterns::Selection("FLIP|PIC|APIC|TPIC|AFLIP"));
+                      "Transfer of velocity between points and nodes: FLIP, APIC, TPIC or AFLIP.",
+                      Patterns::Selection("FLIP|APIC|TPIC|AFLIP"));
     prm.add_parameter(
         "PIC rate",
         rate,
         "1/s; rate at which the point velocity relaxes to the grid velocity (FLIP and AFLIP). The part exp(-rate dt) "
         "remains per time step. auto: 1 1/s for FLIP; 5 sqrt(g/h) for AFLIP, without gravity c/h.",
         Patterns::Anything());
-    prm.add_parameter("Stress update",
-                      stress_update,
-                      "Velocity of the strain. USL: that of the nodes at the end of the time step. MUSL: 0.7 of the "
-                      "points' velocity, projected to the nodes, and 0.3 of that of the nodes; for steps 1.8 times as "
-                      "long in dry run-outs with FLIP or PIC.",
-                      Patterns::Selection("USL|MUSL"));
     prm.leave_subsection();
   }
 
 
-  void TransferParameters::check(const bool has_water) const
+  void TransferParameters::check() const
   {
-    if (projects_velocity())
-      {
-        require_entry(!has_water,
-                      "Transfer",
-                      "Stress update",
-                      stress_update,
-                      "it is for dry soil, and the case has water. Write USL.");
-        require_entry(!carries_affine_field(),
-                      "Transfer",
-                      "Stress update",
-                      stress_update,
-                      "\"Method = " + method +
-                          "\" would count the strain twice. Write USL, or \"Method = FLIP\" or \"Method = PIC\".");
-      }
     if (rate == "auto")
       return;
     const double number = number_of(rate);
@@ -87,7 +67,6 @@ namespace scree
   TransferMethod TransferParameters::transfer_method() const
   {
     static const std::map<std::string, TransferMethod> table{ { "FLIP", TransferMethod::flip },
-                                                              { "PIC", TransferMethod::pic },
                                                               { "APIC", TransferMethod::apic },
                                                               { "TPIC", TransferMethod::tpic },
                                                               { "AFLIP", TransferMethod::aflip } };

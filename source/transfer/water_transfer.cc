@@ -264,7 +264,7 @@ namespace scree
         case TransferMethod::tpic:
         case TransferMethod::aflip: // They differ on the way back only.
           return add_water<n, TransferMethod::tpic>(water, mixture, field, pores);
-        default: // FLIP and PIC differ on the way back only.
+        default:
           return add_water<n, TransferMethod::flip>(water, mixture, field, pores);
         }
     };
@@ -288,8 +288,6 @@ namespace scree
         {
         case TransferMethod::flip:
           return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, forgotten, time_step);
-        case TransferMethod::pic:
-          return move_water<n, TransferMethod::pic>(water, nodes, mixture, pressure, forgotten, time_step);
         case TransferMethod::apic:
           return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, forgotten, time_step);
         case TransferMethod::aflip:

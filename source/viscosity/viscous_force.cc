@@ -24,7 +24,7 @@ namespace scree
     }
 
     /// sum |grad phi_i|^2/phi_i, per square of the cell's width: a sum over the axes, as the others' functions add up
-    /// to one. Of quadratic splines at most 6 an axis, which is taken for all points away from walls.
+    /// to one. Of splines at most 6 an axis, which is taken for all points away from walls.
     template <int dim, int n>
     double stiffness(const Point<dim> &x, const OpenKnots open)
     {
@@ -108,7 +108,7 @@ namespace scree
           RecordPointers<const double> places;
           for (unsigned int l = 0; l < batch_size; ++l)
             places[l] = &cell.reference_location_of(indices[l])[0];
-          const auto at_points = velocity.template at<TransferMethod::pic, true>(BatchShape<dim, n>(places, open));
+          const auto at_points = velocity.template at<TransferMethod::tpic, true>(BatchShape<dim, n>(places, open));
           for (unsigned int l = 0; l < n_used; ++l)
             {
               const PointShape<dim, n> shape(cell.reference_location_of(indices[l]), open);

@@ -70,7 +70,7 @@ of_run="the run that wrote results/checkpoint/step-"
 base column_short
 refused "$(in_subsection Mesh 'Upper corner = 4, 1.5')" "subsection Mesh, entry \"Upper corner\" = 4, 1.5: $of_run"
 refused "$(in_subsection Mesh 'Cell size = 0.05')" " had 0.1, and --resume cannot change that."
-refused "$(in_subsection Mesh 'Basis = quadratic')" 'entry "Basis" = quadratic'
+refused "$(in_subsection Mesh 'Basis = linear')" 'entry "Basis" = linear'
 refused "set Gravity = 0, -1.62" 'entry "Gravity" = 0, -1.62'
 refused "set Dimension = 3
 set Gravity = 0, 0, -9.81

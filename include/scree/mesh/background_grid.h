@@ -20,7 +20,7 @@ namespace scree
         upper_corner{ 1., 1. };                 ///< of the box, m
     std::string box   = "corners";              ///< corners | from raster
     double cell_size  = 0.1;                    ///< m
-    std::string basis = "spline";               ///< spline | quadratic | linear
+    std::string basis = "spline";               ///< spline | linear
     std::string fine  = "around points";        ///< around points | everywhere
 
     /// Declares the subsection and its entries.

@@ -12,16 +12,16 @@
 
 namespace scree
 {
-  /// How a cell's faces enter the basis: bit 2 a is set where the lower face of axis a is open-knotted (a wall of the
-  /// box), bit 2 a + 1 for the upper face. Inside, the quadratic basis is C1 across the face.
+  /// The walls of the box that a cell touches, where the splines have open knots: bit 2 a for the lower face of axis a,
+  /// bit 2 a + 1 for the upper one. Inside, splines are C1 across the face.
   using OpenKnots = std::uint8_t;
 
   /// The one-dimensional shape functions along each axis at a point of a cell, and the nodes they belong to.
   ///
   /// With n = 3 these are quadratic B-splines: B are the Bernstein polynomials of the cell, l and r are 1 at an open
-  /// knot and 1/2 inside, N_0 = l B_0, N_1 = (1 - l) B_0 + B_1 + (1 - r) B_2, N_2 = r B_2. With all knots open this is
-  /// the C0 quadratic Bernstein basis. With n = 2 they are the linear functions. All are non-negative and sum to one.
-  /// The lexicographic tensor products (first axis fastest) are the n^dim shape functions of the cell.
+  /// knot and 1/2 inside, N_0 = l B_0, N_1 = (1 - l) B_0 + B_1 + (1 - r) B_2, N_2 = r B_2. With n = 2 they
+  /// are the linear functions. All are non-negative and sum to one. The lexicographic tensor products (first axis
+  /// fastest) are the n^dim shape functions of the cell.
   ///
   /// @tparam Number double, or Batch for as many points
   template <int dim, int n, typename Number = double>

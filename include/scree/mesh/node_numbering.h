@@ -15,9 +15,8 @@ namespace scree
   /// Shape functions of the background grid.
   enum class Basis
   {
-    spline,    ///< C1 quadratic B-splines with open knots at the walls
-    quadratic, ///< C0 quadratic Bernstein polynomials
-    linear     ///< linear functions
+    spline, ///< C1 quadratic B-splines with open knots at the walls
+    linear  ///< linear functions
   };
 
   /// The nodes of a basis on the mesh.
@@ -27,9 +26,9 @@ namespace scree
   /// neighbours. A *node* is such a free coefficient; each cell stores the 3^dim nodes (2^dim of the linear basis) that
   /// act on it. Nodes are numbered compactly: [0, n_owned()) are this rank's, then come the ghosts.
   ///
-  /// Along an axis cell i of the box has the nodes s i, s i + 1 (, s i + 2), with s = 2 for the quadratic basis and 1
-  /// else. A node lives in the cell (j - 1) / s, whose rank owns it. Where that cell is not fine, the node is one of
-  /// this rank alone: no points may act on it, see CellUse::edge.
+  /// Along an axis cell i of the box has the nodes i, i + 1 (, i + 2). A node j lives in the cell j - 1, whose rank
+  /// owns it. Where that cell is not fine, the node is one of this rank alone: no points may act on it, see
+  /// CellUse::edge.
   template <int dim>
   class NodeNumbering
   {
@@ -40,13 +39,13 @@ namespace scree
     /// Numbers the nodes of the fine cells. Collective.
     void distribute(const FineCells<dim> &cells);
 
-    /// Nodes along one axis of a cell: 3 (quadratic) or 2 (linear).
+    /// Nodes along one axis of a cell: 3 (spline) or 2 (linear).
     unsigned int n_nodes_1d() const
     {
       return basis == Basis::linear ? 2 : 3;
     }
 
-    /// Nodes that act on a cell: 3^dim (quadratic) or 2^dim (linear).
+    /// Nodes that act on a cell: 3^dim (spline) or 2^dim (linear).
     unsigned int n_nodes_per_cell() const
     {
       return dealii::Utilities::pow(n_nodes_1d(), dim);
@@ -58,16 +57,10 @@ namespace scree
       return &cell_nodes[std::size_t(cell) * n_nodes_per_cell()];
     }
 
-    /// Open knots of the basis on a fine cell of this rank.
+    /// The walls of the box that a fine cell touches, where knots of the basis are open.
     OpenKnots open_knots(const unsigned int cell) const
     {
       return cell_open_knots[cell];
-    }
-
-    /// The walls of the box that a fine cell touches: bit f for face f.
-    std::uint8_t walls(const unsigned int cell) const
-    {
-      return cell_walls[cell];
     }
 
     /// Whether nodes were numbered on the cell: it is a fine one of this rank.
@@ -137,7 +130,6 @@ namespace scree
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> distribution;
     std::vector<unsigned int> cell_nodes;   // of owned fine cells, by active cell index
     std::vector<OpenKnots> cell_open_knots; // by active cell index
-    std::vector<std::uint8_t> cell_walls;   // by active cell index
     std::vector<dealii::Point<dim>> positions;
     std::vector<std::uint8_t> face_flags;
   };

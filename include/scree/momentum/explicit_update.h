@@ -22,13 +22,6 @@ namespace scree
     /// v = (momentum + dt force)/mass + dt acceleration at the active nodes, then their constraints.
     Budget<dim> solve(NodalField<dim> &field, const double time_step) const;
 
-    /// The velocity that points strain with at the active nodes of `projected`, which holds their mass and momentum:
-    /// 0.7 momentum/mass and 0.3 of the velocity of the step's end, then constraints.
-    ///
-    /// The second part damps waves as short as a cell: below 0.3 soil that rubs on a wall gains energy at any step.
-    /// @param field after solve()
-    void project(const NodalField<dim> &field, NodalField<dim> &projected) const;
-
   private:
     const Constraints<dim> &constraints;
     const WallGaps<dim> &wall_gaps;

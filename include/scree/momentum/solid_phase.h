@@ -46,11 +46,7 @@ namespace scree
       return time_step * load;
     }
 
-    /// Velocity of the points after the solve of a step; sums their mass and momentum at the nodes of `projected`.
-    void update_velocities(const double time_step, StepReport<dim> &report);
-
     /// Moves bodies and loads after the solve of a step, and updates stress and state.
-    /// `projected`, if any, must hold the velocity of the strain (ExplicitUpdate::project).
     /// @param mixture of which the soil is a part, after its solve; null: dry
     void to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture = nullptr);
 
@@ -71,11 +67,6 @@ namespace scree
 
     /// The nodes of the soil: sums before the solve, velocity and its change after it.
     NodalField<dim> field;
-
-    /// The velocity that points strain with if `Stress update` is MUSL (modified update stress last, after
-    /// @source{sulsky1995}), see ExplicitUpdate::project(); else null. What forces do then reaches the strain as smooth
-    /// as it reaches the points, and a step may be 1.8 times as long.
-    std::unique_ptr<NodalField<dim>> projected;
 
   private:
     /// Whether the points of a body of the group move.

@@ -50,9 +50,6 @@ namespace scree
     /// Sums of all ranks, with the loads, and walls that act. Collective.
     void sum_at_nodes(const double time_step, Budget<dim> &budget);
 
-    /// The velocity of a group's points after the solve, and what it is at the nodes.
-    void project_velocity(Group &group, const double time_step, StepReport<dim> &report) const;
-
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, Budget<dim> &budget);
 

@@ -37,7 +37,6 @@ namespace scree
     UpdateReport material; ///< what the stress updates reported
     Speeds speeds;         ///< of the points at the end of the step
     double n_updates = 0;  ///< points of soil and water that moved
-    double messages  = 0;  ///< the processor's time for messages between ranks in Scheme::to_points(), s
   };
 } // namespace scree
 

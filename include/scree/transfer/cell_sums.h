@@ -33,10 +33,10 @@ namespace scree
     {
     }
 
-    /// Adds m phi_i and m phi_i (v + C (x_i - x)), with C = 0 for FLIP and PIC.
+    /// Adds m phi_i and m phi_i (v + C (x_i - x)), with C = 0 for FLIP.
     ///
     /// @param velocity the point's slots
-    /// @param affine its slots of the affine field, which FLIP and PIC do not read
+    /// @param affine its slots of the affine field, which FLIP does not read
     template <TransferMethod method, typename Shape>
     DEAL_II_ALWAYS_INLINE inline void
     add_momentum(const Shape &shape, const double mass, const double *velocity, const double *affine)

@@ -31,26 +31,16 @@ namespace scree
              const StabilisationParameters &stabilisation);
 
     /// Activates the nodes of the body's cells and adds mass, momentum and internal force of this rank's points:
-    /// lumped mass sum m phi_i, momentum sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP and PIC, force -sum V sigma
-    /// grad phi_i.
+    /// lumped mass sum m phi_i, momentum sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP, force -sum V sigma grad
+    /// phi_i.
     void to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const;
-
-    /// Velocity of the points at the end of a step, from the nodes; adds the points' mass and momentum to `projected`,
-    /// whose nodes get active. For FLIP and PIC. Returns the largest speed, m/s; not a number if any point's is not.
-    double update_velocities(SoilBody<dim> &body,
-                             const NodalField<dim> &field,
-                             const double time_step,
-                             NodalField<dim> &projected);
 
     /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
     /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
     ///
-    /// @param projected the points' own velocity at the nodes, of which their strain is then, after
-    /// update_velocities(); null: the strain is that of the nodes' end-of-step velocity
     /// @param mixture whose cells know factors of the soil's volume; null: none do
     MotionReport to_points(SoilBody<dim> &body,
                            const NodalField<dim> &field,
-                           const NodalField<dim> *projected,
                            const double time_step,
                            const Mixture<dim> *mixture = nullptr);
 
@@ -58,17 +48,10 @@ namespace scree
     template <int n, TransferMethod method>
     void add_points(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
-    /// update_velocities() for cells of n nodes along each axis.
+    /// to_points() for cells of n nodes along each axis.
     template <int n, TransferMethod method>
-    double update_points(SoilBody<dim> &body,
-                         const NodalField<dim> &field,
-                         const double time_step,
-                         NodalField<dim> &projected) const;
-
-    /// @param move_cell moves the points of a cell, fills `motion` from a number on and includes the squares of speeds
-    template <typename MoveCell>
     MotionReport
-    move_points(SoilBody<dim> &body, const double time_step, const Mixture<dim> *mixture, const MoveCell &move_cell);
+    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step, const Mixture<dim> *mixture);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     ///
@@ -81,26 +64,6 @@ namespace scree
                    const double keep,
                    const unsigned int first,
                    LargestSquare &largest);
-
-    /// Places of a cell's points, whose velocity has been updated before; into `motion` from number `first` on what the
-    /// rest needs, with the gradient of the velocity `projected`.
-    template <int n>
-    void strain_cell(const SoilBody<dim> &body,
-                     const CellPoints<dim> &cell,
-                     const NodalField<dim> &field,
-                     const NodalField<dim> &projected,
-                     const double time_step,
-                     const unsigned int first);
-
-    /// Into `motion`, of a batch of points from number `p` on: dF, its determinant, volume and reference volume.
-    ///
-    /// @param gradient of the velocity, 1/s, row-major
-    void set_motion(const SoilBody<dim> &body,
-                    const Batch *gradient,
-                    const Batch &mass,
-                    const Batch &volume,
-                    const double time_step,
-                    const unsigned int p);
 
     /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws
     /// PointFault if a point is deformed too much in a step.

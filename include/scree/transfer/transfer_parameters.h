@@ -11,10 +11,9 @@ namespace scree
   /// How velocity travels between points and nodes.
   enum class TransferMethod
   {
-    flip, ///< points keep their velocity and take the nodes' change; blended with PIC at a rate in 1/s
-    pic,  ///< points take the nodes' velocity
-    apic, ///< as PIC, with an affine field per point that keeps angular momentum (@source{jiang2015})
-    tpic, ///< as PIC, with the velocity gradient per point (Taylor expansion)
+    flip, ///< points keep their velocity and take the nodes' change; it relaxes to the nodes' at a rate in 1/s
+    apic, ///< points take the nodes' velocity, and an affine field that keeps angular momentum (@source{jiang2015})
+    tpic, ///< points take the nodes' velocity and its gradient (Taylor expansion)
     aflip ///< as FLIP, and the nodes get the points' velocity gradient, too, as in TPIC (@source{fei2021})
   };
 
@@ -47,17 +46,15 @@ namespace scree
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method        = "FLIP"; ///< FLIP | PIC | APIC | TPIC | AFLIP
-    std::string rate          = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
-    double pic_rate           = 1;      ///< 1/s, what choose_rate() has made of the entry
-    std::string stress_update = "USL";  ///< USL | MUSL
+    std::string method = "FLIP"; ///< FLIP | APIC | TPIC | AFLIP
+    std::string rate   = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
+    double pic_rate    = 1;      ///< 1/s, what choose_rate() has made of the entry
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError at a rate that is none, or that the method does not read, and at a stress update that does not
-    /// fit.
-    void check(const bool has_water) const;
+    /// Throws EntryError at a rate that is none, or that the method does not read.
+    void check() const;
 
     /// Sets the PIC rate. `auto` is 1 1/s with FLIP; with AFLIP 5 sqrt(g/h), without gravity c/h.
     ///
@@ -72,12 +69,6 @@ namespace scree
     /// Entry `Method` as an enum.
     TransferMethod transfer_method() const;
 
-    /// Whether the strain of points is that of their own velocity at the nodes, see SolidPhase::projected.
-    bool projects_velocity() const
-    {
-      return stress_update == "MUSL";
-    }
-
     /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
 
@@ -91,7 +82,7 @@ namespace scree
     /// (doc/theory/single_phase.md).
     double courant_number() const
     {
-      return projects_velocity() ? 1.1 : 0.6;
+      return 0.6;
     }
   };
 

@@ -117,22 +117,6 @@ namespace scree
         std::memcpy(values + i * pitch, field[nodes[i]] + NodalField<dim>::velocity, pitch * sizeof(double));
     }
 
-    /// Two velocities at the end of the step: that of `projected`, whose gradient is asked for, and in place of the
-    /// change that of `field`.
-    CellVelocity(const unsigned int *nodes,
-                 const NodalField<dim> &projected,
-                 const NodalField<dim> &field,
-                 const double width)
-        : width(width)
-    {
-      constexpr unsigned int velocity = NodalField<dim>::velocity;
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        {
-          std::memcpy(values + i * pitch, projected[nodes[i]] + velocity, dim * sizeof(double));
-          std::memcpy(values + i * pitch + dim, field[nodes[i]] + velocity, dim * sizeof(double));
-        }
-    }
-
     /// This velocity less another one, times a weight of each node.
     CellVelocity weighted_difference(const std::array<double, n_nodes> &weight, const CellVelocity &other) const
     {
@@ -239,7 +223,8 @@ namespace scree
   };
 
 
-  /// The part of their own velocity that points keep over a step: all but what PIC damps at `pic_rate`, 1/s.
+  /// The part of their own velocity that points keep over a step: all but what relaxes to that of the nodes at
+  /// `pic_rate`, 1/s.
   inline double kept_velocity(const TransferMethod method, const double pic_rate, const double time_step)
   {
     return keeps_velocity(method) ? std::exp(-pic_rate * time_step) : 0.;

@@ -11,8 +11,7 @@
 //
 // The others do not keep it; what they lose of this motion is compared with what they lost before, not with rounding.
 // TPIC and AFLIP carry the gradient G: its spin is that of G D (with splines D is a quarter of the squared cell size),
-// which is B only where the nodes' motion is linear. PIC and FLIP carry no spin at all, and PIC loses what it cannot
-// carry at each step.
+// which is B only where the nodes' motion is linear. FLIP carries no spin at all.
 
 #include <scree/materials/laws/linear_elastic.h>
 #include <scree/run/simulation.h>
@@ -125,8 +124,8 @@ std::pair<double, double> fly(const std::string &method, const std::string &basi
 template <int dim>
 void test(std::ostream &out)
 {
-  for (const std::string basis : { "spline", "quadratic", "linear" })
-    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC", "AFLIP" })
+  for (const std::string basis : { "spline", "linear" })
+    for (const std::string method : { "FLIP", "APIC", "TPIC", "AFLIP" })
       {
         if (basis != "spline" && (method != "APIC" || dim == 3))
           continue;

@@ -105,8 +105,8 @@ void run()
 {
   std::ostream silent(nullptr);
   std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-  for (const std::string basis : { "spline", "quadratic", "linear" })
-    for (const std::string method : { "FLIP", "PIC", "APIC", "TPIC", "AFLIP" })
+  for (const std::string basis : { "spline", "linear" })
+    for (const std::string method : { "FLIP", "APIC", "TPIC", "AFLIP" })
       {
         test<2>(basis, method, out);
         test<3>(basis, method, out);

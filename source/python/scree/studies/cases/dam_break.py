@@ -22,7 +22,6 @@ REFERENCE = 1 / 60  # m, cells of the reference
 METHODS = {
     DEFAULTS: {},
     "linear": {"Mesh/Basis": "linear"},
-    "quadratic": {"Mesh/Basis": "quadratic"},
     "2 x 2 points": {"Water/Points per cell": 2},
     "3 x 3 points": {"Water/Points per cell": 3},
     "6 x 6 points": {"Water/Points per cell": 6},
