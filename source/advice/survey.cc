@@ -99,7 +99,7 @@ namespace scree
         scene.is_elastic          = scene.has_soil;
         scene.grain_diameter      = scene.has_soil ? std::numeric_limits<double>::max() : 0;
         scene.has_water           = parameters.has_water;
-        scene.courant_of_transfer = parameters.transfer.courant_number();
+        scene.courant_of_transfer = parameters.transfer.courant_number(parameters.has_water);
         scene.has_changing_forces = parameters.surface_load.changes_with_time() || parameters.body_forces.is_set();
         if (!scene.has_water)
           return;

@@ -69,6 +69,7 @@ namespace scree
           }
         take_box_from_raster();
         take_unit_weights();
+        transfer.choose_method(has_water);
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();
@@ -77,7 +78,7 @@ namespace scree
         water.find_fringe(size_of_gravity());
         if (safety.strength_factor != 1.)
           reduce_strength(safety.strength_factor);
-        time_step.choose(has_water, transfer.courant_number(), size_of_gravity(), grid.cell_size);
+        time_step.choose(has_water, transfer.courant_number(has_water), size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
         if (transfer.rate == "auto")
           transfer.pic_rate /= std::sqrt(time_step.mass_scaling);

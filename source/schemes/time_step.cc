@@ -18,7 +18,7 @@ namespace scree
     prm.add_parameter("Courant number",
                       courant,
                       "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Above auto the "
-                      "stress may oscillate or the run diverge. auto: 0.6.",
+                      "stress may oscillate or the run diverge. auto: 0.8 in dry cases with AFLIP, else 0.6.",
                       Patterns::Anything());
     prm.add_parameter("Advection number",
                       advection_number,

@@ -46,12 +46,15 @@ namespace scree
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method = "FLIP"; ///< FLIP | APIC | TPIC | AFLIP
+    std::string method = "auto"; ///< FLIP | APIC | TPIC | AFLIP; auto until choose_method()
     std::string rate   = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
     double pic_rate    = 1;      ///< 1/s, what choose_rate() has made of the entry
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Sets a method of `auto`: AFLIP, with water TPIC.
+    void choose_method(const bool has_water);
 
     /// Throws EntryError at a rate that is none, or that the method does not read.
     void check() const;
@@ -66,7 +69,7 @@ namespace scree
     /// The method, and its rate if it has one, as the log tells it.
     std::string text() const;
 
-    /// Entry `Method` as an enum.
+    /// Entry `Method` as an enum; AFLIP of `auto`.
     TransferMethod transfer_method() const;
 
     /// Whether points carry an affine velocity field, see carries_affine().
@@ -78,11 +81,11 @@ namespace scree
     /// @param cell_size h, m
     double affine_inertia(const double cell_size) const;
 
-    /// Courant number at which elastic soil is stable, with spline and linear bases, wherever its points are
-    /// (doc/theory/single_phase.md).
-    double courant_number() const
+    /// Courant number at which elastic soil is stable, with spline and linear bases, wherever its points are, and
+    /// fronts do not depend on the time step (doc/theory/single_phase.md, doc/verification/convergence.md).
+    double courant_number(const bool has_water) const
     {
-      return 0.6;
+      return transfer_method() == TransferMethod::aflip && !has_water ? 0.8 : 0.6;
     }
   };
 

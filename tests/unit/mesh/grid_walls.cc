@@ -184,6 +184,7 @@ void set_block(Parameters &parameters)
   parameters.output.graphics                                = "none";
   parameters.output.screen                                  = "nothing";
   parameters.end_time                                       = 0.2;
+  parameters.transfer.method                                = "FLIP";
   parameters.transfer.pic_rate                              = 0;
   parameters.stabilisation.f_bar                            = "none";
   parameters.grid.upper_corner                              = { 2., 0.5 };

@@ -51,7 +51,9 @@ unsigned int n_beside(const std::string &basis, const unsigned int axis, std::st
       water, water_parameters, { { "Soil", region, porosity, soil.density } }, grid.triangulation(), grid.cell_size());
 
   soil.drag.emplace(water_parameters, porosity);
-  const WaterTransfer<dim> transfer(grid, TransferParameters(), water_parameters, 1.);
+  TransferParameters flip;
+  flip.method = "FLIP"; // The points have no room for a gradient.
+  const WaterTransfer<dim> transfer(grid, flip, water_parameters, 1.);
   Mixture<dim> mixture(grid, n_points);
   PoreField<dim> pores(grid);
   NodalField<dim> field(grid);
