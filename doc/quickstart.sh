@@ -7,9 +7,9 @@
 cd "$root" || exit 1
 
 mpirun -np 2 build/scree prm/quickstart.prm || exit 1
-build/scree-render results/quickstart || exit 1
+build/scree-render results/quickstart --field plastic_shear_strain || exit 1
 
 echo
-echo "Pictures:     $root/results/quickstart/points.png"
+echo "Pictures:     $root/results/quickstart/points_plastic_shear_strain.png"
 echo "              $root/results/quickstart/statistics.png"
 echo "For ParaView: $root/results/quickstart/solution/points.pvd"
