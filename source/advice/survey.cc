@@ -119,7 +119,8 @@ namespace scree
       {
         if (scene.has_soil && simulation.bed() != nullptr)
           {
-            scene.height = largest_thickness(simulation.bodies(), grid, simulation.bed());
+            SoilMotion<dim> motion(grid, Tensor<1, dim>(), simulation.bed());
+            scene.height = grid.cell_size() * motion.look(simulation.bodies(), 0.).thickness;
             return;
           }
         Extent<dim> extent;

@@ -270,33 +270,30 @@ namespace scree
   std::vector<CheckResult> RunChecks<dim>::results() const
   {
     std::vector<CheckResult> list;
-    if (!has_looked)
-      return list;
     const auto of  = [&](const Check check) -> const Suspect  &{ return worst[static_cast<unsigned int>(check)]; };
-    const auto add = [&](const Check check, const std::string &value, const std::string &bound) {
+    const auto add = [&](const Check check, const bool applies, const std::string &value, const std::string &bound) {
       const bool is_exceeded = is_wrong(check, of(check).value);
-      list.push_back({ value, bound, is_exceeded, is_exceeded ? text(check, of(check)) : "" });
+      if (has_looked && applies)
+        list.push_back({ value, bound, is_exceeded, is_exceeded ? text(check, of(check)) : "" });
     };
-    if (bed != nullptr)
-      add(Check::depth,
-          "deepest point " + short_text(of(Check::depth).found) + " m below the bed",
-          short_text(bounds[1] * grid.cell_size()) + " m");
-    if (has_soil)
-      add(Check::lost, "points of soil lost " + short_text(of(Check::lost).found), "0");
+    const std::string deepest  = short_text(of(Check::depth).found);
+    const std::string fastest  = short_text(std::max(1., of(Check::speed).value));
+    const std::string smallest = short_text(of(Check::shrinkage).value > 0. ? of(Check::shrinkage).found : 1.);
+    const std::string largest  = short_text(of(Check::dilation).found);
+    const std::string highest  = short_text(of(Check::stress).value);
+    const bool has_dilated = of(Check::dilation).value > 1., has_weight = has_soil && gravity.norm() > 0.;
+    add(Check::depth,
+        bed != nullptr,
+        "deepest point " + deepest + " m below the bed",
+        short_text(bounds[1] * grid.cell_size()) + " m");
+    add(Check::lost, has_soil, "points of soil lost " + short_text(of(Check::lost).found), "0");
     add(Check::speed,
-        "fastest point " + short_text(std::max(1., of(Check::speed).value)) +
-            " times the 99.9 % quantile of the speeds",
+        true,
+        "fastest point " + fastest + " times the 99.9 % quantile of the speeds",
         short_text(bounds[0]));
-    if (has_soil)
-      add(Check::shrinkage,
-          "smallest V/V_0 " + short_text(of(Check::shrinkage).value > 0. ? of(Check::shrinkage).found : 1.),
-          short_text(1. / bounds[2]));
-    if (of(Check::dilation).value > 1.)
-      add(Check::dilation, "largest V/V_0 in contact " + short_text(of(Check::dilation).found), short_text(bounds[3]));
-    if (has_soil && gravity.norm() > 0.)
-      add(Check::stress,
-          "largest vertical stress " + short_text(of(Check::stress).value) + " of rho g H",
-          short_text(bounds[4]));
+    add(Check::shrinkage, has_soil, "smallest V/V_0 " + smallest, short_text(1. / bounds[2]));
+    add(Check::dilation, has_dilated, "largest V/V_0 in contact " + largest, short_text(bounds[3]));
+    add(Check::stress, has_weight, "largest vertical stress " + highest + " of rho g H", short_text(bounds[4]));
     return list;
   }
 

@@ -21,16 +21,6 @@ namespace scree
     constexpr double part_of_path  = 0.99; // of the deposit
     constexpr double steepest_wall = 0.5;  // cosine of the slope: steeper ground is a wall beside the soil
 
-    /// Calls act(body, point) for each point of this rank of soil that can move.
-    template <int dim, typename Act>
-    void for_each_of_soil(const std::list<SoilBody<dim>> &bodies, const Act &act)
-    {
-      for (const auto &body : bodies)
-        if (!body.is_rigid)
-          for_each_point(body.points, [&](const auto &point) { act(body, point); });
-    }
-
-
     /// Length normal to the ground over that along the last axis.
     template <int dim, typename PointOfSet>
     double cosine_of_ground(const DiscreteLevelSet<dim> *bed, const PointOfSet &point)
@@ -55,23 +45,6 @@ namespace scree
       return 0.;
     }
   } // namespace
-
-
-  template <int dim>
-  double largest_thickness(const std::list<SoilBody<dim>> &bodies,
-                           const BackgroundGrid<dim> &grid,
-                           const DiscreteLevelSet<dim> *bed)
-  {
-    const CellColumns<dim> columns(grid);
-    std::vector<double> thickness(columns.size(), 0.);
-    for_each_of_soil(bodies, [&](const auto &body, const auto &point) {
-      const double volume = point.properties[body.layout.volume] * cosine_of_ground(bed, point);
-      for (const auto &[column, weight] : columns.around(point.location))
-        thickness[column] += weight * volume / columns.area();
-    });
-    Utilities::MPI::sum(thickness, grid.triangulation().get_communicator(), thickness);
-    return *std::max_element(thickness.begin(), thickness.end());
-  }
 
 
   template <int dim>
@@ -100,13 +73,14 @@ namespace scree
     const std::size_t n         = columns.size();
     std::vector<double> sums(3 * n + 3, 0.); // thickness, its moment, moving; mass, moving mass, kinetic energy
     std::vector<PartOfMass> speeds;
-    double largest = 0.;
-    for_each_of_soil(bodies, [&](const auto &body, const auto &point) {
+    double largest      = 0.;
+    const bool is_start = start_thickness.empty();
+    const auto include  = [&](const SoilBody<dim> &body, const auto &point) {
       const double mass    = point.properties[body.layout.mass];
       const double speed   = vector_of<dim>(point.properties + body.layout.velocity).norm();
       const double share   = point.properties[body.layout.volume] / columns.area();
       const bool is_moving = speed > rest_speed();
-      const double moving  = is_moving ? share * cosine_of_ground(bed, point) : 0.;
+      const double moving  = is_moving || is_start ? share * cosine_of_ground(bed, point) : 0.;
       for (const auto &[column, weight] : columns.around(point.location))
         {
           sums[column] += weight * share;
@@ -118,7 +92,10 @@ namespace scree
       sums[3 * n + 2] += 0.5 * mass * speed * speed;
       speeds.push_back({ speed, mass });
       largest = std::max(largest, speed);
-    });
+    };
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid)
+        for_each_point(body.points, [&](const auto &point) { include(body, point); });
     Utilities::MPI::sum(sums, communicator, sums);
     largest = Utilities::MPI::max(largest, communicator);
 
@@ -135,7 +112,7 @@ namespace scree
     std::vector<double> thickness(sums.begin(), sums.begin() + n), height(n);
     for (std::size_t c = 0; c < n; ++c) // of the surface, if the soil is in one layer
       height[c] = thickness[c] > 0. ? sums[n + c] / thickness[c] + 0.5 * thickness[c] : 0.;
-    if (start_thickness.empty())
+    if (is_start)
       {
         start_thickness = thickness;
         start_height    = height;
@@ -223,10 +200,6 @@ namespace scree
     return lines;
   }
 
-  template double
-  largest_thickness(const std::list<SoilBody<2>> &, const BackgroundGrid<2> &, const DiscreteLevelSet<2> *);
-  template double
-  largest_thickness(const std::list<SoilBody<3>> &, const BackgroundGrid<3> &, const DiscreteLevelSet<3> *);
   template class SoilMotion<2>;
   template class SoilMotion<3>;
 } // namespace scree

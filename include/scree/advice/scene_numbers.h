@@ -29,7 +29,7 @@ namespace scree
     double gravity   = 9.81; ///< m/s^2
     double end_time  = 1;    ///< s
 
-    /// Of the soil (without soil: of the water) along gravity, on a bed its largest thickness normal to it; without
+    /// Of the soil (without soil: of the water) along gravity, on a bed its thickness normal to it; without
     /// gravity its longest side, m.
     double height = 0;
     double fall   = 0; ///< what the centre of mass sinks until all lies level in the box, m

@@ -16,20 +16,13 @@ namespace scree
   {
     double speed        = 0; ///< that 1 % of the mass exceeds, m/s
     double moving_part  = 0; ///< of the mass, faster than rest_speed()
-    double thickness    = 0; ///< of the moving soil, normal to the ground, median by volume, in cells
+    double thickness    = 0; ///< of moving (at the start: all) soil, normal to the ground, median by volume, cells
     double length       = 0; ///< horizontal length L of the path, m
     double fall         = 0; ///< its height H, m
     double area         = 0; ///< of the deposit, m^2 (2D: m)
     double volume       = 0; ///< of the deposit, m^3 (2D: m^2)
     double travel_angle = 0; ///< atan(H/L), degrees
   };
-
-  /// Largest thickness of the soil that can move, normal to the ground, m. Collective.
-  /// @param bed null: the ground is normal to the last axis
-  template <int dim>
-  double largest_thickness(const std::list<SoilBody<dim>> &bodies,
-                           const BackgroundGrid<dim> &grid,
-                           const DiscreteLevelSet<dim> *bed);
 
   /// Whether the soil has come to rest, how well the cells resolve what moves, and the path of the run-out.
   template <int dim>
