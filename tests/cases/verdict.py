@@ -142,4 +142,41 @@ def volume():
     check(not re.search(r"in contact \S+ \(bound", steady.parts["Checks"].replace("\n", " ")), steady.parts["Checks"])
 
 
-{"slide": slide, "rest": rest, "stress": stress, "volume": volume}[sys.argv[3]]()
+# A block on a block, at 24.5 degrees with a contact friction of 25: it should hold.
+SLIP = BOX.format(dim=2, gravity="4.06814071046, -8.9267200673", end=0.6, corner="3, 0.8", cell=0.05, rows=0.1) + """
+set Body force = -4.06814071046*max(0, 1 - t/0.2); 8.9267200673*max(0, 1 - t/0.2)
+set Bodies     = Ground, Block
+subsection Contact Base
+  set Bodies         = Block, Ground
+  set Friction angle = 25
+end
+subsection Ground
+  set Region          = y < 0.315
+  set Material        = linear elastic
+  set Points per cell = 2
+  set Grain density   = 1500
+  subsection Linear elastic
+    set Young's modulus = 1e7
+  end
+end
+subsection Block
+  set Region          = x > 0.4 && x < 1.4 && y > 0.315 && y < 0.615
+  set Material        = linear elastic
+  set Points per cell = 2
+  set Grain density   = 1500
+  subsection Linear elastic
+    set Young's modulus = 1e7
+  end
+end
+"""
+
+
+def creep():
+    """A block that slips slowly over another does not rest, whatever the checks say."""
+    results = run("slip", SLIP)
+    log, row = log_of(results), last_row(results)
+    check(log.parts["Motion"].startswith("not at rest"), log.parts["Motion"])
+    check(0.01 < row["Speed 99 % (m/s)"] < 1 and row["Moving part (-)"] > 0.2, f"{row['Speed 99 % (m/s)']} m/s, {row['Moving part (-)']} of the mass")
+
+
+{"slide": slide, "creep": creep, "rest": rest, "stress": stress, "volume": volume}[sys.argv[3]]()
