@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/regime.h>
-#include <scree/input/input_error.h>
+#include <scree/io/check_result.h>
 
 #include <map>
 
 namespace scree
 {
-  namespace
-  {
-    std::string three_digits(const double value)
-    {
-      char text[32];
-      std::snprintf(text, sizeof text, "%.3g", value);
-      return text;
-    }
-  } // namespace
-
-
   Regime regime_of(const SceneNumbers &scene)
   {
     if (!scene.has_water)
@@ -47,7 +36,7 @@ namespace scree
   std::string reason_for(const Regime regime, const SceneNumbers &scene)
   {
     const Groups groups     = groups_of(scene);
-    const std::string ratio = "drainage time over motion time is " + three_digits(groups.drainage);
+    const std::string ratio = "drainage time over motion time is " + short_text(groups.drainage);
     switch (regime)
       {
       case Regime::dry:
@@ -55,20 +44,20 @@ namespace scree
       case Regime::free_water:
         return "the case has no soil that moves";
       case Regime::drained:
-        return ratio + ", below " + three_digits(thresholds::drained_below) +
+        return ratio + ", below " + short_text(thresholds::drained_below) +
                ": soil alone serves, of the saturated density and under water with its buoyant weight";
       case Regime::undrained:
-        return ratio + ", above " + three_digits(thresholds::undrained_above) + ", and T_v at the end " +
-               three_digits(groups.time_factor) + ", below " + three_digits(thresholds::consolidates_above) +
+        return ratio + ", above " + short_text(thresholds::undrained_above) + ", and T_v at the end " +
+               short_text(groups.time_factor) + ", below " + short_text(thresholds::consolidates_above) +
                ": water hardly moves through the soil";
       default:
         if (groups.drainage > thresholds::undrained_above)
-          return ratio + ", above " + three_digits(thresholds::undrained_above) + ", but T_v at the end is " +
-                 three_digits(groups.time_factor) + ": pressure leaves during the run";
+          return ratio + ", above " + short_text(thresholds::undrained_above) + ", but T_v at the end is " +
+                 short_text(groups.time_factor) + ": pressure leaves during the run";
         if (groups.drainage < thresholds::drained_below)
-          return ratio + ", below " + three_digits(thresholds::drained_below) + ", but its water must move, too";
-        return ratio + ", between " + three_digits(thresholds::drained_below) + " and " +
-               three_digits(thresholds::undrained_above);
+          return ratio + ", below " + short_text(thresholds::drained_below) + ", but its water must move, too";
+        return ratio + ", between " + short_text(thresholds::drained_below) + " and " +
+               short_text(thresholds::undrained_above);
       }
   }
 

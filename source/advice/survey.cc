@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/survey.h>
 #include <scree/bodies/drag_law.h>
+#include <scree/postprocess/soil_motion.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
@@ -116,6 +117,12 @@ namespace scree
 
       void find_height()
       {
+        if (scene.has_soil && simulation.bed() != nullptr)
+          {
+            SoilMotion<dim> motion(grid, Tensor<1, dim>(), simulation.bed());
+            scene.height = grid.cell_size() * motion.look(simulation.bodies(), 0.).thickness;
+            return;
+          }
         Extent<dim> extent;
         const auto add = [&](const auto &point) { extent.add(point.location); };
         for (const auto &body : simulation.bodies())

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/unusual_units.h>
+#include <scree/particles/region.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <cmath>
 
@@ -79,10 +82,57 @@ namespace scree
       for (const UsualRange &range : material.chosen().usual_ranges())
         questions.ask(material.path(body), range.entry, range.value, range.lowest, range.highest, range.unit);
     }
+
+
+    /// Rain in mm/h; the largest rate of its time.
+    void ask_of_rain(const Parameters &parameters, Questions &questions)
+    {
+      constexpr unsigned int n_times = 1000;
+      if (!parameters.rain.is_set())
+        return;
+      const auto rate = parse_expression<1>(entry_name("Rain", "Rate"), parameters.rain.rate, 1);
+      double largest  = 0.;
+      for (unsigned int i = 0; i <= n_times; ++i)
+        largest = std::max(largest, rate->value(dealii::Point<1>(i * parameters.end_time / n_times)));
+      questions.ask("Rain", "Rate", largest, 1e-10, 0.1, "m/s (1 mm/h = 2.78e-7 m/s)");
+    }
+
+
+    /// A water table more than a cell above all soil. Collective.
+    template <int dim>
+    void ask_of_table(const Parameters &parameters,
+                      const std::list<SoilBody<dim>> &bodies,
+                      const MPI_Comm communicator,
+                      Questions &questions)
+    {
+      const auto [entry, value] = parameters.water.place();
+      if (entry.rfind("Phreatic", 0) != 0 || !parameters.water.reservoir_level.empty())
+        return;
+      const Region<dim> wet(entry_name("Water", entry),
+                            parameters.water.without_fringe().region_in_soil(dim),
+                            nullptr,
+                            parameters.water.table<dim>());
+      bool is_below = true;
+      for (const auto &body : bodies)
+        for_each_point(body.points, [&](const auto &point) {
+          is_below = is_below && wet.contains(point.location +
+                                              parameters.grid.cell_size * dealii::Point<dim>::unit_vector(dim - 1));
+        });
+      if (dealii::Utilities::MPI::min(int(is_below), communicator) == 1)
+        questions.list.push_back(
+            "Unusual value: " +
+            entry_message("Water",
+                          entry,
+                          value,
+                          "all soil lies more than a cell below it, and no water stands outside the soil. Check unit "
+                          "(m) and datum; write a \"Reservoir level\" for water above the ground."));
+    }
   } // namespace
 
 
-  std::vector<std::string> unusual_units(const Parameters &parameters)
+  template <int dim>
+  std::vector<std::string>
+  unusual_values(const Parameters &parameters, const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
   {
     Questions questions;
     for (const BodyParameters &body : parameters.bodies)
@@ -118,7 +168,12 @@ namespace scree
         questions.ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3, diameter_unit);
         questions.ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
         questions.ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, unit_of_pressure);
+        ask_of_rain(parameters, questions);
+        ask_of_table(parameters, bodies, communicator, questions);
       }
     return questions.list;
   }
+
+  template std::vector<std::string> unusual_values(const Parameters &, const std::list<SoilBody<2>> &, const MPI_Comm);
+  template std::vector<std::string> unusual_values(const Parameters &, const std::list<SoilBody<3>> &, const MPI_Comm);
 } // namespace scree

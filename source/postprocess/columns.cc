@@ -13,6 +13,61 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
+  CellColumns<dim>::CellColumns(const BackgroundGrid<dim> &grid)
+      : grid(grid)
+  {
+    for (unsigned int a = 0; a < dim; ++a)
+      n[a] = std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / grid.cell_size());
+  }
+
+
+  template <int dim>
+  std::size_t CellColumns<dim>::size() const
+  {
+    return dim == 3 ? n[0] * n[1] : n[0];
+  }
+
+
+  template <int dim>
+  double CellColumns<dim>::area() const
+  {
+    return Utilities::fixed_power<dim - 1>(grid.cell_size());
+  }
+
+
+  template <int dim>
+  Point<dim> CellColumns<dim>::middle(const std::size_t column) const
+  {
+    Point<dim> x;
+    std::size_t rest = column;
+    for (unsigned int a = 0; a + 1 < dim; ++a, rest /= n[a - 1])
+      x[a] = grid.lower_corner()[a] + (rest % n[a] + 0.5) * grid.cell_size();
+    return x;
+  }
+
+
+  template <int dim>
+  std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> CellColumns<dim>::around(const Point<dim> &x) const
+  {
+    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> result;
+    result.fill({ 0, 1. });
+    for (unsigned int a = dim - 1; a-- > 0;)
+      {
+        // In cells from the middle of the first column.
+        const double place = (x[a] - grid.lower_corner()[a]) / grid.cell_size() - 0.5, lower = std::floor(place);
+        for (unsigned int i = 0; i < result.size(); ++i)
+          {
+            const unsigned int side = i >> a & 1;
+            result[i].first =
+                result[i].first * n[a] + static_cast<std::size_t>(std::clamp(lower + side, 0., n[a] - 1.));
+            result[i].second *= side == 1 ? place - lower : 1. - (place - lower);
+          }
+      }
+    return result;
+  }
+
+
+  template <int dim>
   std::vector<Lump<dim>> lumps_of(const std::list<SoilBody<dim>> &bodies)
   {
     std::vector<Lump<dim>> lumps;
@@ -108,10 +163,10 @@ namespace scree
   rear_and_front(const std::vector<Lump<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid)
   {
     const double width = grid.cell_size();
+    const CellColumns<dim> columns(grid);
     std::array<int, dim> n;
-    for (unsigned int a = 0; a < dim; ++a)
-      n[a] = static_cast<int>(std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / width));
-    const int n_rows = dim == 3 ? n[1] : 1;
+    std::copy_n(columns.n_cells().begin(), dim, n.begin());
+    const int n_rows = columns.size() / n[0];
 
     std::vector<double> thickness(n[0] * n_rows, 0.); // row by row along x
     for (const Lump<dim> &lump : lumps)
@@ -120,8 +175,7 @@ namespace scree
           const double cell = std::floor((lump.location[axis] - grid.lower_corner()[axis]) / width);
           return std::clamp(static_cast<int>(cell), 0, n[axis] - 1);
         };
-        thickness[(dim == 3 ? number(1) * n[0] : 0) + number(0)] +=
-            lump.volume / Utilities::fixed_power<dim - 1>(width);
+        thickness[(dim == 3 ? number(1) * n[0] : 0) + number(0)] += lump.volume / columns.area();
       }
     Utilities::MPI::sum(thickness, grid.triangulation().get_communicator(), thickness);
 
@@ -148,6 +202,8 @@ namespace scree
     return { grid.lower_corner()[0] + first * width, grid.lower_corner()[0] + last * width };
   }
 
+  template class CellColumns<2>;
+  template class CellColumns<3>;
   template std::vector<Lump<2>> lumps_of(const std::list<SoilBody<2>> &);
   template std::vector<Lump<3>> lumps_of(const std::list<SoilBody<3>> &);
   template std::vector<Lump<2>>

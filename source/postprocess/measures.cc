@@ -14,92 +14,76 @@ namespace scree
 {
   using namespace dealii;
 
+  std::vector<double> percentiles(const std::vector<PartOfMass> &all,
+                                  const double lower,
+                                  const double upper,
+                                  const std::vector<double> &fractions,
+                                  const MPI_Comm communicator)
+  {
+    struct Search
+    {
+      double begin, end, below, wanted;
+      std::vector<PartOfMass> parts; // all that may lie between begin and end
+    };
+    std::vector<Search> searches(fractions.size(), { lower, upper, 0., 0., {} });
+
+    // Each pass finds the bin in which the wanted mass is reached and looks into it the next time.
+    constexpr unsigned int n_bins = 1000, n_passes = 5;
+    std::vector<double> bins;
+    for (unsigned int pass = 0; pass < n_passes; ++pass)
+      {
+        bins.assign(n_bins * searches.size(), 0.);
+        for (unsigned int s = 0; s < searches.size(); ++s)
+          {
+            const auto &[begin, end, below, wanted, parts] = searches[s];
+            for (const PartOfMass &part : pass == 0 ? all : parts)
+              if (const double position = (part.place - begin) / (end - begin) * n_bins;
+                  position >= 0 && position < n_bins)
+                bins[s * n_bins + static_cast<unsigned int>(position)] += part.mass;
+          }
+        Utilities::MPI::sum(bins, communicator, bins);
+        for (unsigned int s = 0; s < searches.size(); ++s)
+          {
+            auto &[begin, end, below, wanted, parts] = searches[s];
+            const double *bin_of_search              = bins.data() + s * n_bins;
+            if (pass == 0)
+              for (unsigned int bin = 0; bin < n_bins; ++bin)
+                wanted += fractions[s] * bin_of_search[bin];
+            // Equal masses often add up to just the wanted part: rounding must not choose the point.
+            unsigned int bin = 0;
+            while (bin + 1 < n_bins && below + bin_of_search[bin] < wanted * (1. - 1e-12))
+              below += bin_of_search[bin++];
+            const double width = (end - begin) / n_bins;
+            begin += bin * width;
+            end                = begin + width;
+            const auto &before = pass == 0 ? all : parts;
+            std::vector<PartOfMass> kept;
+            // Rounding decides anew about the edges.
+            std::copy_if(before.begin(), before.end(), std::back_inserter(kept), [&](const PartOfMass &part) {
+              return part.place >= begin - width && part.place < end + width;
+            });
+            parts = std::move(kept);
+          }
+      }
+    std::vector<double> result;
+    for (const Search &search : searches)
+      result.push_back(0.5 * (search.begin + search.end));
+    return result;
+  }
+
+
   namespace
   {
-    /// One quantity of a set of points: where it begins among a point's properties.
+    /// This rank's points of a set go to `parts`, by their coordinate along an axis.
     template <int dim>
-    struct View
+    void append_parts(const PointSet<dim> &points,
+                      const unsigned int mass_slot,
+                      const unsigned int axis,
+                      std::vector<PartOfMass> &parts)
     {
-      const PointSet<dim> &points;
-      const unsigned int slot;
-    };
-
-    template <int dim>
-    using Views = std::vector<View<dim>>;
-
-    /// Calls visit(point, first double of the quantity) for each point of this rank.
-    template <int dim, typename Visit>
-    void visit_points(const Views<dim> &views, const Visit &visit)
-    {
-      for (const auto &view : views)
-        for_each_point(view.points, [&](const auto &point) { visit(point, point.properties + view.slot); });
-    }
-
-
-    template <int dim>
-    std::vector<double> percentiles(const Views<dim> &masses,
-                                    const BackgroundGrid<dim> &grid,
-                                    const unsigned int axis,
-                                    const std::vector<double> &fractions)
-    {
-      struct Part
-      {
-        double place, mass;
-      };
-      struct Search
-      {
-        double begin, end, below, wanted;
-        std::vector<Part> parts; // all that may lie between begin and end
-      };
-      std::vector<Part> all;
-      visit_points(masses, [&](const auto &point, const double *mass) {
-        all.push_back({ point.location[axis], *mass });
+      for_each_point(points, [&](const auto &point) {
+        parts.push_back({ point.location[axis], point.properties[mass_slot] });
       });
-      std::vector<Search> searches(fractions.size(),
-                                   { grid.lower_corner()[axis], grid.upper_corner()[axis], 0., 0., {} });
-
-      // Each pass finds the bin in which the wanted mass is reached and looks into it the next time.
-      constexpr unsigned int n_bins = 1000, n_passes = 5;
-      std::vector<double> bins;
-      for (unsigned int pass = 0; pass < n_passes; ++pass)
-        {
-          bins.assign(n_bins * searches.size(), 0.);
-          for (unsigned int s = 0; s < searches.size(); ++s)
-            {
-              const auto &[begin, end, below, wanted, parts] = searches[s];
-              for (const Part &part : pass == 0 ? all : parts)
-                if (const double position = (part.place - begin) / (end - begin) * n_bins;
-                    position >= 0 && position < n_bins)
-                  bins[s * n_bins + static_cast<unsigned int>(position)] += part.mass;
-            }
-          Utilities::MPI::sum(bins, grid.triangulation().get_communicator(), bins);
-          for (unsigned int s = 0; s < searches.size(); ++s)
-            {
-              auto &[begin, end, below, wanted, parts] = searches[s];
-              const double *bin_of_search              = bins.data() + s * n_bins;
-              if (pass == 0)
-                for (unsigned int bin = 0; bin < n_bins; ++bin)
-                  wanted += fractions[s] * bin_of_search[bin];
-              // Equal masses often add up to just the wanted part: rounding must not choose the point.
-              unsigned int bin = 0;
-              while (bin + 1 < n_bins && below + bin_of_search[bin] < wanted * (1. - 1e-12))
-                below += bin_of_search[bin++];
-              const double width = (end - begin) / n_bins;
-              begin += bin * width;
-              end                = begin + width;
-              const auto &before = pass == 0 ? all : parts;
-              std::vector<Part> kept;
-              // Rounding decides anew about the edges.
-              std::copy_if(before.begin(), before.end(), std::back_inserter(kept), [&](const Part &part) {
-                return part.place >= begin - width && part.place < end + width;
-              });
-              parts = std::move(kept);
-            }
-        }
-      std::vector<double> result;
-      for (const Search &search : searches)
-        result.push_back(0.5 * (search.begin + search.end));
-      return result;
     }
   } // namespace
 
@@ -110,11 +94,15 @@ namespace scree
                                        const unsigned int axis,
                                        const std::vector<double> &fractions)
   {
-    Views<dim> masses;
+    std::vector<PartOfMass> parts;
     for (const auto &body : bodies)
       if (!body.is_rigid)
-        masses.push_back({ body.points, body.layout.mass });
-    return percentiles(masses, grid, axis, fractions);
+        append_parts(body.points, body.layout.mass, axis, parts);
+    return percentiles(parts,
+                       grid.lower_corner()[axis],
+                       grid.upper_corner()[axis],
+                       fractions,
+                       grid.triangulation().get_communicator());
   }
 
 
@@ -124,10 +112,14 @@ namespace scree
                                        const unsigned int axis,
                                        const std::vector<double> &fractions)
   {
-    Views<dim> masses;
+    std::vector<PartOfMass> parts;
     for (const auto &one : water)
-      masses.push_back({ one.points(), one.layout.mass });
-    return percentiles(masses, grid, axis, fractions);
+      append_parts(one.points(), one.layout.mass, axis, parts);
+    return percentiles(parts,
+                       grid.lower_corner()[axis],
+                       grid.upper_corner()[axis],
+                       fractions,
+                       grid.triangulation().get_communicator());
   }
 
 

@@ -16,6 +16,7 @@ namespace scree
       : grid(grid)
       , gravity(gravity)
       , further(further)
+      , motion(grid, gravity, further.bed)
   {
   }
 
@@ -41,6 +42,7 @@ namespace scree
                              water.empty() ? WaterMeasures() : measure_water(bodies, water, grid),
                              bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, 0, fronts),
                              water.empty() ? std::vector<double>() : mass_percentiles(water, grid, 0, fronts),
+                             bodies.empty() ? MotionNumbers() : motion.look(bodies, time),
                              local.sum_over_ranks(communicator),
                              time,
                              step,

@@ -148,8 +148,10 @@ namespace scree
   void Results<dim>::complete()
   {
     std::vector<CheckResult> all = balances.results();
-    for (const CheckResult &result : checks.results())
-      all.push_back(result);
+    for (const std::vector<CheckResult> &results : { checks.results(), statistics.soil_motion().results() })
+      all.insert(all.end(), results.begin(), results.end());
+    if (const std::string text = statistics.soil_motion().text(); !text.empty())
+      folder.log(text);
     if (!all.empty())
       folder.log(verdict(all));
     folder.log("Results     " + text_of_results());

@@ -55,7 +55,7 @@ namespace scree
     record_case(parameters, folder);
     log_case(parameters, scene, folder, communicator);
     log_released(parameters, scene, folder, communicator);
-    for (const std::string &question : unusual_units(parameters))
+    for (const std::string &question : unusual_values(parameters, scene.bodies, communicator))
       folder.log(question);
     if (parameters.settling.maximum_time > 0)
       settle();

@@ -61,6 +61,12 @@ QUESTIONED = {
     "a base with the angle of repose of its soil": (
         INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n"
         "  subsection Mohr-Coulomb\n    set Friction angle kind = direct shear or repose\n  end\nend\n", []),
+    "rain in mm/h, a water table above all soil": (
+        INSTANT + SOIL + "subsection Rain\n  set Rate = 50\nend\nsubsection Water\n  set Phreatic surface = 3\nend\n",
+        ['subsection Rain, entry "Rate" = 50: the unit is m/s (1 mm/h = 2.78e-7 m/s)',
+         'subsection Water, entry "Phreatic surface" = 3: all soil lies more than a cell below it']),
+    "a water table at the ground": (INSTANT + SOIL + "subsection Water\n  set Phreatic surface = 0.55\nend\n", []),
+    "water above the ground": (INSTANT + SOIL + "subsection Water\n  set Phreatic surface = 0.8\n  set Reservoir level = 0.8\nend\n", []),
     "a conductivity in m/d, and mPa s": (
         INSTANT + SOIL + "subsection Transfer\n  set Method = TPIC\nend\n"
         "subsection Water\n  set Hydraulic conductivity = 86\n  set Density = 1\nend\n",

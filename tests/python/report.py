@@ -19,6 +19,10 @@ Finished    wall time 26.2 s, 500 steps
 Limits      time step limited by wave speed (100 % of steps)
 Warning     'Maximum time step' bounds 90 % of the steps.
             Write a larger one.
+Motion      not at rest at the end, t = 1 s: 99.2 % of the mass is faster than 0.00221
+            m/s (0.001 sqrt(g h)), and 1 % of it faster than 30 m/s
+Run-out     so far: H = 87 m, L = 250 m, H/L = 0.348, travel angle 19.2 degrees;
+            deposit 1.2e+03 m^2, 2e+03 m^3
 Checks      out of bounds: smallest V/V_0 0.5 (bound 0.6)
             worst: Soil, point 3 at (1, 2) m
             within bounds: mass balance 0; points of soil lost 0
@@ -71,7 +75,9 @@ def test_log():
     assert log.warnings[-1].endswith("steps. Write a larger one.")
     identity = dict(report.identity("run", log))
     assert (identity["Commit"], identity["Command"], identity["Start of the run"]) == ("abc1234", "mpirun -np 2 scree my <slope>.prm", "2026-11-25 12:53:12 UTC")
-    assert [word in report.verdict("run", log) for word in ('good"><b>Finished', 'good"><b>Limits', 'bad"><b>Checks')] == [True] * 3
+    assert [word in report.verdict("run", log) for word in ('good"><b>Finished', 'good"><b>Limits', 'open"><b>Motion', 'open"><b>Run-out', 'bad"><b>Checks')] == [True] * 5
+    text = report.verdict("run", report.read_log(folder(LOG.replace("not at rest", "at rest").replace("so far: ", ""))))
+    assert 'good"><b>Motion' in text and 'good"><b>Run-out</b> H = 87 m' in text and "open" not in text, text
 
 
 def test_other_logs():

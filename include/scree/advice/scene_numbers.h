@@ -29,7 +29,9 @@ namespace scree
     double gravity   = 9.81; ///< m/s^2
     double end_time  = 1;    ///< s
 
-    double height = 0; ///< of the soil (without soil: of the water) along gravity; without gravity its longest side, m
+    /// Of the soil (without soil: of the water) along gravity, on a bed its thickness normal to it; without
+    /// gravity its longest side, m.
+    double height = 0;
     double fall   = 0; ///< what the centre of mass sinks until all lies level in the box, m
 
     bool has_changing_forces = false; ///< a load that depends on time, or a body force

@@ -8,11 +8,45 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <list>
+#include <utility>
 #include <vector>
 
 namespace scree
 {
+  /// The columns of the mesh's fine cells along the last axis, along x first.
+  template <int dim>
+  class CellColumns
+  {
+  public:
+    /// Keeps a reference to the grid.
+    explicit CellColumns(const BackgroundGrid<dim> &grid);
+
+    /// Their number.
+    std::size_t size() const;
+
+    /// Area of each, m^2 (2D: width, m).
+    double area() const;
+
+    /// The middle of a column, with 0 as its last coordinate, m.
+    dealii::Point<dim> middle(const std::size_t column) const;
+
+    /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
+    /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
+    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> around(const dealii::Point<dim> &x) const;
+
+    /// Cells along each axis.
+    const std::array<std::size_t, dim> &n_cells() const
+    {
+      return n;
+    }
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    std::array<std::size_t, dim> n;
+  };
+
   /// A piece of material around a point: its place, m, and volume with pores, m^3 (2D: per m).
   template <int dim>
   struct Lump

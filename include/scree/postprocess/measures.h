@@ -11,6 +11,21 @@
 
 namespace scree
 {
+  /// A mass, kg, and a number of it, such as a coordinate or a speed.
+  struct PartOfMass
+  {
+    double place; ///< the number
+    double mass;  ///< kg
+  };
+
+  /// The numbers below which the given fractions of the mass of all ranks lie; `lower` without mass. Collective.
+  /// @param lower, upper all numbers are at least the first and less than the second
+  std::vector<double> percentiles(const std::vector<PartOfMass> &parts,
+                                  const double lower,
+                                  const double upper,
+                                  const std::vector<double> &fractions,
+                                  const MPI_Comm communicator);
+
   /// The coordinates along `axis` below which the given fractions of the mass of all bodies lie, m. Collective.
   template <int dim>
   std::vector<double> mass_percentiles(const std::list<SoilBody<dim>> &bodies,

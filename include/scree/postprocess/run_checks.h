@@ -24,7 +24,8 @@ namespace scree
     speed,     ///< fastest point over the 99.9 % quantile of the speeds
     depth,     ///< of a point below the bed, over the cell size
     shrinkage, ///< V_0/V of soil
-    pressure,  ///< p' over rho g H of the soil, with H from the lowest to the highest point of it
+    dilation,  ///< V/V_0 of soil in contact, mean of a cell
+    stress,    ///< vertical stress over rho g H of the soil, with H from the lowest to the highest point of it
     lost       ///< points of soil that left the box
   };
 
@@ -61,13 +62,13 @@ namespace scree
     }
 
   private:
-    static constexpr unsigned int n_checks = 5;
+    static constexpr unsigned int n_checks = 6;
 
     /// The point that is worst in a check.
     struct Suspect
     {
       double value = 0.; ///< see Check
-      double found = 0.; ///< of the point: speed, m/s, depth, m, V/V_0, p', Pa, or the number of those lost
+      double found = 0.; ///< of the point: speed, m/s, depth, m, V/V_0, stress, Pa, or the number of those lost
       std::string point; ///< body, number and place, in words
       double time = 0.;  ///< s
 
@@ -88,10 +89,8 @@ namespace scree
     void suspect(const Check check, const double value, const double found, const Name &name);
 
     void look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
+    void look_at_dilation(const SoilBody<dim> &body);
     void look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
-
-    /// What a thousandth of these speeds of all ranks exceeds, m/s, to .03 % of the largest. Collective.
-    double quantile(const std::vector<double> &speeds, const double largest) const;
 
     /// Takes the worst of all ranks and logs what is wrong for the first time. Collective.
     void agree(const double time);

@@ -49,19 +49,26 @@ namespace scree
       return history.step;
     }
 
+    /// The soil at the last row.
+    const SoilMotion<dim> &soil_motion() const
+    {
+      return motion;
+    }
+
     /// Saves or loads the last row and the state that differences start from (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &history.has_start &history.start_momentum &history.start_energy;
       archive &last_row &history.step &history.n_iterations &history.n_cavitating &history.n_viscous_iterations;
-      archive &history.time &history.obstacles;
+      archive &history.time &history.obstacles &motion;
     }
 
   private:
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
     const FurtherColumns<dim> further;
+    SoilMotion<dim> motion;
     RowHistory<dim> history;
     StatisticsRow last_row;
   };

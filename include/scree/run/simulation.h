@@ -105,6 +105,12 @@ namespace scree
       return scene.grid;
     }
 
+    /// The bed as the mesh sees it; null without one.
+    const DiscreteLevelSet<dim> *bed() const
+    {
+      return scene.bed.get();
+    }
+
     /// What limits the next step: of the points as they are, and of obstacles.
     Speeds limiting_speeds() const
     {

@@ -41,5 +41,20 @@ namespace scree
         Column{ "Fallbacks", "", [](const auto &now) { return now.totals.n_fallbacks; } },
         Column{ "Vertices", "", [](const auto &now) { return now.totals.n_vertices; } },
         Column{ "Unresolved", "", [](const auto &now) { return now.totals.n_unresolved; } });
+
+    const RegisterColumns motion_columns(
+        ColumnTopic::soil,
+        [](const auto &now) { return !now.bodies.empty(); },
+        Column{ "Speed 99 %", "m/s", [](const auto &now) { return now.motion.speed; } },
+        Column{ "Moving part", "-", [](const auto &now) { return now.motion.moving_part; } },
+        Column{ "Moving thickness", "cells", [](const auto &now) { return now.motion.thickness; } },
+        Column{ "Run-out length", "m", [](const auto &now) { return now.motion.length; } },
+        Column{ "Fall height", "m", [](const auto &now) { return now.motion.fall; } },
+        Column{ "Run-out H/L",
+                "-",
+                [](const auto &now) { return now.motion.length > 0. ? now.motion.fall / now.motion.length : 0.; } },
+        Column{ "Travel angle", "degrees", [](const auto &now) { return now.motion.travel_angle; } },
+        Column{ "Deposit area", "m^2", [](const auto &now) { return now.motion.area; } },
+        Column{ "Deposit volume", "m^3", [](const auto &now) { return now.motion.volume; } });
   } // namespace
 } // namespace scree

@@ -27,38 +27,13 @@ namespace scree
       , time_label(time_label)
       , grid(grid)
       , folder(folder)
+      , columns(grid)
   {
-    for (unsigned int a = 0; a < dim; ++a)
-      n[a] = std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / grid.cell_size());
     if (!parameters.write)
       return;
-    std::size_t n_columns = 1;
-    for (unsigned int a = 0; a + 1 < dim; ++a)
-      n_columns *= n[a];
     for (Map *map : { &thickness, &mass, &largest_thickness, &largest_speed, &largest_pressure })
-      map->assign(n_columns, 0.);
-    arrival_time.assign(n_columns, -1.);
-  }
-
-
-  template <int dim>
-  std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> Maps<dim>::columns_around(const Point<dim> &x) const
-  {
-    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> result;
-    result.fill({ 0, 1. });
-    for (unsigned int a = dim - 1; a-- > 0;)
-      {
-        // In cells from the middle of the first column.
-        const double place = (x[a] - grid.lower_corner()[a]) / grid.cell_size() - 0.5, lower = std::floor(place);
-        for (unsigned int i = 0; i < result.size(); ++i)
-          {
-            const unsigned int side = i >> a & 1;
-            result[i].first =
-                result[i].first * n[a] + static_cast<std::size_t>(std::clamp(lower + side, 0., n[a] - 1.));
-            result[i].second *= side == 1 ? place - lower : 1. - (place - lower);
-          }
-      }
-    return result;
+      map->assign(columns.size(), 0.);
+    arrival_time.assign(columns.size(), -1.);
   }
 
 
@@ -76,7 +51,7 @@ namespace scree
       if (!body.is_rigid)
         for_each_point(body.points, [&](const auto &point) {
           const double *values = point.properties;
-          for (const auto &[column, weight] : columns_around(point.location))
+          for (const auto &[column, weight] : columns.around(point.location))
             {
               double *of_column = sums.data() + n_sums * column;
               const double m    = weight * values[body.layout.mass];
@@ -89,13 +64,13 @@ namespace scree
             return;
           const Point<dim> start(vector_of<dim>(values + body.layout.start));
           if (start.distance(point.location) <= grid.cell_size())
-            for (const auto &[column, weight] : columns_around(start))
+            for (const auto &[column, weight] : columns.around(start))
               at_rest[column] += weight * values[body.layout.mass] / body.density;
         });
     Utilities::MPI::sum(sums, grid.triangulation().get_communicator(), sums);
     Utilities::MPI::sum(at_rest, grid.triangulation().get_communicator(), at_rest);
 
-    const double area = Utilities::fixed_power<dim - 1>(grid.cell_size());
+    const double area = columns.area();
     if (scour_depth.empty())
       first_at_rest = at_rest;
     scour_depth.resize(at_rest.size());
@@ -123,7 +98,7 @@ namespace scree
   template <int dim>
   std::vector<typename Maps<dim>::Sheet> Maps<dim>::sheets() const
   {
-    const double area = Utilities::fixed_power<dim - 1>(grid.cell_size());
+    const double area = columns.area();
     Map deposit(mass.size()), now_or_first(mass.size()), arrival(arrival_time), thickness_at_start(first_at_rest);
     for (std::size_t c = 0; c < mass.size(); ++c)
       {
@@ -185,13 +160,13 @@ namespace scree
   template <int dim>
   std::string Maps<dim>::table(const std::vector<Sheet> &all) const
   {
-    std::vector<std::string> columns{ "x (m)" };
+    std::vector<std::string> heads{ "x (m)" };
     for (const Sheet &sheet : all)
-      columns.push_back(sheet.name + " (" + sheet.unit + ')');
-    std::string text = csv_head(columns);
-    for (std::size_t c = 0; c < n[0]; ++c)
+      heads.push_back(sheet.name + " (" + sheet.unit + ')');
+    std::string text = csv_head(heads);
+    for (std::size_t c = 0; c < columns.size(); ++c)
       {
-        std::vector<double> row{ grid.lower_corner()[0] + (c + 0.5) * grid.cell_size() };
+        std::vector<double> row{ columns.middle(c)[0] };
         for (const Sheet &sheet : all)
           row.push_back(sheet.values[c]);
         text += csv_row(row);
@@ -205,8 +180,8 @@ namespace scree
   {
     const double least = 1e-6 * grid.cell_size(); // less soil comes from rounding
     Raster raster;
-    raster.n_columns = n[0];
-    raster.n_rows    = sheet.values.size() / n[0];
+    raster.n_columns = columns.n_cells()[0];
+    raster.n_rows    = columns.size() / raster.n_columns;
     raster.spacing   = grid.cell_size();
     raster.x         = frame.origin[0] + grid.lower_corner()[0] + 0.5 * raster.spacing;
     raster.y         = frame.origin[1] + grid.lower_corner()[1] + 0.5 * raster.spacing;

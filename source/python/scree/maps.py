@@ -7,6 +7,7 @@ scree-maps results/mountain_dry --maps largest_speed,deposit --times 5,10,20
 Without --maps and --times it draws the largest thickness, speed and impact pressure, the arrival time, the deposit and, if there is one, the depth of
 the scour. --times adds the thickness at the times of pictures. A map shows only places with soil: at least `Least thickness` of the case. In 2D it
 draws the profiles instead. Writes maps.png into the run folder; the names of --maps and --times are part of the picture's name.
+It prints the path of the run-out and the deposit, from the log.
 
 --scour BODY writes the map scour_BODY, the body's thickness at the first picture less that at the last one, and prints the balance of its volume.
 """
@@ -442,6 +443,10 @@ def _draw(arguments):
     output = arguments.output or arguments.run / ("_".join(["maps"] + names) + ".png")
     render(arguments.run, names or default_maps(arguments.run), output)
     print(f"Wrote {output}")
+    log = arguments.run / "log.txt"
+    path = re.findall(r"^Run-out +(.+\n +.+)$", log.read_text(encoding="utf-8", errors="replace") if log.exists() else "", re.MULTILINE)
+    if path:
+        print("Run-out: " + " ".join(path[-1].split()))
 
 
 def main():

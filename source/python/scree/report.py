@@ -35,10 +35,10 @@ table { border-collapse: collapse; } th, td { text-align: left; vertical-align: 
 th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
 pre { background: #f6f6f4; border: 1px solid #e0e0dc; padding: .7rem; overflow-x: auto; font-size: 12.5px; line-height: 1.4; }
 figure { margin: 1rem 0; } img { max-width: 100%; height: auto; } figcaption, .note { color: #555; font-size: .9rem; }
-.good, .bad { border-left: 5px solid #3a8a4d; background: #eef6ef; padding: .4rem .8rem; margin: .5rem 0; white-space: pre-line; }
-.bad { border-color: #b8322a; background: #fbeeed; }
+.good, .open, .bad { border-left: 5px solid #3a8a4d; background: #eef6ef; padding: .4rem .8rem; margin: .5rem 0; white-space: pre-line; }
+.open { border-color: #c98a00; background: #fdf6e3; } .bad { border-color: #b8322a; background: #fbeeed; }
 summary { cursor: pointer; } ul { padding-left: 1.2rem; }
-@media print { body { font-size: 10pt; margin: 0; max-width: none; } nav { display: none; } figure, tr, .good, .bad { break-inside: avoid; }
+@media print { body { font-size: 10pt; margin: 0; max-width: none; } nav { display: none; } figure, tr, .good, .open, .bad { break-inside: avoid; }
                h2 { break-after: avoid; } pre { white-space: pre-wrap; font-size: 8pt; } a { color: inherit; } }
 """
 
@@ -59,7 +59,7 @@ def read_log(run):
     text = file.read_text(encoding="utf-8", errors="replace") if file.exists() else ""
     parts, warnings, label = {}, [], None
     for line in text.splitlines():
-        labelled = re.match(r"([A-Z][A-Za-z ]{1,9}[A-Za-z])  +(\S.*)$", line)
+        labelled = re.match(r"([A-Z][A-Za-z -]{1,9}[A-Za-z])  +(\S.*)$", line)
         if line.startswith("Scree "):
             parts, label = {"Program": line}, None
         elif labelled and len(line) - len(labelled.group(2)) == 12:
@@ -123,7 +123,7 @@ def table(rows, head=()):
 
 
 def verdict(run, log):
-    """How the run has ended, and the lines Limits and Checks, each marked as good or bad."""
+    """How the run has ended, and the lines Limits, Motion, Run-out and Checks, each marked as good, bad or, as motion goes on, open."""
     lines = []
     if "Stopped" in log.parts:
         lines.append(("bad", "Stopped", log.parts["Stopped"]))
@@ -131,8 +131,8 @@ def verdict(run, log):
         lines.append(("good", "Finished", log.parts["Finished"]))
     else:
         lines.append(("bad", "Not finished", f"the run still goes on, or has ended with an error; {_last_time(run)}"))
-    if "Limits" in log.parts:
-        lines.append(("good", "Limits", log.parts["Limits"]))
+    mark = "open" if log.parts.get("Motion", "").startswith("not at rest") else "good"
+    lines += [(mark if label != "Limits" else "good", label, log.parts[label]) for label in ("Limits", "Motion", "Run-out") if label in log.parts]
     checks = log.parts.get("Checks", "there is no such line in the log: the run did not come to its end")
     is_bad = "Checks" not in log.parts or "out of bounds" in checks or "worst:" in checks
     lines.append(("bad" if is_bad else "good", "Checks", checks))

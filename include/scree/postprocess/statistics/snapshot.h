@@ -6,6 +6,7 @@
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/point_sums.h>
 #include <scree/postprocess/run_totals.h>
+#include <scree/postprocess/soil_motion.h>
 
 namespace scree
 {
@@ -54,6 +55,7 @@ namespace scree
     const WaterMeasures of_water;            ///< 0 without water
     const std::vector<double> fronts;        ///< of the soil: x below which 90, 99 and 99.5 % of its mass are, m
     const std::vector<double> water_fronts;  ///< the same of the water
+    const MotionNumbers motion;              ///< of the soil; 0 without
     const RunTotals<dim> totals;             ///< since the start
     const double time;                       ///< s
     const unsigned long long step;           ///< steps of the run

@@ -2,7 +2,7 @@
 #ifndef scree_postprocess_visualization_maps_h
 #define scree_postprocess_visualization_maps_h
 
-#include <scree/mesh/background_grid.h>
+#include <scree/postprocess/columns.h>
 #include <scree/io/output_parameters.h>
 #include <scree/io/run_folder.h>
 #include <scree/io/time_label.h>
@@ -76,16 +76,12 @@ namespace scree
     /// All maps in the plane: a row a column of cells, with the x of its middle.
     std::string table(const std::vector<Sheet> &all) const;
 
-    /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
-    /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
-    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> columns_around(const dealii::Point<dim> &x) const;
-
     const MapParameters parameters;
     const MapFrame frame;
     const TimeLabel time_label;
     const BackgroundGrid<dim> &grid;
     const RunFolder &folder;
-    std::array<std::size_t, dim> n; // cells along each axis
+    const CellColumns<dim> columns;
     Map thickness, first_thickness; // m, now and in the first sample
     Map mass;                       // over area, now, kg/m^2
     Map largest_thickness;          // m

@@ -53,7 +53,8 @@ def verdict(study, number):
         return Verdict("stopped" if code == "3" else "failed", (), f"exit code {code}: {told[-1].removeprefix('scree: ')}")
     parts = report.read_log(run).parts
     seconds = re.match(r"wall time (\S+) s", parts.get("Finished", ""))
-    return Verdict("finished", violated(parts.get("Checks", "")), "", float(seconds.group(1)) if seconds else float("nan"))
+    open_end = ("not at rest",) if parts.get("Motion", "").startswith("not at rest") else ()
+    return Verdict("finished", violated(parts.get("Checks", "")) + open_end, "", float(seconds.group(1)) if seconds else float("nan"))
 
 
 def violated(checks):
