@@ -2,11 +2,14 @@
 #ifndef scree_schemes_model_h
 #define scree_schemes_model_h
 
+#include <scree/bodies/pressure_parameters.h>
+#include <scree/bodies/water_phase.h>
 #include <scree/boundary/inflow/inflow.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/contact/points/point_contact.h>
 #include <scree/mesh/cut_cells.h>
 #include <scree/momentum/surface_load.h>
+#include <scree/transfer/transfer_parameters.h>
 
 namespace scree
 {
