@@ -29,6 +29,7 @@ namespace scree
 
   void RainParameters::check(const std::vector<double> &gravity,
                              const bool has_own_points,
+                             const double air_entry,
                              const unsigned int n_bodies) const
   {
     require_entry(is_set() || region == RainParameters().region,
@@ -44,6 +45,11 @@ namespace scree
                   rate,
                   "rain needs soil, and water with points of its own. Add a subsection Water (\"Region = 0\": no water "
                   "at the start) with \"Point sets = double\".");
+    require_entry(air_entry == 0.,
+                  "Water",
+                  "Air entry pressure",
+                  air_entry,
+                  "rain does not enter soil with suction yet. Remove this entry, or subsection Rain.");
     const long dim = long(gravity.size());
     require_entry(gravity.back() < 0 && std::count(gravity.begin(), gravity.end(), 0.) + 1 == dim,
                   "Rain",
@@ -59,16 +65,6 @@ namespace scree
   }
 
 
-  namespace
-  {
-    constexpr double cells_of_slots = 2.; // A wet top of two cells has an unknown pressure, and pulls at its front.
-
-    // Water about a slot over its pores up to which suction draws drops in: the pressure at the top of the soil is then
-    // near that of a pond. Fitted to Mein & Larson; with 1.2 it is 14 % less that enters.
-    constexpr double crowded_by_suction = 1.5;
-  } // namespace
-
-
   template <int dim>
   Rain<dim>::Rain(const RainParameters &parameters,
                   const BackgroundGrid<dim> &grid,
@@ -79,7 +75,7 @@ namespace scree
       , soil(soil)
       , depth(soil.porosity * spacing)
       , rate(parse_expression<1>(entry_name("Rain", "Rate"), parameters.rate, 1))
-      , n_slots(std::lround(cells_of_slots * grid.cell_size() / spacing))
+      , n_slots(std::lround(0.5 * grid.cell_size() / spacing) + 1)
   {
     unsigned int n_columns = 1;
     for (unsigned int a = 0; a + 1 < dim; ++a)
@@ -132,7 +128,6 @@ namespace scree
     AssertThrow(first >= 0. && second >= 0.,
                 ExcMessage("subsection Rain, entry \"Rate\": it is below 0 at t = " + number_text(time) + " s."));
     const double fallen = 0.5 * time_step * (first + second);
-    current_rate        = 0.5 * (first + second);
     bool is_due         = false;
     for (unsigned int column = 0; column < due.size(); ++column)
       if (is_open[column])
@@ -213,43 +208,28 @@ namespace scree
 
 
   template <int dim>
-  unsigned int Rain<dim>::n_in_reach() const
+  bool Rain<dim>::has_room(const unsigned int column, const Columns &columns) const
   {
-    const double excess = current_rate - soil.conductivity;
-    const double reach  = soil.suction * soil.conductivity / std::max(excess, 1e-12 * soil.conductivity);
-    return std::clamp(std::lround(std::min(reach / spacing, double(n_slots))), 1l, long(n_slots));
-  }
-
-
-  template <int dim>
-  bool Rain<dim>::has_room(const unsigned int column, const unsigned int slot, const Columns &columns) const
-  {
-    if (columns.has_soil[column * n_slots + slot] == 0 || columns.filled[column * n_slots + slot] > 0.)
+    if (columns.has_soil[column * n_slots] == 0 || columns.filled[column * n_slots] > 0.)
       return false;
-    const unsigned int away = std::lround(0.5 * grid.cell_size() / spacing);
-    const unsigned int last = std::min(slot + away, n_slots - 1);
     double pores = 0., filled = 0.;
     for_columns_near(foot(column), (0.5 + 1e-9) * grid.cell_size(), [&](const unsigned int other) {
-      for (unsigned int j = slot - std::min(slot, away); j <= last; ++j)
+      for (unsigned int slot = other * n_slots; slot < (other + 1) * n_slots; ++slot)
         {
-          pores += columns.has_soil[other * n_slots + j];
-          filled += columns.filled[other * n_slots + j];
+          pores += columns.has_soil[slot];
+          filled += columns.filled[slot];
         }
     });
-    return filled + 0.5 < (soil.suction > 0. ? crowded_by_suction : 1.) * pores;
+    return filled + 0.5 < pores;
   }
 
 
   template <int dim>
-  double Rain<dim>::height_of_drop(const unsigned int column,
-                                   const Columns &columns,
-                                   const unsigned int n_slots_in_reach) const
+  double Rain<dim>::height_of_drop(const unsigned int column, const Columns &columns) const
   {
     const double top = surface(column, columns);
-    for (unsigned int slot = 0; slot < n_slots_in_reach; ++slot)
-      if (has_room(column, slot, columns))
-        return top - (slot + 0.5) * spacing;
-    return std::max(top, columns.water[column] + 0.5 * spacing) + 0.5 * spacing;
+    return has_room(column, columns) ? top - 0.5 * spacing
+                                     : std::max(top, columns.water[column] + 0.5 * spacing) + 0.5 * spacing;
   }
 
 
@@ -273,19 +253,14 @@ namespace scree
   template <int dim>
   std::vector<typename Rain<dim>::Drop> Rain<dim>::drops(const Columns &columns)
   {
-    const unsigned int n_slots_in_reach = n_in_reach();
     std::vector<Drop> result;
     for (unsigned int column = 0; column < due.size(); ++column)
       if (is_open[column] && due[column] >= depth)
         {
           Point<dim> x = foot(column);
-          x[dim - 1] =
-              std::min(height_of_drop(column, columns, n_slots_in_reach), grid.upper_corner()[dim - 1] - 0.5 * spacing);
+          x[dim - 1]   = std::min(height_of_drop(column, columns), grid.upper_corner()[dim - 1] - 0.5 * spacing);
           if (!std::isfinite(columns.soil[column]))
             take(column, depth, books.beside_soil);
-          else if (soil.suction > 0. &&
-                   x[dim - 1] > surface(column, columns)) // It would close and open the top by turns.
-            take(column, std::max(0., due[column] - 2. * depth), books.ran_off);
           else
             {
               take(column, depth, books.entered);

@@ -88,7 +88,8 @@ namespace scree
       for (const InflowParameters &inflow : parameters.inflows)
         check_inflow(parameters, inflow);
       const bool has_own_points = parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point;
-      parameters.rain.check(parameters.gravity, has_own_points, parameters.bodies.size());
+      parameters.rain.check(
+          parameters.gravity, has_own_points, parameters.water.air_entry_pressure, parameters.bodies.size());
     }
 
 

@@ -45,14 +45,10 @@ namespace scree
   template <int dim>
   RainedSoil Scene<dim>::rained_soil() const
   {
-    RainedSoil soil{ parameters.grid.cell_size / points_per_cell().first, 1., 1e300, 0. };
+    RainedSoil soil{ parameters.grid.cell_size / points_per_cell().first, 1. };
     for (const SoilBody<dim> &body : bodies)
       if (const double porosity = parameters.find_body(body.name)->initial_porosity(); !body.is_rigid && body.drag)
-        {
-          soil.porosity     = std::min(soil.porosity, std::max(porosity, 0.1));
-          soil.conductivity = std::min(soil.conductivity, body.drag->conductivity(porosity));
-        }
-    soil.suction = parameters.water.air_entry_pressure / (parameters.water.density * forcing.gravity().norm());
+        soil.porosity = std::min(soil.porosity, std::max(porosity, 0.1));
     return soil;
   }
 

@@ -113,8 +113,7 @@ namespace scree
         const RainBooks rain = scene.rain->account();
         const double density = scene.water.front().density;
         folder.record("Rain at the end: fell " + kilograms<dim>(density * rain.fell) + "; entered " +
-                      kilograms<dim>(density * rain.entered) + "; ran off at once " +
-                      kilograms<dim>(density * rain.ran_off) + "; beside the soil " +
+                      kilograms<dim>(density * rain.entered) + "; beside the soil " +
                       kilograms<dim>(density * rain.beside_soil) + "; waiting for a whole drop " +
                       kilograms<dim>(density * rain.waiting));
       }

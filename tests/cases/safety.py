@@ -105,4 +105,14 @@ def under_water():
     check(abs(sum(wet) / sum(buoyant) - 1) < 0.03, "the factors differ by 3 % or more")
 
 
-{"factor": factor, "range_and_stop": range_and_stop, "under_water": under_water, "clay_cut": clay_cut, "clay_graded_slope": clay_graded_slope}[sys.argv[3]]()
+def parallel_seepage():
+    """A layer with seepage parallel to its slope: F = 1.244 of the infinite slope with associated flow; without dilation F is lower, as the
+    layer shears at sin(phi) in place of tan(phi) (Davis 1968), which is 0.74."""
+    for dilation, low, high in (45, 0.94 * 1.244, 1.06 * 1.244), (0, 0.74, 1.244):
+        text = set_entry(read_case(HERE / "parallel_seepage.prm"), "Soil/Mohr-Coulomb/Dilation angle", dilation)
+        rests, fails = bracket(trials(run(f"dilation_{dilation}", text, "--safety")))
+        print(f"dilation {dilation} degrees: between {rests:g} and {fails:g}")
+        check(low < rests and fails < high, f"the factor is not between {low:g} and {high:g}")
+
+
+{"factor": factor, "range_and_stop": range_and_stop, "under_water": under_water, "parallel_seepage": parallel_seepage, "clay_cut": clay_cut, "clay_graded_slope": clay_graded_slope}[sys.argv[3]]()

@@ -34,16 +34,18 @@ namespace scree
     /// Throws EntryError at impossible combinations.
     /// @param gravity m/s^2, one number an axis
     /// @param has_own_points whether there is water with points of its own
-    void check(const std::vector<double> &gravity, const bool has_own_points, const unsigned int n_bodies) const;
+    /// @param air_entry pressure of the water, Pa
+    void check(const std::vector<double> &gravity,
+               const bool has_own_points,
+               const double air_entry,
+               const unsigned int n_bodies) const;
   };
 
   /// What rain enters.
   struct RainedSoil
   {
-    double spacing;      ///< of the points, m
-    double porosity;     ///< at the start
-    double conductivity; ///< m/s
-    double suction;      ///< of dry soil at a front that wets it, m of water
+    double spacing;  ///< of the points, m
+    double porosity; ///< at the start
   };
 
   /// Where the rain is that fell, m^3 (2D: m^2).
@@ -51,7 +53,6 @@ namespace scree
   {
     double fell     = 0, ///< in all
         entered     = 0, ///< as points of water
-        ran_off     = 0, ///< at once, from soil with suction
         beside_soil = 0, ///< on columns without soil
         waiting     = 0; ///< for a whole drop, less what waited at the start
 
@@ -59,7 +60,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &fell &entered &ran_off &beside_soil &waiting;
+      archive &fell &entered &beside_soil &waiting;
     }
   };
 
@@ -67,9 +68,8 @@ namespace scree
   ///
   /// The box is cut into upright columns as wide as the spacing of the water's points. The depth of rain of a column is
   /// counted, and a drop of the depth that fills the pores of one spacing falls as often as this depth is reached;
-  /// columns take turns. A drop fills the highest empty pores that it can reach, or else lies on the soil or on the
-  /// water there; from soil with suction it runs off at once, out of the scene. Suction brings it as deep as Green and
-  /// Ampt's front takes all rain, k (1 + s/L) >= i, but no deeper than two cells: below, the mesh's pressure does that.
+  /// columns take turns. A drop fills the pores at the surface, if they are empty, or else lies on the soil or on the
+  /// water there.
   template <int dim>
   class Rain
   {
@@ -88,7 +88,7 @@ namespace scree
     {
       std::vector<double> soil;   ///< heights of the highest points, m; minus infinity: there are none
       std::vector<double> water;  ///< the same of the water
-      std::vector<int> has_soil;  ///< by column and slot, from the soil's surface down
+      std::vector<int> has_soil;  ///< by column and slot, from the soil's surface down to half a cell
       std::vector<double> filled; ///< the same, by water, as a part of the pores
     };
 
@@ -163,14 +163,11 @@ namespace scree
     /// Height of the soil's surface in a column.
     double surface(const unsigned int column, const Columns &columns) const;
 
-    /// Slots that a drop can reach at the current rate.
-    unsigned int n_in_reach() const;
-
-    /// Whether the pores about a slot, a cell wide and high, have room for a drop, and the slot is empty.
-    bool has_room(const unsigned int column, const unsigned int slot, const Columns &columns) const;
+    /// Whether the slots of a cell's width have room for a drop, and the uppermost of the column is empty.
+    bool has_room(const unsigned int column, const Columns &columns) const;
 
     /// Where a drop appears.
-    double height_of_drop(const unsigned int column, const Columns &columns, const unsigned int n_slots) const;
+    double height_of_drop(const unsigned int column, const Columns &columns) const;
 
     const BackgroundGrid<dim> &grid;
     const double spacing; // m
@@ -182,7 +179,6 @@ namespace scree
     std::vector<char> is_open;
     std::vector<double> due; // depth of rain that has not become a drop, m
     RainBooks books;
-    double current_rate = 0; // mean over the step, m/s
     std::map<CellPlace<dim>, CellIterator> own_cells;
   };
 } // namespace scree

@@ -196,7 +196,7 @@ namespace scree
                            const unsigned int mass_slot,
                            const Fill &fill,
                            RunTotals<dim> &totals) const;
-    /// What rain enters: the least porosity and conductivity of the bodies that take water.
+    /// What rain enters: the least porosity of the bodies that take water.
     RainedSoil rained_soil() const;
     /// The soil and water under the rain. Collective.
     typename Rain<dim>::Columns columns_of_rain();

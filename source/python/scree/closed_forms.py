@@ -4,7 +4,7 @@
 - consolidation at small strain: Terzaghi 1943; the same with the inertia of soil and water
 - consolidation at large strain of soil that is elastic in logarithmic strain: exact end state, course in time by
   finite differences
-- infiltration with suction: of a pond (Green & Ampt 1911), of rain (Mein & Larson 1973)
+- infiltration of a pond with suction (Green & Ampt 1911)
 - hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
 - dam break on a wet bed in shallow water: Stoker 1957; of grains on a plane: Mangeney, Heinrich & Roche 2000
 - viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923), viscosity and settling of suspensions
@@ -306,28 +306,6 @@ def green_ampt_time(depth, pond, suction, porosity, conductivity):
     """
     head, rest = pond + suction, 1 - porosity
     return porosity / conductivity * (depth / rest - head / rest**2 * np.log(1 + rest * depth / head))
-
-
-def mein_larson_infiltration(time, rate, conductivity, suction, deficit):
-    """Depth of water, m, that has entered dry soil from steady rain, whose excess runs off (Mein & Larson 1973).
-
-    All of it enters until F_p = K s D/(i - K) has; then Green & Ampt's front without a pond, with the suction s (m) and the porosity D to fill.
-    """
-    if rate <= conductivity:
-        return rate * time
-    scale = suction * deficit
-
-    def age(entered):  # of Green & Ampt's front, m: K t
-        return entered - scale * math.log(1 + entered / scale)
-    at_ponding = conductivity * scale / (rate - conductivity)
-    if rate * time <= at_ponding:
-        return rate * time
-    goal = conductivity * (time - at_ponding / rate) + age(at_ponding)
-    low, high = at_ponding, rate * time
-    for _ in range(100):
-        middle = (low + high) / 2
-        low, high = (middle, high) if age(middle) < goal else (low, middle)
-    return low
 
 
 def dupuit_discharge(conductivity, upstream, downstream, length):
