@@ -121,7 +121,7 @@ namespace scree
   void RunChecks<dim>::look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
   {
     const double fall  = std::sqrt(2. * gravity.norm() * grid.cell_size()); // slower points do not harm
-    const auto include = [&](const auto &for_each) {
+    const auto include = [&](double &usual, const auto &for_each) {
       std::vector<PartOfMass> speeds; // each point counts as one
       double largest = 0.;
       for_each([&](const double *velocity, const auto &) {
@@ -130,22 +130,23 @@ namespace scree
       });
       const MPI_Comm communicator = grid.triangulation().get_communicator();
       largest                     = Utilities::MPI::max(largest, communicator);
-      if (!(largest > fall) || std::isinf(largest))
+      if (!(largest > fall))
         return;
-      const double usual = percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, communicator)[0];
+      if (!std::isinf(largest))
+        usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, communicator)[0]);
       for_each([&](const double *velocity, const auto &name) {
-        if (const double speed = vector_of<dim>(velocity).norm(); speed > usual)
-          suspect(Check::speed, speed / usual, speed, name);
+        if (const double speed = vector_of<dim>(velocity).norm(); speed > std::max(usual, fall))
+          suspect(Check::speed, speed / std::max(usual, fall), speed, name);
       });
     };
-    include([&](const auto &act) {
+    include(usual_speed_of_soil, [&](const auto &act) {
       for (const SoilBody<dim> &body : bodies)
         if (!body.is_rigid)
           for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
             act(point.properties + body.layout.velocity, name);
           });
     });
-    include([&](const auto &act) {
+    include(usual_speed_of_water, [&](const auto &act) {
       for (const WaterPhase<dim> &part : water)
         if (part.carrier() == nullptr)
           for_each_named("Water", part.points(), [&](const auto &point, const auto &name) {
@@ -250,7 +251,8 @@ namespace scree
     switch (check)
       {
       case Check::speed:
-        return which + "it moves at " + found + " m/s, " + value + " times the 99.9 % quantile of the speeds";
+        return which + "it moves at " + found + " m/s, " + value +
+               " times the largest 99.9 % quantile of the speeds so far";
       case Check::depth:
         return which + "it is " + found + " m below the bed, " + value + " of a cell";
       case Check::shrinkage:
@@ -289,7 +291,7 @@ namespace scree
     add(Check::lost, has_soil, "points of soil lost " + short_text(of(Check::lost).found), "0");
     add(Check::speed,
         true,
-        "fastest point " + fastest + " times the 99.9 % quantile of the speeds",
+        "fastest point " + fastest + " times the largest 99.9 % quantile of the speeds",
         short_text(bounds[0]));
     add(Check::shrinkage, has_soil, "smallest V/V_0 " + smallest, short_text(1. / bounds[2]));
     add(Check::dilation, has_dilated, "largest V/V_0 in contact " + largest, short_text(bounds[3]));

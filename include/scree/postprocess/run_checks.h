@@ -21,7 +21,7 @@ namespace scree
   /// What a run watches itself for.
   enum class Check : unsigned int
   {
-    speed,     ///< fastest point over the 99.9 % quantile of the speeds
+    speed,     ///< fastest point over the largest 99.9 % quantile of the speeds so far
     depth,     ///< of a point below the bed, over the cell size
     shrinkage, ///< V_0/V of soil
     dilation,  ///< V/V_0 of soil in contact, mean of a cell
@@ -58,7 +58,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &worst &is_told &last_step &has_looked &has_soil;
+      archive &worst &is_told &last_step &has_looked &has_soil &usual_speed_of_soil &usual_speed_of_water;
     }
 
   private:
@@ -102,6 +102,7 @@ namespace scree
     const dealii::Tensor<1, dim> gravity;
     const DiscreteLevelSet<dim> *bed;
     RunFolder &folder;
+    double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
     Suspects now, worst;
     std::array<bool, n_checks> is_told{};
     unsigned long long last_step = 0;

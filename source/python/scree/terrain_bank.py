@@ -3,7 +3,7 @@
 
 scree-terrain-bank results/bank --seeds 1-8 --cell 10 --cell 20 --method FLIP --method TPIC
 
-The columns: fastest point over the 99.9 % quantile of the speeds, depth of a point below the bed over the cell size, points lost, mass over that
+The columns: fastest point over the largest 99.9 % quantile of the speeds, depth of a point below the bed over the cell size, points lost, mass over that
 of the map less one, largest fall of the numerical dissipation over the released energy, largest vertical stress over rho g H, smallest V/V_0. What misses its
 bound has a star.
 """
