@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/postprocess/run_totals.h>
+#include <scree/step/values_of.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -39,58 +40,8 @@ namespace scree
   template <int dim>
   RunTotals<dim> RunTotals<dim>::sum_over_ranks(const MPI_Comm communicator) const
   {
-    RunTotals total      = *this;
-    Budget<dim> &balance = total.balance;
-    std::vector<double *> values{ &balance.wall_dissipation,
-                                  &balance.bed_dissipation,
-                                  &balance.contact_dissipation,
-                                  &balance.drag_dissipation,
-                                  &balance.viscous_dissipation,
-                                  &balance.load_work,
-                                  &balance.correction_work,
-                                  &balance.motion,
-                                  &balance.n_iterations,
-                                  &balance.n_preconditioners,
-                                  &balance.n_viscous_iterations,
-                                  &balance.n_cavitating,
-                                  &total.lost_mass,
-                                  &total.lost_volume,
-                                  &total.lost_water_mass,
-                                  &total.lost_energy,
-                                  &total.n_entered,
-                                  &total.entered_mass,
-                                  &total.entered_water_mass,
-                                  &total.entered_energy,
-                                  &total.plastic_dissipation,
-                                  &total.n_lost,
-                                  &total.n_updates,
-                                  &total.n_substeps,
-                                  &total.n_fallbacks,
-                                  &total.n_vertices,
-                                  &total.n_unresolved };
-    for (Tensor<1, dim> *vector : { &balance.wall_impulse,
-                                    &balance.body_impulse,
-                                    &balance.pressure_impulse,
-                                    &balance.load_impulse,
-                                    &balance.bed_impulse,
-                                    &total.lost_momentum,
-                                    &total.entered_momentum })
-      for (unsigned int a = 0; a < dim; ++a)
-        values.push_back(&(*vector)[a]);
-    for (WallImpulses<dim> *walls : { &balance.soil_walls, &balance.water_walls })
-      for (Tensor<1, dim> &impulse : walls->of_face)
-        for (unsigned int a = 0; a < dim; ++a)
-          values.push_back(&impulse[a]);
-    for (ObstacleBalance<dim> &obstacle : balance.obstacles)
-      {
-        for (Tensor<1, dim> *impulse : { &obstacle.impulse, &obstacle.pressure_impulse })
-          for (unsigned int a = 0; a < dim; ++a)
-            values.push_back(&(*impulse)[a]);
-        for (unsigned int r = 0; r < ObstacleBalance<dim>::n_rotations; ++r)
-          values.push_back(&obstacle.moment_impulse[r]);
-        values.push_back(&obstacle.work);
-        values.push_back(&obstacle.dissipation);
-      }
+    RunTotals total                    = *this;
+    const std::vector<double *> values = values_of(total);
 
     std::vector<double> sums; // one message for all
     for (const double *value : values)

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/step/budget.h>
+#include <scree/step/values_of.h>
 
 namespace scree
 {
-  template <int dim>
-  ObstacleBalance<dim> &ObstacleBalance<dim>::operator+=(const ObstacleBalance &other)
-  {
-    impulse += other.impulse;
-    pressure_impulse += other.pressure_impulse;
-    moment_impulse += other.moment_impulse;
-    work += other.work;
-    dissipation += other.dissipation;
-    return *this;
-  }
-
-
   template <int dim>
   void ObstacleBalance<dim>::add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse)
   {
@@ -48,29 +37,13 @@ namespace scree
   template <int dim>
   Budget<dim> &Budget<dim>::operator+=(const Budget &other)
   {
-    wall_impulse += other.wall_impulse;
-    soil_walls += other.soil_walls;
-    water_walls += other.water_walls;
-    body_impulse += other.body_impulse;
-    pressure_impulse += other.pressure_impulse;
-    load_impulse += other.load_impulse;
-    bed_impulse += other.bed_impulse;
     if (obstacles.size() < other.obstacles.size())
       obstacles.resize(other.obstacles.size());
-    for (unsigned int o = 0; o < other.obstacles.size(); ++o)
-      obstacles[o] += other.obstacles[o];
-    wall_dissipation += other.wall_dissipation;
-    bed_dissipation += other.bed_dissipation;
-    contact_dissipation += other.contact_dissipation;
-    drag_dissipation += other.drag_dissipation;
-    viscous_dissipation += other.viscous_dissipation;
-    load_work += other.load_work;
-    correction_work += other.correction_work;
-    motion += other.motion;
-    n_iterations += other.n_iterations;
-    n_preconditioners += other.n_preconditioners;
-    n_viscous_iterations += other.n_viscous_iterations;
-    n_cavitating += other.n_cavitating;
+    Budget further = other;
+    further.obstacles.resize(obstacles.size());
+    const std::vector<double *> values = values_of(*this), others = values_of(further);
+    for (unsigned int i = 0; i < values.size(); ++i)
+      *values[i] += *others[i];
     return *this;
   }
 
