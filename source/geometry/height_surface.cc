@@ -24,6 +24,13 @@ namespace scree
   }
 
 
+  bool HeightSurface::has_ground(const unsigned int column, const unsigned int row) const
+  {
+    return !std::isnan(raster(column, row) + raster(column + 1, row) + raster(column, row + 1) +
+                       raster(column + 1, row + 1));
+  }
+
+
   double HeightSurface::height(const double x, const double y) const
   {
     const double u = (x - raster.x) / raster.spacing, v = (y - raster.y) / raster.spacing;
@@ -31,7 +38,7 @@ namespace scree
     const int j    = std::clamp(static_cast<int>(std::floor(v)), 0, int(raster.n_rows) - 2);
     const double s = std::clamp(u - i, 0., 1.), t = std::clamp(v - j, 0., 1.);
     const double a = raster(i, j), b = raster(i + 1, j), c = raster(i, j + 1), d = raster(i + 1, j + 1);
-    if (std::isnan(a + b + c + d))
+    if (!has_ground(i, j))
       return std::numeric_limits<double>::quiet_NaN();
     // The diagonal goes from b to c.
     return s + t <= 1. ? a + s * (b - a) + t * (c - a) : d + (1. - s) * (c - d) + (1. - t) * (b - d);
@@ -46,7 +53,9 @@ namespace scree
 
   std::string HeightSurface::remark() const
   {
-    return raster.remark_on_heights("Bed", "There is no ground around them.");
+    return raster.remark_on_heights("Bed",
+                                    "There is no ground around them: it ends in vertical walls, and soil falls past "
+                                    "them. Fill holes of the data first, for instance with gdal_fillnodata.");
   }
 
 
@@ -76,11 +85,25 @@ namespace scree
     for (int j = first_row; j <= last_row; ++j)
       for (int i = first_column; i <= last_column; ++i)
         {
-          const Point<3> a = node(i, j), b = node(i + 1, j), c = node(i, j + 1), d = node(i + 1, j + 1);
-          if (std::isnan(a[2] + b[2] + c[2] + d[2]))
+          if (!has_ground(i, j))
             continue;
+          const Point<3> a = node(i, j), b = node(i + 1, j), c = node(i, j + 1), d = node(i + 1, j + 1);
           look_at({ { a, b, c } });
           look_at({ { d, c, b } });
+          // The ground ends beside missing heights in a vertical wall; its normal points to them.
+          const auto look_at_wall = [&](const int column, const int row, const Point<3> &left, const Point<3> &right) {
+            if (column < 0 || row < 0 || column + 1 == int(raster.n_columns) || row + 1 == int(raster.n_rows) ||
+                has_ground(column, row))
+              return;
+            Point<3> below_left = left, below_right = right;
+            below_left[2] = below_right[2] = std::min({ left[2], right[2], x[2] }) - reach;
+            look_at({ { left, below_left, right } });
+            look_at({ { below_right, right, below_left } });
+          };
+          look_at_wall(i, j - 1, a, b);
+          look_at_wall(i + 1, j, b, d);
+          look_at_wall(i, j + 1, d, c);
+          look_at_wall(i - 1, j, c, a);
         }
     return best;
   }

@@ -231,15 +231,26 @@ namespace scree
       return;
     // Ground that moves comes through all places. An open part that is too thin for points would hide it from the
     // water, for no cell without points takes part: the ground is then on the face behind.
-    const auto margin_at = [&](const Point<dim> &place) {
-      return may_change && ground.parts()[ground.nearest_part(cell, place)].velocity ? margin : on_ground;
+    // Ground behind a wall of the box is not moved onto it: it would push what the wall holds.
+    const FineCells<dim> &fine = grid.fine_cells();
+    const Point<dim> first     = fine.box().corner(fine.cells()[fine.of_index(cell)].place);
+    const auto margin_at       = [&](const Point<dim> &place, const SurfaceView<dim> &view) {
+      if (!may_change || !ground.parts()[ground.nearest_part(cell, place)].velocity)
+        return on_ground;
+      for (unsigned int a = 0; a < dim; ++a)
+        if (const double foot = first[a] + grid.cell_size() * place[a] - view.distance * view.normal[a];
+            foot < grid.lower_corner()[a] - on_ground * grid.cell_size() ||
+            foot > grid.upper_corner()[a] + on_ground * grid.cell_size())
+          return on_ground;
+      return margin;
     };
     auto simplices = unit_cube;
     for (Simplex<dim> &simplex : simplices)
       for (SimplexCorner<dim> &corner : simplex)
         {
-          const double distance = ground.view(cell, corner.place).distance / grid.cell_size();
-          corner.side           = distance > -on_ground && distance < margin_at(corner.place) ? 0. : distance;
+          const SurfaceView<dim> view = ground.view(cell, corner.place);
+          const double distance       = view.distance / grid.cell_size();
+          corner.side = distance > -on_ground && distance < margin_at(corner.place, view) ? 0. : distance;
         }
     CutCell<dim> cut;
     cut.cell        = cell;

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace scree
 {
@@ -101,9 +104,28 @@ namespace scree
     least_potential            = std::min(least_potential, own_potential);
     largest_work =
         std::max(largest_work, std::abs(balance.load_work + balance.correction_work + balance.obstacle_energy()));
-    dissipation         = start_energy - energy - totals.energy_taken();
-    largest_dissipation = std::max(largest_dissipation, dissipation);
-    gain                = worse(gain, largest_dissipation - dissipation);
+    dissipation = start_energy - energy - totals.energy_taken();
+    // What a channel gives back is a gain, too: the numerical dissipation does not show it. Plastic dissipation is
+    // left out: with hardening it can fall.
+    std::vector<std::pair<std::string, double>> channels{ { "", dissipation },
+                                                          { ", of the walls", balance.wall_dissipation },
+                                                          { ", of the bed", balance.bed_dissipation },
+                                                          { ", of contact", balance.contact_dissipation },
+                                                          { ", of drag", balance.drag_dissipation },
+                                                          { ", of viscosity", balance.viscous_dissipation } };
+    for (unsigned int o = 0; o < balance.obstacles.size(); ++o)
+      channels.emplace_back(", of obstacle " + std::to_string(o + 1), balance.obstacles[o].dissipation);
+    largest_dissipations.resize(channels.size(), -std::numeric_limits<double>::infinity());
+    for (unsigned int c = 0; c < channels.size(); ++c)
+      {
+        const auto &[channel, value] = channels[c];
+        largest_dissipations[c]      = std::max(largest_dissipations[c], value);
+        if (const double with_channel = worse(gain, largest_dissipations[c] - value); with_channel > gain)
+          {
+            gain         = with_channel;
+            gain_channel = channel;
+          }
+      }
 
     const double work_now = start_potential - own_potential + balance.load_work + balance.obstacle_energy();
     work_in_time += 0.5 * (work + work_now) * (time - last_time);
@@ -162,7 +184,7 @@ namespace scree
       }
     if (const double released = released_energy(); energy_is_closed && released > 0.)
       {
-        list.push_back({ "largest energy gain " + short_text(100. * gain / released) + " %",
+        list.push_back({ "largest energy gain " + short_text(100. * gain / released) + " %" + gain_channel,
                          short_text(100. * bound_of_gain) + " %",
                          gain > bound_of_gain * released,
                          "" });

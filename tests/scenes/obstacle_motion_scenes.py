@@ -142,6 +142,10 @@ def obstacle_at_wall(scree):
     table = run(scree, "water/hydrostatic", "outside", {**entries, "End time": "0.6", "Obstacle Piston/Level set expression": "x + 0.05"})
     check("piston that comes in: force before, N", table["Obstacle Piston force x (N)"][5], 0, 0)
     check("piston that comes in: force later over that of still water", -table["Obstacle Piston force x (N)"][-1] / (WEIGHT * 0.5**2 / 2), 1, 1.3)
+    table = run(scree, "water/hydrostatic", "gone", {**entries, "End time": "0.55", "Mesh/Cell size": "0.1", "Obstacle Piston/Level set expression": "1.9 - x"})
+    force, dissipation = (np.abs(table["Obstacle Piston " + column]) for column in ("force x (N)", "dissipation (J)"))
+    check("piston that has left: largest force over that of still water", force[table["Time (s)"] > 0.501].max() / (WEIGHT * 0.5**2 / 2), 0, 1.3)
+    check("piston that has left: dissipation over the work of still water", dissipation.max() / (WEIGHT * 0.5**2 / 2 * 0.1), 0, 0.1)
     table = run(scree, "water/hydrostatic", "gate",
                 {**entries, "End time": "0.8", "Water/Region": "x < 0.5 && y < 0.6 || y < 0.4", "Obstacle Piston/Velocity": "0; if(t < 0.5, -0.4, 0)",
                  "Obstacle Piston/Level set expression": "max(abs(x - 1) - 0.1, 0.2 - y)"})

@@ -8,7 +8,7 @@
 namespace scree
 {
   /// The ground of a scene in space: the heights of a raster, joined by two triangles for each four of them. The open
-  /// is above it, and where a height is missing. Distances from the triangles are exact.
+  /// is above it, and where a height is missing; the ground ends there in vertical walls. Distances are exact.
   class HeightSurface : public LevelSet<3>
   {
   public:
@@ -23,6 +23,9 @@ namespace scree
     std::string remark() const override;
 
   private:
+    /// Whether the four heights from a column and a row on are known.
+    bool has_ground(const unsigned int column, const unsigned int row) const;
+
     /// Height of the ground, m; NaN where it is missing.
     double height(const double x, const double y) const;
 

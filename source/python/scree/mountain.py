@@ -42,7 +42,18 @@ def roughness(rng, shape, spacing, shortest):
     return heights / heights.std()
 
 
-def make(seed, size, spacing, rim, relief, feature):
+def without_ground(rng, missing, heights, spacing, size):
+    """Heights with nan where ground is missing: a round hole in the path, an island of ground in a ring, or an irregular edge of the raster."""
+    y, x = np.indices(heights.shape) * spacing
+    centre = size.width * rng.uniform(0.4, 0.6), size.length * rng.uniform(0.5, 0.62)
+    distance = np.hypot(x - centre[0], y - centre[1]) / size.half_width
+    edge = size.width / 2 * (0.8 + 0.1 * np.sin(2 * np.pi * (rng.uniform(1, 3) * y / size.length + rng.random())))
+    gaps = {"none": np.zeros(heights.shape, bool), "hole": distance < rng.uniform(0.3, 0.6), "island": (distance > 0.3) & (distance < 0.7),
+            "edge": np.abs(x - size.width / 2) > edge}
+    return np.where(gaps[missing], np.nan, heights)
+
+
+def make(seed, size, spacing, rim, relief, feature, missing="none"):
     """Heights and release thickness on a grid whose first row is the southern one, m."""
     rng = np.random.default_rng(seed)
     shape = int(size.length / spacing) + 1, int(size.width / spacing) + 1
@@ -61,13 +72,14 @@ def make(seed, size, spacing, rim, relief, feature):
     thickness = size.thickness * np.clip(1 - distance, 0, None)
     if rim == "cut":
         thickness[thickness < size.thickness / 8] = 0
-    return heights, thickness
+    heights = without_ground(rng, missing, heights, spacing, size)
+    return heights, np.where(np.isnan(heights), 0, thickness)
 
 
 def case_text(heights, thickness, spacing, cell):
     """A dry slide to rest."""
-    lower = [cell, cell, cell * np.floor(heights.min() / cell - 1)]
-    upper = [(n - 1) * spacing for n in heights.shape[::-1]] + [(heights + thickness).max() + 5 * cell]
+    lower = [cell, cell, cell * np.floor(np.nanmin(heights) / cell - 1)]
+    upper = [(n - 1) * spacing for n in heights.shape[::-1]] + [np.nanmax(heights + thickness) + 5 * cell]
     upper = [low + cell * np.floor((high - low - (cell if axis < 2 else 0)) / cell) for axis, (low, high) in enumerate(zip(lower, upper))]
     corner = [", ".join(f"{value:g}" for value in place) for place in (lower, upper)]
     walls = "\n".join(f"  set {face:6} = open" for face in ("Bottom", "Left", "Right", "Front", "Back"))
@@ -118,14 +130,14 @@ end
 """
 
 
-def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", relief="rough", feature="none"):
+def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", relief="rough", feature="none", missing="none"):
     """Writes the rasters and the case into a folder; returns heights and thickness, m."""
     for name, length in (("spacing", spacing), ("cell", cell)):
         if length <= 0:
             raise ValueError(f"--{name} {length:g}: write a length above 0")
-    heights, thickness = make(seed, SIZES[size], spacing, rim, relief, feature)
+    heights, thickness = make(seed, SIZES[size], spacing, rim, relief, feature, missing)
     folder.mkdir(parents=True, exist_ok=True)
-    write_raster(folder / "terrain.asc", heights, spacing)
+    write_raster(folder / "terrain.asc", np.where(np.isnan(heights), -9999, heights), spacing)
     write_raster(folder / "release.asc", thickness, spacing)
     (folder / "case.prm").write_text(case_text(heights, thickness, spacing, cell), encoding="utf-8")
     return heights, thickness
@@ -133,7 +145,7 @@ def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", rel
 
 def _make_case(arguments):
     heights, thickness = make_case(**vars(arguments))
-    print(f"Wrote {arguments.folder}: release {thickness.sum() * arguments.spacing**2:.0f} m^3, heights {heights.min():.0f} to {heights.max():.0f} m")
+    print(f"Wrote {arguments.folder}: release {thickness.sum() * arguments.spacing**2:.0f} m^3, heights {np.nanmin(heights):.0f} to {np.nanmax(heights):.0f} m")
 
 
 def main():
@@ -146,4 +158,6 @@ def main():
     parser.add_argument("--rim", choices=("thin", "cut"), default="thin", help="the release thins out to nothing, or ends at an eighth of its thickness")
     parser.add_argument("--relief", choices=("rough", "smooth"), default="rough", help="wavelengths from 2.5 spacings on, or none below 150 m; default: rough")
     parser.add_argument("--feature", choices=("none", "gully", "cliff"), default="none", help="a channel below the release, or a step in the slope; default: none")
+    parser.add_argument("--missing", choices=("none", "hole", "island", "edge"), default="none",
+                        help="ground without heights: a hole in the path, a ring around an island, an irregular edge of the raster; default: none")
     parser.run(_make_case)

@@ -110,11 +110,19 @@ void test_raster()
   const HeightSurface with_hole(raster);
   const Point<3> at_hole(raster.x + 2.1 * raster.spacing, raster.y + 1.1 * raster.spacing, -10.);
   AssertThrow(with_hole.is_open(at_hole) && !ground.is_open(at_hole), ExcMessage("raster: missing height"));
+  // The ground ends at the hole in vertical walls: on both sides of the one at the fourth column.
+  for (const double column : { 2.8, 3.1 })
+    {
+      const SurfaceView<3> wall =
+          with_hole.view({ raster.x + column * raster.spacing, raster.y + 1.1 * raster.spacing, -10. }, 2.);
+      expect(wall.distance, (3. - column) * raster.spacing, 1e-12, "raster: distance of a rim");
+      expect(wall.normal[0], -1., 1e-12, "raster: normal of a rim");
+    }
   const auto tells_of_holes = [](const HeightSurface &surface) {
     return surface.remark().find("are missing") != std::string::npos;
   };
   AssertThrow(tells_of_holes(with_hole) && !tells_of_holes(ground), ExcMessage("raster: remark"));
-  std::cout << "raster: nearest places found, open where heights are missing" << std::endl;
+  std::cout << "raster: nearest places found, open where heights are missing, walls around" << std::endl;
 }
 
 
