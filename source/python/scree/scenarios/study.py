@@ -253,7 +253,7 @@ def write_case(study, row, target, entries=None):
         if raster is None:
             changed[one.entry] = f"{float(before) * value:.9g}"
         else:
-            scaled = target.with_name(f"{target.stem}_{raster.name}")
+            scaled = target.with_name(f"{target.stem}_{raster.stem}{'.asc' if raster.suffix.lower() == '.asc' else '.tif'}")
             given = results.read_raster(raster)
             results.write_map(scaled, given._replace(values=value * given.values), raster)
             changed[one.entry] = scaled.name
