@@ -171,7 +171,6 @@ namespace scree
       if (!possible)
         throw EntryError(where + " = " + parameters.friction_angles + ": " + remedy);
     };
-    require(raster.unit.empty(), "its values are in " + raster.unit + ". Write angles in degrees.");
     require(raster.x <= lower[0] && raster.last_x() >= upper[0] && raster.y <= lower[1] && raster.last_y() >= upper[1],
             "the angles do not cover the box of subsection Mesh: they reach from " +
                 number_text({ raster.x, raster.y }) + " to " + number_text({ raster.last_x(), raster.last_y() }) +

@@ -66,8 +66,7 @@ namespace scree
     const auto text           = [this](const Place &place) { return text_of(place.first, place.second); };
     if (missing == values.size())
       return name + ": all heights of the raster are missing (NODATA). " + where_missing;
-    std::string result = name + ": heights of the raster" + (unit.empty() ? "" : ", converted from " + unit + ',') +
-                         " from " + text(lowest) + " to " + text(highest);
+    std::string result = name + ": heights of the raster from " + text(lowest) + " to " + text(highest);
     if (missing > 0)
       result += "\n" + name + ": " + std::to_string(missing) + " of " + std::to_string(values.size()) +
                 " heights of the raster are missing (NODATA). " + where_missing;

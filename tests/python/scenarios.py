@@ -170,12 +170,15 @@ def test_maps():
     band = like.GetRasterBand(1)
     band.SetScale(0.1)
     band.SetOffset(1)
-    band.SetUnitType("foot")
     band.WriteArray(np.array([[10, 20], [30, 40]]))
     like.CreateMaskBand(gdal.GMF_PER_DATASET)
     band.GetMaskBand().WriteArray(np.array([[255, 255], [0, 255]]))
     band = like = None  # writes the file
-    np.testing.assert_allclose(results.read_raster("like.TIF").values, 0.3048 * np.array([[2, 3], [np.nan, 5]]))
+    np.testing.assert_allclose(results.read_raster("like.TIF").values, [[2, 3], [np.nan, 5]])
+    like = gdal.Open("like.TIF", gdal.GA_Update)
+    like.GetRasterBand(1).SetUnitType("US survey foot")
+    like = None
+    raises("its values are in US survey foot", results.read_raster, "like.TIF")
     pathlib.Path("like.asc").write_text("", encoding="utf-8")
     pathlib.Path("like.prj").write_text("PROJCS", encoding="utf-8")
     for name in ("map.TIF", "map.tiff", "map.asc"):

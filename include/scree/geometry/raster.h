@@ -20,7 +20,6 @@ namespace scree
     double spacing         = 0; ///< of the values along both axes, m
     std::vector<double> values; ///< n_columns x n_rows, row by row
     std::string system;         ///< of the map's coordinates: a code such as EPSG:2056, or the text of a .prj file
-    std::string unit;           ///< of the file's values if they had to be converted to m; else empty
 
     /// Value of a column and a row, counted from 0; NaN where it is missing.
     double operator()(const unsigned int column, const unsigned int row) const
@@ -63,9 +62,9 @@ namespace scree
     std::string text_of(const unsigned int column, const unsigned int row) const;
   };
 
-  /// Reads the first band of a raster in any format of GDAL; NaN where the file marks a value as missing. Values are
-  /// those at the middles of its cells, feet converted to m. Throws EntryError, which begins with `where` (see
-  /// entry_name()), if it is none in m along the axes of a projected system of coordinates.
+  /// Reads a raster by the format that claims it most, see RegisterRasterFormat: an ESRI ASCII grid if it is text, else
+  /// GDAL. Values are those at the middles of its cells. Throws EntryError, which begins with `where` (see
+  /// entry_name()), if it is none.
   /// @param origin where the map has the origin of the raster's x and y, m
   Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 

@@ -13,9 +13,9 @@
 #include <gdal_priv.h>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <memory>
 #include <ogr_spatialref.h>
+#include <set>
 
 namespace scree
 {
@@ -34,32 +34,21 @@ namespace scree
     }
 
 
-    /// Factor from the unit of a raster's values to m, and 1 for degrees.
-    double factor_of_unit(const std::string &unit, const std::string &name)
+    /// Heights of surveys may be in feet where places are in m.
+    void require_values_in_metres(GDALDataset &data, const std::string &name)
     {
-      constexpr double foot = 0.3048, survey_foot = 1200. / 3937.;
-      static const std::map<std::string, double> factors = {
-        { "", 1. },
-        { "m", 1. },
-        { "metre", 1. },
-        { "meter", 1. },
-        { "degree", 1. },
-        { "deg", 1. },
-        { "ft", foot },
-        { "foot", foot },
-        { "feet", foot },
-        { "us survey foot", survey_foot },
-        { "us-ft", survey_foot },
-        { "ftus", survey_foot },
+      const OGRSpatialReference *system = data.GetSpatialRef();
+      const char *vertical              = system ? system->GetAttrValue("VERT_CS|UNIT") : nullptr;
+      std::string unit                  = data.GetRasterBand(1)->GetUnitType();
+      if (unit.empty() && vertical)
+        unit = vertical;
+      static const std::set<std::string> possible = {
+        "", "m", "metre", "meter", "metres", "meters", "degree", "degrees"
       };
-      std::string key = lower_case(unit);
-      if (key.size() > 2 && key.back() == 's')
-        key.pop_back(); // metres
-      const auto found = factors.find(key);
-      if (found == factors.end())
+      if (possible.count(lower_case(unit)) == 0)
         throw EntryError(name + "its values are in the unit " + scree::quoted(unit) +
-                         ". Write them in m, and gdal_edit.py -units m sets the unit.");
-      return found->second;
+                         ". gdal_translate -scale 0 1 0 FACTOR -a_srs EPSG:number IN OUT makes one in m; FACTOR is "
+                         "0.3048 for feet.");
     }
 
 
@@ -130,8 +119,7 @@ namespace scree
 
 
     /// Reads rows of the first band, from the north or the south; what its mask hides is NaN.
-    void
-    read_values(GDALDataset &data, const bool from_north, const double factor, const std::string &name, Raster &raster)
+    void read_values(GDALDataset &data, const bool from_north, const std::string &name, Raster &raster)
     {
       // The value for missing ones may be rounded otherwise than theirs; no height is as large as 1e30 m.
       constexpr double rounding = 1e-7, largest = 1e30;
@@ -154,7 +142,7 @@ namespace scree
             values[column] = mask[column] == 0 || !(std::abs(values[column]) < largest) ||
                                      std::abs(values[column] - missing) <= rounding * std::abs(missing)
                                  ? std::numeric_limits<double>::quiet_NaN()
-                                 : factor * (band.GetScale() * values[column] + band.GetOffset());
+                                 : band.GetScale() * values[column] + band.GetOffset();
         }
     }
   } // namespace
@@ -166,6 +154,9 @@ namespace scree
     std::ifstream in       = open_text(file, name);
     const QuietGdal quiet;
     const auto data = open(in, file, name);
+    if (const OGRSpatialReference *system = data->GetSpatialRef())
+      require_metres(*system, name);
+    require_values_in_metres(*data, name);
     double map[6]; // x = map[0] + map[1] column + map[2] row, y = map[3] + map[4] column + map[5] row
     if (data->GetGeoTransform(map) != CE_None)
       throw EntryError(name + "it does not say where it lies. Write one with coordinates: gdal_translate -a_ullr "
@@ -186,16 +177,7 @@ namespace scree
     raster.y              = map[3] + (from_north ? raster.n_rows - 0.5 : 0.5) * map[5] - origin[1];
     raster.system         = system_of(*data, file);
 
-    std::string unit = data->GetRasterBand(1)->GetUnitType();
-    if (const OGRSpatialReference *system = data->GetSpatialRef())
-      {
-        require_metres(*system, name);
-        if (const char *vertical = system->GetAttrValue("VERT_CS|UNIT"); unit.empty() && vertical)
-          unit = vertical;
-      }
-    const double factor = factor_of_unit(unit, name);
-    raster.unit         = factor == 1. ? "" : unit;
-    read_values(*data, from_north, factor, name, raster);
+    read_values(*data, from_north, name, raster);
     return raster;
   }
 

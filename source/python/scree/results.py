@@ -210,10 +210,6 @@ def _number(word):
         return np.nan
 
 
-FOOT, SURVEY_FOOT = 0.3048, 1200 / 3937  # m
-UNITS = {"ft": FOOT, "foot": FOOT, "feet": FOOT, "us survey foot": SURVEY_FOOT, "us-ft": SURVEY_FOOT, "ftus": SURVEY_FOOT}
-
-
 def _gdal():
     """Only maps need it."""
     from osgeo import gdal  # pylint: disable=import-outside-toplevel
@@ -238,12 +234,13 @@ def read_raster(path):
     x, width, row_x, y, column_y, height = data.GetGeoTransform()
     if row_x or column_y or abs(abs(height) - width) > 1e-6 * width:
         raise ValueError(f"{path}: its cells are {width:g} x {height:g} m. Write squares along the axes")
+    unit = band.GetUnitType() or (system and system.GetAttrValue("VERT_CS|UNIT")) or "m"
+    if re.search("f(oo|ee)?t", unit, re.IGNORECASE):
+        raise ValueError(f"{path}: its values are in {unit}. gdal_translate -scale 0 1 0 0.3048 -a_srs EPSG:number IN OUT makes one in m")
     missing = -9999. if band.GetNoDataValue() is None else band.GetNoDataValue()
     # As the program: the value for missing ones may be rounded otherwise than theirs.
     is_valid &= (np.abs(values) < 1e30) & ~(np.abs(values - missing) <= 1e-7 * abs(missing))
-    unit = band.GetUnitType() or (system and system.GetAttrValue("VERT_CS|UNIT")) or "m"
-    values = UNITS.get(unit.lower(), 1.) * ((band.GetScale() or 1.) * values + (band.GetOffset() or 0.))
-    values = np.where(is_valid, values, np.nan)
+    values = np.where(is_valid, (band.GetScale() or 1.) * values + (band.GetOffset() or 0.), np.nan)
     return Raster(values, x, y + height * len(values), width) if height < 0 else Raster(values[::-1], x, y, width)
 
 

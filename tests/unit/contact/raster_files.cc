@@ -62,7 +62,7 @@ void read_marked_values()
   };
   const std::string begin = R"(<VRTDataset rasterXSize="4" rasterYSize="2"><GeoTransform>0,1,0,2,0,-1</GeoTransform>)",
                     end   = "</VRTDataset>";
-  std::ofstream("alpha.vrt") << begin << band(1, "values.asc", "<UnitType>Feet</UnitType>")
+  std::ofstream("alpha.vrt") << begin << band(1, "values.asc", "<UnitType>Metre</UnitType>")
                              << band(2, "mask.asc", "<ColorInterp>Alpha</ColorInterp>") << end;
   std::ofstream("mask.vrt") << begin << band(1, "values.asc", "<Offset>0.5</Offset><Scale>0.1</Scale>") << "<MaskBand>"
                             << band(1, "mask.asc", "") << "</MaskBand>" << end;
@@ -72,8 +72,7 @@ void read_marked_values()
       std::cout << file << ':' << std::setprecision(16);
       for (const double value : raster.values)
         std::cout << ' ' << value;
-      std::cout << (raster.unit.empty() ? "" : " of " + raster.unit) << ", first at " << raster.x << ' ' << raster.y
-                << '\n';
+      std::cout << ", first at " << raster.x << ' ' << raster.y << '\n';
     }
 }
 
