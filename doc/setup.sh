@@ -13,7 +13,7 @@ fi
 
 # Packages -------------------------------------------------------------------------------------------------------------
 
-packages="libdeal.ii-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy xvfb${test_packages:+ $test_packages}"
+packages="libdeal.ii-dev libgdal-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy python3-gdal xvfb${test_packages:+ $test_packages}"
 
 missing_packages()
 {

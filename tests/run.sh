@@ -12,9 +12,9 @@ elif [ $# -gt 0 ]; then
   scope=named
 fi
 
-# For the tests alone: the layout of sources and scripts, docstrings, rasters of other formats, and the site of the documentation.
+# For the tests alone: the layout of sources and scripts, docstrings and the site of the documentation.
 # shellcheck disable=SC2034  # read in setup.sh
-test_packages="clang-format shellcheck pyflakes3 doxygen libgdal-dev python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-pandas python3-scipy snakemake"
+test_packages="clang-format shellcheck pyflakes3 doxygen python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-pandas python3-scipy snakemake"
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/../doc/setup.sh"
 
@@ -52,8 +52,8 @@ if [ "$scope" = quick ]; then
   run_tests build -L '^quick$' || failed=1
 else
   run_tests build "$@" || failed=1
-  # The first of the Debug tests compiles scree; without GDAL, so that this is tested, too.
-  configure_scree build-debug Debug -DCMAKE_DISABLE_FIND_PACKAGE_GDAL=ON && run_tests build-debug -L '^debug$' "$@" || failed=1
+  # The first of the Debug tests compiles scree.
+  configure_scree build-debug Debug && run_tests build-debug -L '^debug$' "$@" || failed=1
 fi
 [ -f "$root/build/tests.log" ] || [ -f "$root/build-debug/tests.log" ] || failed=1
 

@@ -199,12 +199,11 @@ namespace scree
                       "m; 3D. Map coordinates of the place x = 0, y = 0 of the case. Rasters, outlines and written "
                       "maps use map coordinates; everything else is relative to this place.",
                       Patterns::List(Patterns::Double(), 2, 2));
-    prm.add_parameter(
-        "Coordinate system",
-        coordinate_system,
-        "3D. Coordinate system of rasters and written maps, for instance EPSG:2056; needs a program built "
-        "with GDAL. Empty: that of the rasters, if one of them has a coordinate system or a .prj file.",
-        Patterns::Anything());
+    prm.add_parameter("Coordinate system",
+                      coordinate_system,
+                      "3D. Coordinate system of rasters and written maps, for instance EPSG:2056. Empty: that of the "
+                      "rasters, if one of them has a coordinate system or a .prj file.",
+                      Patterns::Anything());
     body_forces.add_parameters(prm);
     grid.add_parameters(prm);
     time_step.add_parameters(prm);

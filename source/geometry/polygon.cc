@@ -76,6 +76,7 @@ namespace scree
 
   Polygon checked_polygon(std::vector<Point<2>> corners, const std::string &name)
   {
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     if (corners.size() > 1 && corners.front() == corners.back())
       corners.pop_back();
     if (corners.size() < 3)

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/raster_format.h>
+#include <scree/geometry/raster.h>
 #include <scree/input/input_error.h>
-#include <scree/input/number_table.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <map>
 
 namespace scree
 {
@@ -119,76 +116,5 @@ namespace scree
   double Raster::value_or_zero_at(const double x, const double y) const
   {
     return bilinear(*this, x, y, [](const double value) { return std::isnan(value) ? 0. : value; });
-  }
-
-
-  namespace
-  {
-    struct RasterFormat
-    {
-      RasterClaim (*claim)(std::istream &, const std::string &);
-      Raster (*read)(std::istream &, const std::string &, const std::string &);
-      std::string (*system)(const std::string &, const std::string &);
-    };
-
-
-    /// Made at the first call, whichever source file registers first.
-    std::map<std::string, RasterFormat> &raster_formats()
-    {
-      static std::map<std::string, RasterFormat> all;
-      return all;
-    }
-  } // namespace
-
-
-  RegisterRasterFormat::RegisterRasterFormat(const std::string &name,
-                                             RasterClaim (*claim)(std::istream &, const std::string &),
-                                             Raster (*read)(std::istream &, const std::string &, const std::string &),
-                                             std::string (*system)(const std::string &, const std::string &))
-  {
-    raster_formats()[name] = { claim, read, system };
-  }
-
-
-  namespace
-  {
-    /// The format that claims a file most.
-    const RasterFormat &format_of(std::istream &in, const std::string &file)
-    {
-      const auto begin         = in.tellg();
-      const RasterFormat *best = nullptr;
-      RasterClaim strongest    = RasterClaim::none;
-      for (const auto &[format_name, format] : raster_formats())
-        {
-          const RasterClaim claim = format.claim(in, file);
-          in.clear();
-          in.seekg(begin);
-          if (claim > strongest)
-            strongest = claim, best = &format;
-        }
-      Assert(best != nullptr, dealii::ExcMessage("GDAL's format claims any file."));
-      return *best;
-    }
-  } // namespace
-
-
-  Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin)
-  {
-    const std::string name     = where + " = " + file + ": ";
-    std::ifstream in           = open_file(file, name);
-    const RasterFormat &format = format_of(in, file);
-    Raster raster              = format.read(in, file, name);
-    raster.system              = format.system(file, name);
-    raster.x -= origin[0];
-    raster.y -= origin[1];
-    return raster;
-  }
-
-
-  std::string read_raster_system(const std::string &file, const std::string &where)
-  {
-    const std::string name = where + " = " + file + ": ";
-    std::ifstream in       = open_file(file, name);
-    return format_of(in, file).system(file, name);
   }
 } // namespace scree

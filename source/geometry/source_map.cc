@@ -33,8 +33,8 @@ namespace scree
     add_file_entry(prm,
                    "Outline",
                    outline,
-                   "m; 3D. Areas on the map that enclose the body: polygons of a GeoJSON file (.geojson, .json) or "
-                   "shapefile (.shp), or a text file of the corners x, y of one polygon, one per line.");
+                   "m; 3D. Areas on the map that enclose the body: polygons of a GeoPackage, GeoJSON file, shapefile "
+                   "or other vector format of GDAL, or a text file of the corners x, y of one polygon, one per line.");
     add_file_entry(
         prm, "Closed surface", closed_surface, "m; 3D. STL file of the surface of the solid that the body occupies.");
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/raster_formats/raster_writer.h>
 #include <scree/input/input_error.h>
 #include <scree/io/output_parameters.h>
 
@@ -24,8 +23,8 @@ namespace scree
     prm.add_parameter("Format",
                       format,
                       "3D. File format of the maps. ASCII grid: ESRI ASCII grids (.asc), each with a .prj file if the "
-                      "coordinate system is known. GeoTIFF: compressed, with coordinate system (.tif); needs a "
-                      "program built with GDAL. ASCII grid and GeoTIFF: both.",
+                      "coordinate system is known. GeoTIFF: compressed, with coordinate system (.tif). "
+                      "ASCII grid and GeoTIFF: both.",
                       Patterns::Selection("ASCII grid|GeoTIFF|ASCII grid and GeoTIFF"));
     prm.leave_subsection();
   }
@@ -54,12 +53,6 @@ namespace scree
                   "Format",
                   format,
                   "maps of a scene in the plane are tables (.csv). Remove it.");
-    require_entry(!writes_geo_tiff() || can_write_geo_tiff(),
-                  subsection,
-                  "Format",
-                  format,
-                  "this program was built without GDAL, which writes GeoTIFF. Write \"ASCII grid\", or install "
-                  "libgdal-dev and build anew.");
   }
 
 

@@ -177,8 +177,8 @@ def profile():
 
 
 def geo_tiff():
-    """The block's maps as GeoTIFF have the values and places of the ASCII grids, and the coordinate system of the case; without GDAL this is
-    skipped. A run in one format removes the maps of another."""
+    """The block's maps as GeoTIFF have the values and places of the ASCII grids, and the coordinate system of the case.
+    A run in one format removes the maps of another."""
     formats = MAPS.replace("set Write ", "set Format          = ASCII grid and GeoTIFF\n    set Write ")
     case = BLOCK + formats
     results = run("geo_tiff", "set Coordinate system = EPSG:2056\n" + case)

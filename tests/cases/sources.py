@@ -6,10 +6,10 @@ Each test is a function below (case_tools.py).
 
 import json
 import pathlib
-import struct
 import sys
 
 import numpy as np
+from osgeo import gdal, ogr
 
 from scree.results import read_raster, read_statistics
 
@@ -115,27 +115,13 @@ def surfaces():
     check(abs(relative) <= 0.01, f"outline: {relative}")
 
 
-def write_shapefile(name, rings):
-    """A shapefile of one polygon; rings with their corners clockwise are edges, the others holes."""
-    corners = np.vstack(rings)
-    starts = np.cumsum([0] + [len(ring) for ring in rings[:-1]])
-    box = struct.pack("<4d", *corners.min(axis=0), *corners.max(axis=0))
-    content = struct.pack("<i", 5) + box + struct.pack(f"<2i{len(rings)}i", len(rings), len(corners), *starts) + corners.astype("<f8").tobytes()
-
-    def head(length):
-        return struct.pack(">7i", 9994, 0, 0, 0, 0, 0, length // 2) + struct.pack("<2i", 1000, 5) + box + bytes(32)
-    record = struct.pack(">2i", 1, len(content) // 2)
-    pathlib.Path(f"{name}.shp").write_bytes(head(108 + len(content)) + record + content)
-    pathlib.Path(f"{name}.shx").write_bytes(head(108) + struct.pack(">2i", 50, len(content) // 2))
-
-
 def rectangle(x, y, width, height):
     """Its corners, counter-clockwise, the first one at the end again."""
     return np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)], dtype=float)
 
 
 def outlines():
-    """Areas of a GeoJSON file and of a shapefile, several at once and with a hole, each with soil between two heights."""
+    """Areas of GeoJSON, GeoPackage and shapefile, several at once, with a hole and repeated corners, each with soil between two heights."""
     mountain()
     edge, hole, other, third = rectangle(1040, 2040, 60, 50), rectangle(1057, 2053, 20, 24), rectangle(1112, 2071, 33, 41), rectangle(1130, 2090, 25, 35)
     area, corner = 60 * 50 - 20 * 24 + 33 * 41, 15 * 22  # that two of them have in common
@@ -143,13 +129,16 @@ def outlines():
     def polygon(*rings):
         return [ring.tolist() for ring in rings]
     features = {"multi": [{"type": "MultiPolygon", "coordinates": [polygon(edge, hole), polygon(other)]}],
-                "two": [{"type": "Polygon", "coordinates": polygon(edge, hole)}, {"type": "Polygon", "coordinates": polygon(other)}],
+                "two": [{"type": "Polygon", "coordinates": polygon(np.repeat(edge, 2, axis=0), hole)}, {"type": "Polygon", "coordinates": polygon(other)}],
                 "overlap": [{"type": "Polygon", "coordinates": polygon(one)} for one in (other, third)]}
     for name, geometries in features.items():
         text = {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": one} for one in geometries]}
         pathlib.Path(f"{name}.geojson").write_text(json.dumps(text), encoding="utf-8")
-    write_shapefile("shape", [edge[::-1], hole, other[::-1]])
-    for file, exact in (("multi.geojson", area), ("two.geojson", area), ("shape.shp", area), ("overlap.geojson", 33 * 41 + 25 * 35 - corner)):
+    gdal.UseExceptions()
+    for file, made_of in (("multi.gpkg", "multi.geojson"), ("shape.shp", "two.geojson")):
+        gdal.VectorTranslate(file, made_of, options=["-a_srs", "EPSG:31254"])
+    gdal.OpenEx("multi.gpkg", gdal.OF_UPDATE).CreateLayer("layer_styles", geom_type=ogr.wkbNone)  # as QGIS does
+    for file, exact in (("multi.gpkg", area), ("two.geojson", area), ("shape.shp", area), ("overlap.geojson", 33 * 41 + 25 * 35 - corner)):
         mass = mass_of(run(f"in_{file}", TEXT % f"  set Region = z > 202.5 && z < 220\n  set Outline = ../{file}"))
         relative = mass / (DENSITY * exact * 17.5) - 1
         print(f"{file}: mass over the exact one - 1: {relative:.2e}")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// messages SOURCE SCRATCH with_gdal|without_gdal: all wrong cases of tests/errors and the command lines below, one
+// messages SOURCE SCRATCH: all wrong cases of tests/errors and the command lines below, one
 // after the other in this process. Each X.prm must end at once with what X.expected says, and nothing else, on standard
 // error of all ranks together, and with exit code 1, or 0 if nothing is expected. Those that do not are listed at the
 // end.
@@ -71,10 +71,6 @@ namespace
     { "element_rigid", { "element_rigid.part" }, /* is_for_element */ true },
   };
 
-  bool ends_with(const std::string &text, const std::string &end)
-  {
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-  }
 
   std::string content(const fs::path &file)
   {
@@ -83,12 +79,11 @@ namespace
   }
 
 
-  std::vector<Case> all_cases(const fs::path &source, const bool with_gdal)
+  std::vector<Case> all_cases(const fs::path &source)
   {
     std::vector<Case> cases = command_lines;
     for (const auto &entry : fs::directory_iterator(source))
-      if (const std::string name = entry.path().stem();
-          entry.path().extension() == ".prm" && !ends_with(name, with_gdal ? "_without_gdal" : "_with_gdal"))
+      if (const std::string name = entry.path().stem(); entry.path().extension() == ".prm")
         cases.push_back({ name, { name + ".prm" } });
     std::sort(cases.begin(), cases.end(), [](const Case &a, const Case &b) { return a.name < b.name; });
     return cases;
@@ -103,9 +98,8 @@ namespace
       names.insert(one.name);
     std::vector<std::string> left;
     for (const auto &entry : fs::directory_iterator(source))
-      if (const std::string name = entry.path().stem(); entry.path().extension() == ".expected" &&
-                                                        names.count(name) == 0 && !ends_with(name, "_with_gdal") &&
-                                                        !ends_with(name, "_without_gdal"))
+      if (const std::string name = entry.path().stem();
+          entry.path().extension() == ".expected" && names.count(name) == 0)
         left.push_back(name + ".expected");
     return left;
   }
@@ -276,13 +270,13 @@ namespace
   }
 
 
-  int test(const fs::path &source, const fs::path &scratch, const bool with_gdal)
+  int test(const fs::path &source, const fs::path &scratch)
   {
     using namespace dealii::Utilities::MPI;
     const unsigned int rank = this_mpi_process(MPI_COMM_WORLD), n_ranks = n_mpi_processes(MPI_COMM_WORLD);
     const fs::path folder = scratch / "cases", error = scratch / ("error." + std::to_string(rank));
 
-    std::vector<Case> cases = all_cases(source, with_gdal);
+    std::vector<Case> cases = all_cases(source);
     if (n_ranks > 1)
       std::reverse(cases.begin(), cases.end());
 
@@ -332,11 +326,11 @@ namespace
 int main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (argc != 4)
+  if (argc != 3)
     return 1;
   try
     {
-      return test(fs::absolute(argv[1]), fs::absolute(argv[2]), argv[3] == std::string("with_gdal"));
+      return test(fs::absolute(argv[1]), fs::absolute(argv[2]));
     }
   catch (const std::exception &error)
     {

@@ -96,8 +96,10 @@ def test_command_line():
 
 
 def test_tables():
-    write("german.csv", "# Versuch 1\nDehnung (%);q (kPa)\n0;0\n0,5;12,5\n;\n1;\n")
-    texts, lines = laboratory.read_csv(pathlib.Path("german.csv"))
+    for encoding in ("utf-8-sig", "latin-1"):
+        pathlib.Path("german.csv").write_text("# Größe 1\nLängung (%);q (kPa)\n0;0\n0,5;12,5\n;\n1;\n", encoding=encoding)
+        texts, lines = laboratory.read_csv(pathlib.Path("german.csv"))
+        assert list(texts) == ["Längung (%)", "q (kPa)"], texts
     assert lines == [3, 4, 6], lines
     np.testing.assert_array_equal(laboratory.numbers("german.csv", "q (kPa)", texts["q (kPa)"], lines), [0, 12.5, np.nan])
     write("short.csv", "a,b\n1\n")
@@ -167,10 +169,14 @@ def test_oedometer():
     section = synthetic("oedometer", "oedometer", {"Material": "Mohr-Coulomb", **truth}, 0.05, ["axial_strain", "vertical_stress", "lateral_stress"], 0.01)
     write("oedometer.toml", free({"Mohr-Coulomb/Friction angle": (32, 20, 45), "Mohr-Coulomb/Young's modulus": (1.5e7, 1e6, 1e9, "logarithmic"),
                                   "Mohr-Coulomb/Poisson's ratio": (0.12, 0.05, 0.3)}) + section)
-    found, _ = fitted("oedometer.toml")
+    found, told = fitted("oedometer.toml")
     check_recovered("oedometer", found, truth)
     again, _ = fitted("oedometer.toml", "2")
     assert again == found
+    # What no value of the free entry follows is flagged: here a wrong unit.
+    write("unit.toml", free({"Mohr-Coulomb/Friction angle": (32, 20, 45)})
+          + section.replace('"vertical_stress", unit = "kPa"', '"vertical_stress", unit = "Pa"'))
+    assert "MISFIT" not in told and "FLAG  MISFIT: the law misses vertical_stress of oedometer by" in fitted("unit.toml")[1]
 
 
 def test_erksak():

@@ -14,7 +14,7 @@ from scipy import stats
 
 from scree import results, variants
 from scree.results import Raster
-from scree.scenarios import evaluation, observed, sampling, study
+from scree.scenarios import evaluation, observed, page, sampling, study
 
 CASE = """set End time = 2e-3
 set Output directory = run
@@ -160,22 +160,34 @@ def test_observed():
 
 def test_maps():
     """A map gets the format of another one; also as GeoTIFF, with its system of coordinates."""
-    from PIL import Image, TiffImagePlugin  # pylint: disable=import-outside-toplevel
+    from osgeo import gdal, osr  # pylint: disable=import-outside-toplevel
     given = Raster(np.array([[1., np.nan], [3., 4.], [0.5, 2.]]), 1e6, 2e5, 10.)
-    directory = TiffImagePlugin.ImageFileDirectory_v2()
-    for tag, kind, value in ((33550, 12, (10., 10., 0.)), (33922, 12, (0., 0., 0., 0., 0., 0.)), (34735, 3, (1, 1, 0, 1, 3072, 0, 1, 31254))):
-        directory.tagtype[tag] = kind
-        directory[tag] = value
-    Image.fromarray(np.zeros((2, 2), np.float32)).save("like.tif", tiffinfo=directory)
+    system = osr.SpatialReference()
+    system.ImportFromEPSG(31254)
+    like = gdal.GetDriverByName("GTiff").Create("like.TIF", 2, 2, 1, gdal.GDT_Int16)
+    like.SetGeoTransform((0, 10, 0, 20, 0, -10))
+    like.SetSpatialRef(system)
+    band = like.GetRasterBand(1)
+    band.SetScale(0.1)
+    band.SetOffset(1)
+    band.WriteArray(np.array([[10, 20], [30, 40]]))
+    like.CreateMaskBand(gdal.GMF_PER_DATASET)
+    band.GetMaskBand().WriteArray(np.array([[255, 255], [0, 255]]))
+    band = like = None  # writes the file
+    np.testing.assert_allclose(results.read_raster("like.TIF").values, [[2, 3], [np.nan, 5]])
+    like = gdal.Open("like.TIF", gdal.GA_Update)
+    like.GetRasterBand(1).SetUnitType("US survey foot")
+    like = None
+    raises("its values are in US survey foot", results.read_raster, "like.TIF")
     pathlib.Path("like.asc").write_text("", encoding="utf-8")
     pathlib.Path("like.prj").write_text("PROJCS", encoding="utf-8")
-    for ending in ("tif", "asc"):
-        results.write_map(f"map.{ending}", given, f"like.{ending}")
-        found = results.read_raster(f"map.{ending}")
+    for name in ("map.TIF", "map.tiff", "map.asc"):
+        results.write_map(name, given, "like.asc" if name == "map.asc" else "like.TIF")
+        found = results.read_raster(name)
         np.testing.assert_allclose(found.values, given.values)
         assert found[1:] == given[1:] and pathlib.Path("map.prj").read_text(encoding="utf-8") == "PROJCS"
-    with Image.open("map.tif") as image:
-        assert image.tag_v2[34735] == (1, 1, 0, 1, 3072, 0, 1, 31254)
+        assert name == "map.asc" or gdal.Open(name).GetSpatialRef().GetAuthorityCode(None) == "31254"
+    assert page._cell(5200012.34) == "5200012.34"  # pylint: disable=protected-access
 
 
 # Errors ---------------------------------------------------------------------------------------------------------------

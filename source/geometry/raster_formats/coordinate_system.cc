@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/raster_formats/coordinate_system.h>
+#include <scree/geometry/raster_formats/quiet_gdal.h>
 #include <scree/input/input_error.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cpl_conv.h>
 #include <memory>
+#include <ogr_spatialref.h>
 #include <optional>
-
-#ifdef SCREE_WITH_GDAL
-#  include <scree/geometry/raster_formats/quiet_gdal.h>
-
-#  include <cpl_conv.h>
-#  include <ogr_spatialref.h>
-#endif
 
 namespace scree
 {
@@ -37,7 +33,6 @@ namespace scree
     }
 
 
-#ifdef SCREE_WITH_GDAL
     /// Nothing if GDAL does not know it. Files and the network are not asked.
     std::optional<OGRSpatialReference> known_system(const std::string &system)
     {
@@ -58,25 +53,19 @@ namespace scree
       const double x_before = x, y_before = y;
       return transformation && transformation->Transform(1, &x, &y) && std::hypot(x - x_before, y - y_before) < 1e-3;
     }
-#endif
   } // namespace
 
 
   bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
   {
-#ifdef SCREE_WITH_GDAL
     // Names are no proof: projections of one's own are often called "unknown".
     const QuietGdal quiet;
     if (const auto first = known_system(one), second = known_system(other); first && second)
       return first->IsSame(&*second) || has_same_coordinates(*first, *second, place[0], place[1]);
-#else
-    (void)place;
-#endif
     return letters_of_name(one) == letters_of_name(other);
   }
 
 
-#ifdef SCREE_WITH_GDAL
   void require_system_in_metres(const std::string &text, const std::string &name)
   {
     const QuietGdal quiet;
@@ -106,8 +95,10 @@ namespace scree
   }
 
 
-  std::string text_of_system(const OGRSpatialReference &system)
+  std::string text_of_system(const OGRSpatialReference &with_heights)
   {
+    OGRSpatialReference system(with_heights);
+    system.StripVertical();
     const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
     if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
       return std::string("EPSG:") + code;
@@ -118,18 +109,4 @@ namespace scree
     CPLFree(text);
     return wkt;
   }
-
-#else
-  void require_system_in_metres(const std::string &, const std::string &name)
-  {
-    throw EntryError(name + "this program was built without GDAL, which knows the systems. Remove the entry and put a "
-                            ".prj file beside the raster, or install libgdal-dev and build anew.");
-  }
-
-
-  std::string prj_text(const std::string &text)
-  {
-    return text;
-  }
-#endif
 } // namespace scree

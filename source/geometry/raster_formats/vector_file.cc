@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/outline.h>
 #include <scree/geometry/raster_formats/coordinate_system.h>
+#include <scree/geometry/raster_formats/quiet_gdal.h>
 #include <scree/input/input_error.h>
 #include <scree/input/number_table.h>
 
 #include <filesystem>
+#include <gdal_priv.h>
 #include <memory>
+#include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
 #include <utility>
-
-#ifdef SCREE_WITH_GDAL
-#  include <scree/geometry/raster_formats/quiet_gdal.h>
-
-#  include <gdal_priv.h>
-#  include <ogr_spatialref.h>
-#  include <ogrsf_frmts.h>
-#endif
 
 namespace scree
 {
@@ -26,7 +22,6 @@ namespace scree
     /// holes.
     using Rings = std::vector<std::vector<Point<2>>>;
 
-#ifdef SCREE_WITH_GDAL
     std::unique_ptr<GDALDataset> open(const std::string &file, const std::string &name)
     {
       GDALAllRegister();
@@ -34,10 +29,21 @@ namespace scree
           GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
       if (!data)
         throw EntryError(name + "GDAL cannot read it: " + CPLGetLastErrorMsg());
-      if (data->GetLayerCount() != 1)
-        throw EntryError(name + "it has " + std::to_string(data->GetLayerCount()) +
-                         " layers. Write a file with one layer of polygons.");
       return data;
+    }
+
+
+    /// The one layer with geometry: a GeoPackage of QGIS has one of styles, too.
+    OGRLayer &only_layer(GDALDataset &data, const std::string &name)
+    {
+      std::vector<OGRLayer *> layers;
+      for (OGRLayer *layer : data.GetLayers())
+        if (layer->GetGeomType() != wkbNone)
+          layers.push_back(layer);
+      if (layers.size() != 1)
+        throw EntryError(name + "it has " + std::to_string(layers.size()) +
+                         " layers with geometry. Write a file with one layer of polygons.");
+      return *layers.front();
     }
 
 
@@ -71,7 +77,7 @@ namespace scree
       const QuietGdal quiet;
       const auto data = open(file, name);
       std::vector<Rings> areas;
-      for (const auto &feature : data->GetLayer(0))
+      for (const auto &feature : only_layer(*data, name))
         if (const OGRGeometry *geometry = feature->GetGeometryRef(); geometry != nullptr && !geometry->IsEmpty())
           collect(*geometry, name, areas);
       if (areas.empty())
@@ -80,44 +86,34 @@ namespace scree
     }
 
 
-    /// The coordinate system of such a file; empty if it has none, and without GDAL.
+    /// The coordinate system of such a file; empty if it has none.
     std::string system_of_vector_file(const std::string &file, const std::string &name)
     {
       const QuietGdal quiet;
       const auto data                   = open(file, name);
-      OGRLayer *layer                   = data->GetLayer(0);
-      const OGRSpatialReference *system = layer->GetSpatialRef();
+      OGRLayer &layer                   = only_layer(*data, name);
+      const OGRSpatialReference *system = layer.GetSpatialRef();
       if (system == nullptr)
         return "";
       // GDAL takes a GeoJSON file that names no system for one in degrees, as its standard does; in m it cannot be.
       OGREnvelope box;
-      const bool is_known = layer->GetExtent(&box) == OGRERR_NONE;
+      const bool is_known = layer.GetExtent(&box) == OGRERR_NONE;
       if (system->IsGeographic() && is_known &&
           (box.MinX < -360. || box.MaxX > 360. || box.MinY < -90. || box.MaxY > 90.))
         return "";
       return text_of_system(*system);
     }
 
-#else
-    std::vector<Rings> read_polygons(const std::string &, const std::string &name)
-    {
-      throw EntryError(name +
-                       "this program was built without GDAL, which reads such files. Write the corners as x, y, one a "
-                       "line, into a text file, or install libgdal-dev and build anew.");
-    }
 
-
-    std::string system_of_vector_file(const std::string &, const std::string &)
-    {
-      return ""; // read_polygons() tells why
-    }
-#endif
-
-
+    /// Whether GDAL reads the file, or its name says so; else it is a text of corners, which may look like a CSV file.
     bool is_vector_file(const std::string &file)
     {
+      GDALAllRegister();
+      const QuietGdal quiet;
       const std::string ending = lower_case(std::filesystem::path(file).extension().string());
-      return ending == ".geojson" || ending == ".json" || ending == ".shp";
+      const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
+      return (driver != nullptr && GDALGetDriverShortName(driver) != std::string("CSV")) || ending == ".geojson" ||
+             ending == ".json" || ending == ".shp" || ending == ".gpkg";
     }
   } // namespace
 

@@ -61,7 +61,7 @@ class Box(NamedTuple):
 
 
 class Raster(NamedTuple):
-    """An ESRI ASCII grid or a GeoTIFF: values, the northern row first, nan where there are none; lower corner and width of a cell, m."""
+    """A raster: values, the northern row first, nan where there are none; lower corner and width of a cell, m."""
     values: np.ndarray
     x: float
     y: float
@@ -210,72 +210,60 @@ def _number(word):
         return np.nan
 
 
+def _gdal():
+    """Only maps need it."""
+    from osgeo import gdal  # pylint: disable=import-outside-toplevel
+    gdal.UseExceptions()
+    gdal.SetConfigOption("AAIGRID_DATATYPE", "Float64")
+    return gdal
+
+
 def read_raster(path):
-    """An ESRI ASCII grid, or a GeoTIFF if the name ends in .tif. Throws a ValueError at what is neither."""
-    if pathlib.Path(path).suffix == ".tif":
-        return _read_geo_tiff(path)
-    head, rows = {}, []
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            words = line.split()
-            if words and words[0][0].isalpha():
-                head[words[0].lower()] = float(words[1])
-            elif words:
-                rows += words
+    """The first band of a raster in any format of GDAL, with square cells along the axes. Throws a ValueError at what is none."""
     try:
-        columns, lines, width = int(head["ncols"]), int(head["nrows"]), head["cellsize"]
-        corner = [head[f"{axis}llcorner"] if f"{axis}llcorner" in head else head[f"{axis}llcenter"] - width / 2 for axis in "xy"]
-        values = np.array(rows, dtype=float).reshape(lines, columns)
-    except (KeyError, ValueError) as error:
-        raise ValueError(f"{path} is no ESRI ASCII grid ({error})") from error
-    return Raster(np.where(values == head.get("nodata_value", -9999), np.nan, values), *corner, width)
-
-
-PIXEL_SCALE, TIE_POINT, NO_DATA, GEO_KEYS = 33550, 33922, 42113, (34735, 34736, 34737)  # numbers of a GeoTIFF's tags
-
-
-def _read_geo_tiff(path):
-    """The first band of a GeoTIFF with square cells along the axes."""
-    # Only maps need Pillow.
-    from PIL import Image, UnidentifiedImageError  # pylint: disable=import-outside-toplevel
-    try:
-        with Image.open(path) as image:
-            tags = dict(image.tag_v2)
-            values = np.array(image, dtype=float)
-        width = tags[PIXEL_SCALE][0]
-        column, row, _, x, y, _ = tags[TIE_POINT]
-    except (AttributeError, KeyError, UnidentifiedImageError) as error:
-        raise ValueError(f"{path} is no GeoTIFF ({error})") from error
-    missing = float(str(tags.get(NO_DATA, "nan")).strip("\0 "))
-    return Raster(np.where(values == missing, np.nan, values), x - column * width, y + (row - values.shape[0]) * width, width)
+        data = _gdal().Open(str(path))
+        band, system = data.GetRasterBand(1), data.GetSpatialRef()
+        values, is_valid = band.ReadAsArray().astype(float), band.GetMaskBand().ReadAsArray() > 0
+    except (AttributeError, RuntimeError) as error:
+        raise ValueError(f"{path}: GDAL reads no raster ({error})") from error
+    if data.GetDriver().ShortName == "AAIGrid":  # of which GDAL reads what is missing at the end as 0
+        words = pathlib.Path(path).read_text(encoding="utf-8").split()
+        n_keys = sum(word[0].isalpha() and word.lower() != "nan" for word in words)
+        if len(words) != values.size + 2 * n_keys:
+            raise ValueError(f"{path} has {len(words) - 2 * n_keys} values in place of {values.size}")
+    x, width, row_x, y, column_y, height = data.GetGeoTransform()
+    if row_x or column_y or abs(abs(height) - width) > 1e-6 * width:
+        raise ValueError(f"{path}: its cells are {width:g} x {height:g} m. Write squares along the axes")
+    unit = band.GetUnitType() or (system and system.GetAttrValue("VERT_CS|UNIT")) or "m"
+    if re.search("f(oo|ee)?t", unit, re.IGNORECASE):
+        raise ValueError(f"{path}: its values are in {unit}. gdal_translate -scale 0 1 0 0.3048 -a_srs EPSG:number IN OUT makes one in m")
+    missing = -9999. if band.GetNoDataValue() is None else band.GetNoDataValue()
+    # As the program: the value for missing ones may be rounded otherwise than theirs.
+    is_valid &= (np.abs(values) < 1e30) & ~(np.abs(values - missing) <= 1e-7 * abs(missing))
+    values = np.where(is_valid, (band.GetScale() or 1.) * values + (band.GetOffset() or 0.), np.nan)
+    return Raster(values, x, y + height * len(values), width) if height < 0 else Raster(values[::-1], x, y, width)
 
 
 def write_map(path, raster, like):
-    """Writes a raster in the format and the system of coordinates of the file `like`, and with its .prj file; -9999 where there is no value."""
+    """Writes a GeoTIFF (.tif, .tiff), else an ESRI ASCII grid, in the system of coordinates of the file `like`; -9999 where there is no value."""
     path, like = pathlib.Path(path), pathlib.Path(like)
     values = np.where(np.isfinite(raster.values), raster.values, -9999.)
-    if like.suffix == ".tif":
-        _write_geo_tiff(path, raster, values, like)
+    rows, columns = values.shape
+    if path.suffix.lower() in (".tif", ".tiff"):
+        gdal = _gdal()
+        data = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, gdal.GDT_Float32, ["COMPRESS=DEFLATE"])
+        data.SetGeoTransform((raster.x, raster.width, 0., raster.y + rows * raster.width, 0., -raster.width))
+        if (system := gdal.Open(str(like)).GetSpatialRef()) is not None:
+            system.StripVertical()
+            data.SetSpatialRef(system)
+        data.GetRasterBand(1).SetNoDataValue(-9999.)
+        data.GetRasterBand(1).WriteArray(values)
     else:
-        rows, columns = values.shape
         with open(path, "w", encoding="utf-8") as file:
             file.write(f"ncols {columns}\nnrows {rows}\nxllcorner {raster.x:.12g}\nyllcorner {raster.y:.12g}\ncellsize {raster.width:.12g}\nNODATA_value -9999\n")
             np.savetxt(file, values, fmt="%.6g")
     if like.with_suffix(".prj").exists():
         path.with_suffix(".prj").write_bytes(like.with_suffix(".prj").read_bytes())
-
-
-def _write_geo_tiff(path, raster, values, like):
-    """`values`: those of the raster, -9999 where there is none."""
-    from PIL import Image, TiffImagePlugin  # pylint: disable=import-outside-toplevel
-    with Image.open(like) as image:
-        tags, kinds = dict(image.tag_v2), dict(image.tag_v2.tagtype)
-    directory = TiffImagePlugin.ImageFileDirectory_v2()
-    for tag, value in {**{tag: tags[tag] for tag in GEO_KEYS if tag in tags}, PIXEL_SCALE: (raster.width, raster.width, 0.), NO_DATA: "-9999",
-                       TIE_POINT: (0., 0., 0., raster.x, raster.y + values.shape[0] * raster.width, 0.)}.items():
-        directory.tagtype[tag] = kinds.get(tag, TiffImagePlugin.TiffTags.ASCII)
-        directory[tag] = value
-    Image.fromarray(values.astype(np.float32)).save(path, tiffinfo=directory)
 
 
 def write_raster(path, values, spacing):

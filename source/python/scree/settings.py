@@ -9,7 +9,7 @@ def read(file, keys, tables):
     """The content of a file whose entries are `keys`, of which `tables` are tables. Throws a ValueError with file, entry, value and remedy."""
     try:
         given = tomllib.loads(file.read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{file}: {error}. Strings and names with blanks or slashes stand in quotes") from error
     for key in given:
         if key not in keys:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Rasters that are written and read again, in each format: values, place, missing values and coordinate system. Names
-// of one system differ by program. Without GDAL, GeoTIFF is left out.
+// of one system differ by program.
 #include "../unit_test.h"
 
 #include <scree/geometry/raster_formats/coordinate_system.h>
@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <limits>
 
@@ -44,6 +45,38 @@ std::string difference(const Raster &one, const Raster &other)
 }
 
 
+/// Values of one row that a text gives, after what GDAL lets a file say of them: NODATA that is rounded otherwise,
+/// scale, offset, unit, mask and alpha band; and a table of places from the south.
+void read_marked_values()
+{
+  const std::string head = "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  std::ofstream("rounded.asc") << head << "NODATA_value -3.4028234663852886e+38\n"
+                               << "0.1 -3.40282346639e+38 1e31 nan\n100.123456789012 1 1 -9999\n";
+  std::ofstream("values.asc") << head << "1 2 3 4\n5 6 7 8\n";
+  std::ofstream("mask.asc") << head << "1 0 1 1\n1 1 1 0\n";
+  std::ofstream("places.xyz") << "0 0 1\n1 0 2\n0 1 3\n1 1 4\n";
+  const auto band = [](const int number, const std::string &file, const std::string &more) {
+    return "<VRTRasterBand dataType=\"Float64\" band=\"" + std::to_string(number) + "\">" + more +
+           "<SimpleSource><SourceFilename relativeToVRT=\"1\">" + file +
+           "</SourceFilename></SimpleSource></VRTRasterBand>";
+  };
+  const std::string begin = R"(<VRTDataset rasterXSize="4" rasterYSize="2"><GeoTransform>0,1,0,2,0,-1</GeoTransform>)",
+                    end   = "</VRTDataset>";
+  std::ofstream("alpha.vrt") << begin << band(1, "values.asc", "<UnitType>Metre</UnitType>")
+                             << band(2, "mask.asc", "<ColorInterp>Alpha</ColorInterp>") << end;
+  std::ofstream("mask.vrt") << begin << band(1, "values.asc", "<Offset>0.5</Offset><Scale>0.1</Scale>") << "<MaskBand>"
+                            << band(1, "mask.asc", "") << "</MaskBand>" << end;
+  for (const std::string file : { "rounded.asc", "alpha.vrt", "mask.vrt", "places.xyz" })
+    {
+      const Raster raster = read_raster(file, "entry", { 0., 0. });
+      std::cout << file << ':' << std::setprecision(16);
+      for (const double value : raster.values)
+        std::cout << ' ' << value;
+      std::cout << ", first at " << raster.x << ' ' << raster.y << '\n';
+    }
+}
+
+
 void run()
 {
   const std::string system = R"(PROJCS["CH1903+_LV95",GEOGCS["GCS_CH1903+",DATUM["D_CH1903+",)"
@@ -60,20 +93,18 @@ void run()
   std::cout << ascii_grid(raster)
             << "difference of the ASCII grid: " << difference(raster, read_raster("map.asc", "entry", { 0., 0. }))
             << '\n';
-  if (can_write_geo_tiff())
-    {
-      std::ofstream("map.tif", std::ios::binary) << geo_tiff(raster, "thickness", "m");
-      const Raster read = read_raster("map.tif", "entry", { 0., 0. });
-      std::ofstream("code.tif", std::ios::binary) << geo_tiff(some_raster("EPSG:31254"), "thickness", "m");
-      if (difference(raster, read) != "none" || read.system != "EPSG:2056" ||
-          read_raster_system("code.tif", "entry") != "EPSG:31254" ||
-          !is_same_system(prj_text("EPSG:31254"), "EPSG:31254", { 0., 2e5 }) ||
-          is_same_system(system, "EPSG:31254", { 0., 2e5 }))
-        std::cout << "GeoTIFF: difference " << difference(raster, read) << ", system " << read.system << '\n';
-    }
+  std::ofstream("map.tif", std::ios::binary) << geo_tiff(raster, "thickness", "m");
+  const Raster read = read_raster("map.tif", "entry", { 0., 0. });
+  std::ofstream("code.tif", std::ios::binary) << geo_tiff(some_raster("EPSG:31254"), "thickness", "m");
+  if (difference(raster, read) != "none" || read.system != "EPSG:2056" ||
+      read_raster_system("code.tif", "entry") != "EPSG:31254" ||
+      !is_same_system(prj_text("EPSG:31254"), "EPSG:31254", { 0., 2e5 }) ||
+      is_same_system(system, "EPSG:31254", { 0., 2e5 }))
+    std::cout << "GeoTIFF: difference " << difference(raster, read) << ", system " << read.system << '\n';
   std::cout << "other words: " << is_same_system(system, R"(PROJCS["CH1903+ / LV95"])", { 0., 0. })
             << ", another system: " << is_same_system(system, R"(PROJCS["MGI_Austria_GK_West"])", { 0., 0. })
             << ", name: " << name_of_system(system) << ", code: " << name_of_system("EPSG:2056") << '\n';
+  read_marked_values();
 }
 
 const UnitTest registered_test("raster_files", run);

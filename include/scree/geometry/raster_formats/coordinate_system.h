@@ -15,7 +15,7 @@ namespace scree
   void require_system_in_metres(const std::string &system, const std::string &name);
 
   /// Whether both texts, each a code or that of a .prj file, are of the same system: also if they name it otherwise but
-  /// have the place, m, at the same coordinates. Without GDAL only names are compared.
+  /// have the place, m, at the same coordinates. Only names are compared of what GDAL does not know.
   bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place);
 
   /// What a message calls a system: its code, or its name in the text of a .prj file.
@@ -24,7 +24,7 @@ namespace scree
   /// The text of a .prj file.
   std::string prj_text(const std::string &system);
 
-  /// The code of the EPSG if the system has it, else the text of a .prj file. With GDAL only.
+  /// The code of the EPSG if the system has it, else the text of a .prj file; without its vertical part.
   std::string text_of_system(const OGRSpatialReference &system);
 } // namespace scree
 

@@ -14,9 +14,6 @@ namespace scree
   /// The content of an ESRI ASCII grid.
   std::string ascii_grid(const Raster &raster);
 
-  /// Whether the program can write GeoTIFF: it was built with GDAL.
-  bool can_write_geo_tiff();
-
   /// The content of a GeoTIFF of one band of 32-bit numbers, in the raster's system of coordinates.
   /// @param name of the band, such as `thickness`
   /// @param unit of its values

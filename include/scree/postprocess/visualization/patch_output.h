@@ -71,7 +71,10 @@ namespace scree
         }
       std::ostringstream text;
       this->write_vtu(text);
-      return with_component_names(text.str());
+      std::string vtu = with_component_names(text.str());
+      if (patches.empty()) // deal.II writes no element Points then, but VTK asks for one.
+        vtu.insert(vtu.find("<Cells>"), R"(<Points><DataArray type="Float32" NumberOfComponents="3"/></Points>)");
+      return vtu;
     }
 
     /// See Picture.

@@ -58,7 +58,12 @@ class Column(NamedTuple):
 def read_csv(file):
     """{name: texts} and the line numbers. Lines that begin with # are comments; the first other one has the names. Separator: comma, semicolon or tab;
     with the latter two a comma may be the decimal sign. Throws a ValueError."""
-    lines = [(number, line) for number, line in enumerate(file.read_text(encoding="utf-8-sig").splitlines(), 1) if line.strip(" ,;\t") and line.strip()[0] != "#"]
+    content = file.read_bytes()
+    try:
+        content = content.decode("utf-8-sig")
+    except UnicodeDecodeError:  # as spreadsheets of Windows write
+        content = content.decode("latin-1")
+    lines = [(number, line) for number, line in enumerate(content.splitlines(), 1) if line.strip(" ,;\t") and line.strip()[0] != "#"]
     if len(lines) < 2:
         raise ValueError(f"{file} has no rows. The first line that is no comment has the names of the columns, the others have numbers")
     separator = max(";\t,", key=lines[0][1].count)

@@ -14,6 +14,7 @@ STEP = 1e-4  # of differences, of the distance between the bounds
 FAILED = 10.  # difference from all values of a test whose path fails, as a multiple of the largest
 NEAR = 1e-2  # of the distance between the bounds: at the bound
 FLOOR = 1e-10  # of eigenvalues, of the largest
+POOR = 0.25  # rms difference that is flagged, of the largest value of a column
 STRONG = 0.95  # correlation that is flagged
 SEED = 1
 
@@ -104,7 +105,7 @@ def solve(problem, runs, tell=print):
     deviations, correlation = uncertainty(problem, found.fun, found.jac)
     values = fit.values(found.x)
     sigma = deviations * np.array([parameter.slope(place) for parameter, place in zip(problem.parameters, found.x)])
-    flags = _flags(problem, found, values, deviations, sigma, correlation)
+    flags = _flags(problem, laws, found, values, deviations, sigma, correlation)
     return Solution(values, sigma, correlation, flags, laws, float(np.sum(found.fun**2)), float(np.sum(given**2)), found.nfev, time.monotonic() - fit.begin)
 
 
@@ -154,11 +155,18 @@ def uncertainty(problem, residuals, jacobian):
     return sigma, correlation
 
 
-def _flags(problem, found, values, deviations, sigma, correlation):
+def _flags(problem, laws, found, values, deviations, sigma, correlation):
     """Sentences: what is not to be trusted."""
     flags = []
     if found.status == 0:
         flags.append(f'NOT CONVERGED after {found.nfev} evaluations. Write a larger "evaluations", or start closer')
+    for test, table in zip(problem.tests, laws):
+        for column in test.columns:
+            differences = column.differences(laboratory.at_rows(column, test.coordinate, table, test.strain))
+            if (rms := np.sqrt(np.sum(column.row_weights * differences**2))) > POOR:
+                flags.append(f"MISFIT: the law misses {column.name} of {test.name} by {100 * rms:.3g} % of its "
+                             + ("range" if column.is_strain else "values" if column.is_logarithmic else "largest value")
+                             + " (rms). Look at fit.png, check the unit of the column, free other entries, or choose another law")
     for number, (parameter, value) in enumerate(zip(problem.parameters, values)):
         for bound, distance in (("low", found.x[number]), ("high", 1 - found.x[number])):
             if distance < NEAR and not np.isnan(sigma[number]):

@@ -71,7 +71,7 @@ def column(result):
 
 
 def _cell(value):
-    return f"{value:.6g}" if np.isfinite(value) else ""
+    return f"{value:.9g}" if np.isfinite(value) else ""  # national coordinates to 1 cm
 
 
 # Maps and pictures ----------------------------------------------------------------------------------------------------

@@ -216,8 +216,8 @@ def _check_factor(study, one, value):
         elif not is_listed:
             float(value)
     except ValueError as error:
-        raise settings.fault(study.file, one.entry, one.distribution.text(), f'a factor needs a number or a raster, and the value of the case is "{value}"',
-                     "factors") from error
+        fault = error if raster else f'a factor needs a number or a raster, and the value of the case is "{value}"'
+        raise settings.fault(study.file, one.entry, one.distribution.text(), fault, "factors") from error
     if min(one.distribution.numbers["values"] if one.distribution.is_list else [one.distribution.quantile(0)]) < 0:
         raise settings.fault(study.file, one.entry, one.distribution.text(), "a factor below 0 may occur. Set low = 0 or more", "factors")
 
@@ -253,7 +253,7 @@ def write_case(study, row, target, entries=None):
         if raster is None:
             changed[one.entry] = f"{float(before) * value:.9g}"
         else:
-            scaled = target.with_name(f"{target.stem}_{raster.name}")
+            scaled = target.with_name(f"{target.stem}_{raster.stem}{'.asc' if raster.suffix.lower() == '.asc' else '.tif'}")
             given = results.read_raster(raster)
             results.write_map(scaled, given._replace(values=value * given.values), raster)
             changed[one.entry] = scaled.name

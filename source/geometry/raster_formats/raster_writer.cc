@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/raster_formats/quiet_gdal.h>
 #include <scree/geometry/raster_formats/raster_writer.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <cmath>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+#include <iomanip>
 #include <memory>
-
-#ifdef SCREE_WITH_GDAL
-#  include <scree/geometry/raster_formats/quiet_gdal.h>
-
-#  include <cpl_vsi.h>
-#  include <gdal_priv.h>
-#  include <ogr_spatialref.h>
-#endif
+#include <ogr_spatialref.h>
+#include <sstream>
 
 namespace scree
 {
-#ifdef SCREE_WITH_GDAL
-  bool can_write_geo_tiff()
+  std::string ascii_grid(const Raster &raster)
   {
-    return true;
+    std::ostringstream text;
+    text << std::setprecision(15) << "ncols " << raster.n_columns << "\nnrows " << raster.n_rows << "\nxllcorner "
+         << raster.x - 0.5 * raster.spacing << "\nyllcorner " << raster.y - 0.5 * raster.spacing << "\ncellsize "
+         << raster.spacing << "\nNODATA_value " << missing_value << '\n'
+         << std::setprecision(9);
+    for (unsigned int row = raster.n_rows; row-- > 0;) // from the north
+      for (unsigned int column = 0; column < raster.n_columns; ++column)
+        {
+          const double value = raster(column, row);
+          text << (std::isnan(value) ? missing_value : value) << (column + 1 < raster.n_columns ? ' ' : '\n');
+        }
+    return text.str();
   }
 
 
@@ -97,18 +105,4 @@ namespace scree
     AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
     return content;
   }
-
-#else
-  bool can_write_geo_tiff()
-  {
-    return false;
-  }
-
-
-  std::string geo_tiff(const Raster &, const std::string &, const std::string &)
-  {
-    AssertThrow(false, dealii::ExcMessage("This program was built without GDAL."));
-    return "";
-  }
-#endif
 } // namespace scree
