@@ -261,7 +261,7 @@ namespace scree
   template <int dim>
   bool FreeSurface<dim>::keeps_water(const unsigned int vertex)
   {
-    if (distances[vertex] < -1e-9 || !menisci.end_soil(vertex) || !is_in_soil(vertex) ||
+    if (distances[vertex] < 1e-9 || !menisci.end_soil(vertex) || !is_in_soil(vertex) ||
         pressure_of_points(vertex) >= 0.)
       return false;
     menisci.close(vertex);

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace scree
@@ -97,6 +98,16 @@ namespace scree
       folder.log(scene.seepage->report.text(dim));
     for (const std::string &text : scene.texts_of_inflows())
       folder.record(text);
+    if (parameters.water.fringe > 0.)
+      folder.log(
+          "Water: suction is too small in the uppermost cell of the soil, and cut slopes fail too early. Where the "
+          "fringe, " +
+          number_text(parameters.water.fringe) +
+          " m above the water level, ends inside a cell, the pressure deviates by up to 22 % of the Air entry "
+          "pressure. Let it end at a cell face or above the ground.");
+    if (scene.rain && std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &b) { return !b.is_rigid; }))
+      folder.log("Rain: on deformable soil up to 28 % more water enters than by Darcy's law, if the rate exceeds the "
+                 "conductivity. Compare with a body of Material = rigid.");
   }
 
   template void log_case(const Parameters &, const Scene<2> &, RunFolder &, const MPI_Comm);

@@ -16,6 +16,7 @@ from scree.results import read_points
 from scene_tools import check, main, run
 
 WATER = 1000 * closed_forms.GRAVITY  # N/m^3
+YY = 4  # of a stress of 3 x 3 components
 
 
 def fringe(scree):
@@ -28,6 +29,23 @@ def fringe(scree):
     check("fringe: largest error of p over the air entry pressure", np.max(np.abs(p - WATER * (0.5 - y))) / entry, 0, 0.02)
     check("fringe: water volume over that of the start", np.sum(water.arrays["volume"]) / (0.4 * 0.8 * 0.2), 0.999, 1.001)
     check("fringe: kinetic energy at the end, J", table["Kinetic energy (J)"][-1], 0, 1e-3)
+
+
+def full_pores(scree):
+    """Pores that are full up to the ground, on a cell face or not, keep their suction and the effective stress in drained settling and after it."""
+    for ground in 1., 0.99:
+        name = "ground_%g" % ground
+        run(scree, "seepage/capillary_fringe", name, {
+            "Soil/Region": "y < %g" % ground, "Water/Air entry pressure": "6000", "Water/Hydraulic conductivity": "1e-5", "Settling/Type": "drained",
+            "Settling/Maximum time": "1", "End time": "0.2", "Output/Graphics": "points"})
+        soil = read_points(name, None)
+        y = soil.positions[:, 1]
+        exact = 9.81 * (0.6 * 2650 + 0.4 * 1000) * (ground - y) - WATER * (0.5 - y)
+        stress = -soil.arrays["stress"].reshape(len(y), -1)[:, YY]
+        for cell in range(1, 4):
+            inside = np.floor((ground - y) / 0.05) == cell
+            check("ground at %g m: vertical effective stress over the exact one, cell %d below the uppermost" % (ground, cell),
+                  np.mean(stress[inside]) / np.mean(exact[inside]), 0.93, 1.07)
 
 
 def green_ampt(scree):
