@@ -85,6 +85,7 @@ namespace scree
   std::vector<std::string> unusual_units(const Parameters &parameters)
   {
     Questions questions;
+    questions.list = parameters.unread_laws;
     for (const BodyParameters &body : parameters.bodies)
       {
         questions.ask(
