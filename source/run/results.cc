@@ -147,11 +147,10 @@ namespace scree
   template <int dim>
   void Results<dim>::complete()
   {
-    std::vector<CheckResult> all = balances.results();
-    for (const CheckResult &result : checks.results())
-      all.push_back(result);
-    if (!all.empty())
-      folder.log(verdict(all));
+    add_checks(balances.results());
+    add_checks(checks.results());
+    if (!found.empty())
+      folder.log(verdict(found));
     folder.log("Results     " + text_of_results());
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
       statistics.print_last_row(std::cout);

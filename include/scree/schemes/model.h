@@ -7,6 +7,7 @@
 #include <scree/contact/points/point_contact.h>
 #include <scree/mesh/cut_cells.h>
 #include <scree/momentum/surface_load.h>
+#include <scree/transfer/transfer_parameters.h>
 
 namespace scree
 {
