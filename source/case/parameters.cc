@@ -57,6 +57,7 @@ namespace scree
         named_files = file.named_files(all);
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
+        find_unread_laws(all);
         bed.map_origin = Point<2>(local_origin[0], local_origin[1]);
         for (ObstacleParameters &obstacle : obstacles)
           obstacle.surface.map_origin = bed.map_origin;
@@ -76,7 +77,7 @@ namespace scree
         if (has_water)
           water.read_table(dimension, bed.map_origin, grid.lower_corner, grid.upper_corner);
         water.find_fringe(size_of_gravity());
-        if (safety.strength_factor != 1.)
+        if (safety.strength_factor != 1. && settling.maximum_time == 0.) // or else it acts at the release
           reduce_strength(safety.strength_factor);
         time_step.choose(has_water, transfer.courant_number(has_water), size_of_gravity(), grid.cell_size);
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
@@ -333,6 +334,29 @@ namespace scree
                     face,
                     file.value(subsection, face, ""),
                     "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
+  }
+
+
+  void Parameters::find_unread_laws(const ParameterHandler &defaults)
+  {
+    for (const BodyParameters &body : bodies)
+      for (const RegisteredLaw &law : registered_laws())
+        {
+          const std::string path = subsection_path(body.name, law.subsection);
+          if (law.subsection.empty() || path == body.material.path(body.name))
+            continue;
+          const auto [entry, value] = file.changed_entry(path, defaults);
+          if (entry.empty())
+            continue;
+          const std::string text = entry_message(path,
+                                                 entry,
+                                                 value,
+                                                 "this entry has no effect, as \"Material\" is " + body.material.law +
+                                                     ". Write \"Material = " + law.name + "\", or remove the entry.");
+          if (!file.sets(body.name, "Material")) // a law by default is hardly meant
+            throw EntryError(text);
+          unread_laws.push_back("Unusual value: " + text);
+        }
   }
 
 

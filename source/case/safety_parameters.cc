@@ -12,7 +12,7 @@ namespace scree
     prm.add_parameter("Strength factor",
                       strength_factor,
                       "Factor by which a run divides the strength of the soil, and the friction of bases, contacts and "
-                      "walls. --safety searches it; there it must be 1.",
+                      "walls, from the release on. --safety searches it; there it must be 1.",
                       Patterns::Double(1e-3, 1e3));
     prm.add_parameter("Lower factor",
                       lower,
@@ -29,7 +29,8 @@ namespace scree
     prm.add_parameter("Displacement",
                       displacement,
                       "--safety: the slope fails where 1 % of the soil has moved by more than this, over the height of "
-                      "the soil. Write more for soil so soft that it deforms as much without failure.",
+                      "the slope. Write more for soil so soft that it deforms as much without failure. It also bounds "
+                      "the displacement while the soil settles.",
                       Patterns::Double(1e-6, 10));
     prm.add_parameter(
         "Maximum time",

@@ -135,6 +135,7 @@ namespace scree
   unusual_values(const Parameters &parameters, const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
   {
     Questions questions;
+    questions.list = parameters.unread_laws;
     for (const BodyParameters &body : parameters.bodies)
       {
         questions.ask(

@@ -215,6 +215,18 @@ namespace scree
   }
 
 
+  std::pair<std::string, std::string> InputFile::changed_entry(const std::string &subsection,
+                                                               const ParameterHandler &prm) const
+  {
+    const std::vector<std::string> path = Utilities::split_string_list(subsection, '/');
+    for (const Statement &statement : statements)
+      if (statement.kind == Kind::set && statement.path == subsection &&
+          statement.value != prm.get(path, statement.name))
+        return { statement.name, statement.value };
+    return {};
+  }
+
+
   bool InputFile::has_subsection(const std::string &path) const
   {
     return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {

@@ -177,7 +177,7 @@ namespace scree
             choices += (choices.empty() ? "" : ", ") + quoted(choice);
           return "one of " + choices;
         }
-      return starts_with("[Anything") ? "" : pattern;
+      return starts_with("[Bool") ? "true or false" : "";
     }
   } // namespace
 

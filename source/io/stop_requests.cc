@@ -18,20 +18,16 @@ namespace scree
       received = signal;
     }
 
-    StopReason reason_of(const int signal)
+    struct ListenedSignal
     {
-      switch (signal)
-        {
-        case SIGUSR1:
-          return StopReason::signal_user;
-        case SIGINT:
-          return StopReason::signal_interrupt;
-        case SIGTERM:
-          return StopReason::signal_terminate;
-        default:
-          return StopReason::none;
-        }
-    }
+      int number;
+      StopReason reason;
+      const char *name;
+    };
+    constexpr ListenedSignal listened[] = { { SIGHUP, StopReason::signal_hangup, "SIGHUP" },
+                                            { SIGUSR1, StopReason::signal_user, "SIGUSR1" },
+                                            { SIGINT, StopReason::signal_interrupt, "SIGINT" },
+                                            { SIGTERM, StopReason::signal_terminate, "SIGTERM" } };
 
     double seconds(const std::chrono::steady_clock::duration time)
     {
@@ -42,21 +38,10 @@ namespace scree
 
   std::string text_of(const StopReason reason)
   {
-    switch (reason)
-      {
-      case StopReason::terminate_file:
-        return "the file terminate";
-      case StopReason::wall_time_limit:
-        return "the entry \"Wall time limit\"";
-      case StopReason::signal_user:
-        return "SIGUSR1";
-      case StopReason::signal_interrupt:
-        return "SIGINT";
-      case StopReason::signal_terminate:
-        return "SIGTERM";
-      default:
-        return "nobody";
-      }
+    for (const ListenedSignal &signal : listened)
+      if (reason == signal.reason)
+        return signal.name;
+    return reason == StopReason::terminate_file ? "the file terminate" : "the entry \"Wall time limit\"";
   }
 
 
@@ -70,13 +55,15 @@ namespace scree
 
   void StopRequests::listen()
   {
-    struct sigaction action = {};
-    action.sa_handler       = remember;
-    action.sa_flags         = SA_RESTART;
-    sigaction(SIGTERM, &action, nullptr);
-    sigaction(SIGUSR1, &action, nullptr);
-    action.sa_flags |= SA_RESETHAND;
-    sigaction(SIGINT, &action, nullptr);
+    for (const ListenedSignal &signal : listened)
+      {
+        struct sigaction action = {}, before = {};
+        action.sa_handler = remember;
+        action.sa_flags   = SA_RESTART | (signal.number == SIGINT ? int(SA_RESETHAND) : 0);
+        sigaction(signal.number, nullptr, &before);
+        if (signal.number != SIGHUP || before.sa_handler != SIG_IGN) // nohup ignores it
+          sigaction(signal.number, &action, nullptr);
+      }
     is_listening = true;
     last_call    = std::chrono::steady_clock::now();
   }
@@ -86,7 +73,9 @@ namespace scree
   {
     if (!is_listening || found != StopReason::none)
       return found;
-    found = reason_of(received);
+    for (const ListenedSignal &signal : listened)
+      if (received == signal.number)
+        found = signal.reason;
     if (found == StopReason::none && !terminate_file.empty())
       {
         const Time now = std::chrono::steady_clock::now();

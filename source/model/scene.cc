@@ -115,7 +115,7 @@ namespace scree
         const PropertyLayout<dim> layout(material->internal_quantities().size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
-                                         parameters.probes.displacement,
+                                         parameters.probes.displacement || parameters.settling.maximum_time > 0.,
                                          parameters.has_water ? 0 : parameters.n_rigid_surfaces());
         bodies.emplace_back(body.name,
                             body.bulk_density(),

@@ -131,7 +131,7 @@ namespace scree
     prm.add_parameter("Displacement",
                       displacement,
                       "true: the graphics output has the displacement of the soil points since the start, and maps "
-                      "have the scour depth.",
+                      "have the scour depth. Both are always there if the soil settles.",
                       Patterns::Bool());
     prm.leave_subsection();
   }

@@ -3,8 +3,8 @@
 #include <scree/program/arguments.h>
 #include <scree/program/command_line.h>
 #include <scree/program/new_case.h>
+#include <scree/run/phases.h>
 #include <scree/run/safety.h>
-#include <scree/run/simulation.h>
 #include <scree/version.h>
 
 #include <deal.II/base/mpi.h>
@@ -58,7 +58,7 @@ namespace scree
       const Start start = arguments.task == Task::resume ? Start::resume : Start::fresh;
       End end           = End::complete;
       in_its_dimension(parameters,
-                       [&](const auto dim) { end = Simulation<dim()>(parameters, start, communicator).run(); });
+                       [&](const auto dim) { end = run_in_phases<dim()>(parameters, start, communicator); });
       return end == End::stopped ? exit_code_of_a_stop : 0;
     }
 

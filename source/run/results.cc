@@ -147,13 +147,13 @@ namespace scree
   template <int dim>
   void Results<dim>::complete()
   {
-    std::vector<CheckResult> all = balances.results();
-    for (const std::vector<CheckResult> &results : { checks.results(), statistics.soil_motion().results() })
-      all.insert(all.end(), results.begin(), results.end());
+    add_checks(balances.results());
+    add_checks(checks.results());
+    add_checks(statistics.soil_motion().results());
     if (const std::string text = statistics.soil_motion().text(); !text.empty())
       folder.log(text);
-    if (!all.empty())
-      folder.log(verdict(all));
+    if (!found.empty())
+      folder.log(verdict(found));
     folder.log("Results     " + text_of_results());
     if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
       statistics.print_last_row(std::cout);

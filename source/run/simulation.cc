@@ -6,7 +6,6 @@
 #include <scree/run/lost_points.h>
 #include <scree/io/checkpoint.h>
 #include <scree/io/log_header.h>
-#include <scree/run/settling.h>
 #include <scree/run/simulation.h>
 #include <scree/transfer/point_fault.h>
 #include <scree/case/unusual_units.h>
@@ -155,9 +154,7 @@ namespace scree
             "The row at t = 0 is of the soil on its way to rest.");
         return;
       }
-    results.writer().finish();
-    if (step_of_checkpoint != clock.step())
-      write_checkpoint();
+    write_checkpoint();
     require_entry(
         step_of_checkpoint == clock.step(),
         "Output",
@@ -301,14 +298,8 @@ namespace scree
   {
     stop.listen();
     is_released = false;
-    is_released = scree::settle(
-        parameters,
-        scene,
-        *scheme,
-        control,
-        folder,
-        [this](const double time_step) { advance(time_step); },
-        communicator);
+    results.add_checks(relaxation().settle());
+    is_released = control.stop_reason() == StopReason::none;
     // Balances begin at the release; what was lost stays lost.
     const RunTotals<dim> settled = totals;
     totals                       = RunTotals<dim>(scene.obstacles.size());
@@ -324,11 +315,14 @@ namespace scree
   {
     stop.listen();
     is_released = false;
-    scene.mark_start();
-    return scree::try_strength(
-        parameters, displacement, scene, *scheme, control, folder, [this](const double time_step) {
-          advance(time_step);
-        });
+    return relaxation().try_strength(displacement);
+  }
+
+
+  template <int dim>
+  Relaxation<dim> Simulation<dim>::relaxation()
+  {
+    return { parameters, scene, *scheme, control, folder, [this](const double time_step) { advance(time_step); } };
   }
 
 

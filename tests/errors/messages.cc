@@ -219,8 +219,8 @@ namespace
     }
 
   private:
-    static constexpr std::array<int, 3> signals{ { SIGTERM, SIGUSR1, SIGINT } };
-    std::array<struct sigaction, 3> before;
+    static constexpr std::array<int, 4> signals{ { SIGHUP, SIGTERM, SIGUSR1, SIGINT } };
+    std::array<struct sigaction, 4> before;
   };
 
 

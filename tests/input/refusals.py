@@ -52,6 +52,9 @@ QUESTIONED = {
     "an angle for M": (
         INSTANT + "subsection Soil\n  set Region = y < 0.5\n  subsection Nor-Sand\n    set Critical stress ratio M = 24\n  end\nend\n",
         ['entry "Critical stress ratio M" = 24: the unit is none']),
+    "entries of a law that is not chosen": (
+        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  subsection Tresca\n    set Undrained strength = 2e4\n  end\nend\n",
+        ['subsection Soil/Tresca, entry "Undrained strength" = 2e4: this entry has no effect, as "Material" is Mohr-Coulomb. Write "Material = Tresca", or']),
     "a base with the angle of its soil": (
         INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\nend\n",
         ['Base stronger than the soil: subsection Boundaries, entry "Bottom" = 30 degrees: Soil shears on a plane at 26.565']),

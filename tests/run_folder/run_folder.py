@@ -218,10 +218,18 @@ def stop_and_go_on(case, wanted, ask, reason, ranks=1):
 
 
 def signals():
-    """Without a checkpoint interval: the signal alone makes one. mpirun hands on SIGUSR1."""
+    """Without a checkpoint interval: the signal alone makes one. mpirun hands on SIGUSR1. Under nohup a run goes on."""
     write_case("case.prm", ["End time = 0.2"])
-    wanted = whole_run("case.prm")
-    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
+    fresh()
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    process = start("case.prm")
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    wait_for(lambda: n_rows() >= 2, process)
+    process.send_signal(signal.SIGHUP)
+    check(end(process)[0] == 0, "a run under nohup stops at SIGHUP")
+    wanted = content()
+    fresh()
+    for number in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
         stop_and_go_on("case.prm", wanted, lambda process, n=number: process.send_signal(n), number.name)
     stop_and_go_on("case.prm", wanted, lambda process: process.send_signal(signal.SIGUSR1), "SIGUSR1", ranks=2)
 

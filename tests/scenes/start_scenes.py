@@ -25,7 +25,7 @@ LAYER = {"Mesh/Upper corner": "2, 10", "Mesh/Cell size": "0.25", "Soil/Region": 
 def settled(name):
     """Ratio of unbalanced force to weight at the release, and the number of steps, from a run's log."""
     with open(name + "/log.txt", encoding="utf-8") as log:
-        steps, ratio = re.search(r"Settled for .* in (\d+) steps; unbalanced force over weight (\S+?)[.,] ?(?:Released|above)", log.read()).groups()
+        steps, ratio = re.search(r"Settled for .* in (\d+) steps; unbalanced force over weight (\S+?)[.,] ?Released", log.read()).groups()
     return float(ratio), int(steps)
 
 

@@ -65,6 +65,8 @@ namespace scree
 
     std::string text_of_box; ///< for the log, of a box that follows from the raster; else empty
 
+    std::vector<std::string> unread_laws; ///< for the log, of subsections of laws that are not chosen
+
     bool has_water = false;      ///< whether there is a subsection Water; without it, nothing reads the next three
     WaterParameters water;       ///< subsection Water
     PressureParameters pressure; ///< subsection Pressure of Water
@@ -72,8 +74,8 @@ namespace scree
 
     std::string start_folder; ///< run folder from whose checkpoint a resumed run goes on; empty: its own
 
-    /// Divides the strength of soil and the friction of bases, contacts and walls by a factor, instead of what entry
-    /// "Strength factor" says. Once only. Throws EntryError if there is no soil that has strength.
+    /// Divides the strength of soil and the friction of bases, contacts and walls by a factor, as entry "Strength
+    /// factor" does in a case that does not settle. Once only. Throws EntryError if there is no soil that has strength.
     void reduce_strength(const double factor);
 
     /// Changes an entry as if the file had it so; nothing is checked again.
@@ -135,6 +137,9 @@ namespace scree
     void take_unit_weights();
     void read_maps();
     void check_dry() const;
+
+    /// Fills `unread_laws`. Throws EntryError if no entry Material chooses the law that is read instead.
+    void find_unread_laws(const dealii::ParameterHandler &defaults);
 
     double size_of_gravity() const; // m/s^2
     double wave_speed() const;      // of the stiffest body, m/s; 0 without bodies

@@ -11,11 +11,11 @@ namespace scree
   /// Subsection Safety: the search of scree --safety, and a strength that is reduced in a run.
   struct SafetyParameters
   {
-    double strength_factor = 1;      ///< divides the strength in a run
+    double strength_factor = 1;      ///< divides the strength from the release on
     double lower           = 0.5;    ///< smallest factor that is tried
     double upper           = 5;      ///< largest factor that is tried
     double tolerance       = 0.01;   ///< of the factor
-    double displacement    = 0.02;   ///< of a slope that fails, over the height of the soil
+    double displacement    = 0.02;   ///< of a slope that fails, over its height
     double maximum_time    = 40;     ///< of a trial, in sqrt(height/gravity)
     std::string damping    = "auto"; ///< 1/s, or auto
 

@@ -48,6 +48,11 @@ namespace scree
     /// Whether the file has a subsection of that path.
     bool has_subsection(const std::string &path) const;
 
+    /// The first entry of a subsection with a value that is not the default of `prm`, and the value; empty: there is
+    /// none.
+    std::pair<std::string, std::string> changed_entry(const std::string &subsection,
+                                                      const dealii::ParameterHandler &prm) const;
+
     /// The names of the subsections at the top that begin with `prefix`, each once.
     std::vector<std::string> subsections(const std::string &prefix) const;
 

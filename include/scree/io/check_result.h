@@ -14,6 +14,13 @@ namespace scree
     std::string bound;        ///< what a sound run does not exceed, in words; empty: the value is for information
     bool is_exceeded = false; ///< whether the bound is
     std::string where;        ///< point, place and time of the worst value; may be empty
+
+    /// Saves or loads all of it (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &text &bound &is_exceeded &where;
+    }
   };
 
   /// A number with three digits.

@@ -14,6 +14,7 @@ namespace scree
     none,
     terminate_file,
     wall_time_limit,
+    signal_hangup,    ///< SIGHUP
     signal_user,      ///< SIGUSR1
     signal_interrupt, ///< SIGINT
     signal_terminate  ///< SIGTERM

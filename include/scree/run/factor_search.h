@@ -3,7 +3,7 @@
 #define scree_run_factor_search_h
 
 #include <scree/case/safety_parameters.h>
-#include <scree/run/strength_trial.h>
+#include <scree/run/relaxation.h>
 
 #include <functional>
 #include <optional>

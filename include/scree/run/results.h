@@ -60,6 +60,12 @@ namespace scree
     /// After a checkpoint has been read: drops from lists and rows what was written after it.
     void cut();
 
+    /// Adds to the checks that are reported at the end of the run.
+    void add_checks(const std::vector<CheckResult> &results)
+    {
+      found.insert(found.end(), results.begin(), results.end());
+    }
+
     /// At the end of a run: tells where the results are, and writes rows that the disk did not take. Throws FileError
     /// if it still refuses them.
     void complete();
@@ -74,7 +80,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive)
     {
-      archive &statistics &graphics &rows &probes &maps &checks &balances;
+      archive &statistics &graphics &rows &probes &maps &found &checks &balances;
     }
 
   private:
@@ -92,6 +98,7 @@ namespace scree
     TableFile rows; // of the statistics
     Probes<dim> probes;
     Maps<dim> maps;
+    std::vector<CheckResult> found; // in checks that have ended
     RunChecks<dim> checks;
     BalanceChecks<dim> balances;
     BackgroundWriter files; // the last member: its jobs use others

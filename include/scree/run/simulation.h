@@ -11,7 +11,7 @@
 #include <scree/run/shown_motion.h>
 #include <scree/step/timer_section.h>
 #include <scree/run/step_control.h>
-#include <scree/run/strength_trial.h>
+#include <scree/run/relaxation.h>
 
 #include <limits>
 #include <memory>
@@ -60,15 +60,20 @@ namespace scree
     }
 
     /// Damped motion from the state as it is, until the soil rests or fails; then it is stopped. Collective.
-    /// @param displacement of the soil that fails, over its height
+    /// @param displacement of soil that fails, over the height of the slope
     Trial try_strength(const double displacement);
 
     /// Writes a checkpoint of the state as it is, to the end. Collective.
     void write_checkpoint()
     {
-      begin_checkpoint();
+      results.writer().finish();
+      if (step_of_checkpoint != clock.step()) // or else it was due
+        begin_checkpoint();
       results.writer().finish();
     }
+
+    /// Writes what is due of the state as it is. Collective.
+    void report();
 
     /// One step of the run, of `largest_step` s and to the time `due`, s, at most.
     /// @return its length, s
@@ -152,6 +157,9 @@ namespace scree
     void resume();
     void settle();
 
+    /// Damped motion of the scene before the release.
+    Relaxation<dim> relaxation();
+
     /// Fits scene and scheme to a new partition of the mesh.
     void reinit();
 
@@ -163,8 +171,6 @@ namespace scree
 
     /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
     void place_points(const double time_step, const Speeds &of_rank);
-
-    void report();
 
     /// Gathers a checkpoint, which is written while the run goes on. Collective.
     void begin_checkpoint();

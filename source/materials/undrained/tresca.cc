@@ -273,8 +273,9 @@ namespace scree
     const double strength = slow_strength(internal_variables), shear_stress = 0.5 * (*largest - *smallest);
     const double rounding = 1e-9 * (strength - *smallest);
     AssertThrow(shear_stress <= strength + rounding && *largest <= largest_principal_stress + rounding,
-                ExcMessage("Tresca cannot bear the initial stress: shear stress " + std::to_string(shear_stress) +
-                           " Pa, and strength " + std::to_string(strength) + " Pa. Remedy: a K0 nearer to 1."));
+                ExcMessage("the initial stress exceeds the undrained strength or yield stress of " +
+                           number_text(strength) + " Pa: shear stress " + number_text(shear_stress) +
+                           " Pa. Write a K0 nearer to 1."));
     elastic.initialise(wanted_stress, strain, stress, nullptr);
   }
 

@@ -73,7 +73,7 @@ def read_log(run):
                 warnings[-1] += " " + line.strip()
         else:
             label = None
-            if re.match(r"Check:|Unusual value|'Maximum time step' bounds|Stopped|The run before this one|.*NODATA|.*not yet at rest", line):
+            if re.match(r"Check:|Unusual value|'Maximum time step' bounds|Stopped|The run before this one|.*NODATA", line):
                 warnings.append(line)
             _read_older_line(line, parts)
     return Log(parts, warnings, text)
