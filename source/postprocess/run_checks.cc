@@ -184,10 +184,12 @@ namespace scree
       if (!body.is_rigid)
         for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
           const double ratio = body.density * point.properties[body.layout.volume] / point.properties[body.layout.mass];
-          const double vertical = g > 0. ? -along(gravity / g, point.properties + body.layout.stress) : 0.;
+          const double *stress = point.properties + body.layout.stress;
+          // Passive pressure raises p' alone, and arching the vertical stress alone.
+          const double both = std::min(mean_effective_stress(stress), g > 0. ? -along(gravity / g, stress) : 0.);
           suspect(Check::shrinkage, 1. / ratio, ratio, name);
           if (g > 0.)
-            suspect(Check::stress, vertical / (body.density * g * height), vertical, name);
+            suspect(Check::stress, both / (body.density * g * height), both, name);
           look_at_depth(point, name);
         });
     for (const SoilBody<dim> &body : bodies)
@@ -261,7 +263,7 @@ namespace scree
         return which + "soil in contact has dilated to V/V_0 = " + found +
                "; write a smaller dilation angle, or a law with a critical state";
       case Check::stress:
-        return which + "vertical stress " + found + " Pa, " + value + " times rho g H of all the soil";
+        return which + "p' and the vertical stress reach " + found + " Pa, " + value + " times rho g H of all the soil";
       default:
         return when + found + " points of soil left the box";
       }
@@ -295,7 +297,7 @@ namespace scree
         short_text(bounds[0]));
     add(Check::shrinkage, has_soil, "smallest V/V_0 " + smallest, short_text(1. / bounds[2]));
     add(Check::dilation, has_dilated, "largest V/V_0 in contact " + largest, short_text(bounds[3]));
-    add(Check::stress, has_weight, "largest vertical stress " + highest + " of rho g H", short_text(bounds[4]));
+    add(Check::stress, has_weight, "largest stress " + highest + " of rho g H", short_text(bounds[4]));
     return list;
   }
 

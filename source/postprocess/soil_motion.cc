@@ -15,6 +15,7 @@ namespace scree
   namespace
   {
     constexpr double rest_part     = 1e-3; // of sqrt(g h): soil at rest takes more than 1000 sqrt(h/g) for a cell
+    constexpr double flow_part     = 0.1;  // of sqrt(g h): oscillations of soil at rest are slower
     constexpr double part_at_rest  = 0.99; // of the mass
     constexpr double least_cells   = 3.;   // over the thickness of moving soil
     constexpr double least_change  = 0.1;  // of the cell size: less is no loss or deposit of a column
@@ -80,7 +81,8 @@ namespace scree
       const double speed   = vector_of<dim>(point.properties + body.layout.velocity).norm();
       const double share   = point.properties[body.layout.volume] / columns.area();
       const bool is_moving = speed > rest_speed();
-      const double moving  = is_moving || is_start ? share * cosine_of_ground(bed, point) : 0.;
+      const double moving =
+          is_start || speed > flow_part / rest_part * rest_speed() ? share * cosine_of_ground(bed, point) : 0.;
       for (const auto &[column, weight] : columns.around(point.location))
         {
           sums[column] += weight * share;
@@ -104,7 +106,7 @@ namespace scree
     last.moving_part = has_soil ? sums[3 * n + 1] / sums[3 * n] : 0.;
     last.speed = largest > 0. ? percentiles(speeds, 0., largest * (1. + 1e-9), { part_at_rest }, communicator)[0] : 0.;
     last.thickness = median_by_volume({ sums.begin() + 2 * n, sums.begin() + 3 * n }) / grid.cell_size();
-    if (last.moving_part > 1. - part_at_rest && sums[3 * n + 2] > largest_kinetic)
+    if (last.speed > flow_part / rest_part * rest_speed() && sums[3 * n + 2] > largest_kinetic)
       {
         largest_kinetic = sums[3 * n + 2];
         thickness_then  = last.thickness;
@@ -193,10 +195,11 @@ namespace scree
                         " m/s\n            (0.001 sqrt(g h)), and 1 % of it faster than " + short_text(last.speed) +
                         " m/s";
     if (last.length > 0.)
-      lines += "\nRun-out     H = " + short_text(last.fall) + " m, L = " + short_text(last.length) +
-               " m, H/L = " + short_text(last.fall / last.length) + ", travel angle " + short_text(last.travel_angle) +
-               " degrees;\n            deposit " + short_text(last.area) + (dim == 2 ? " m, " : " m^2, ") +
-               short_text(last.volume) + (dim == 2 ? " m^3/m" : " m^3");
+      lines += std::string("\nRun-out     ") + (is_at_rest ? "" : "so far: ") + "H = " + short_text(last.fall) +
+               " m, L = " + short_text(last.length) + " m, H/L = " + short_text(last.fall / last.length) +
+               ", travel angle " + short_text(last.travel_angle) + " degrees;\n            deposit " +
+               short_text(last.area) + (dim == 2 ? " m, " : " m^2, ") + short_text(last.volume) +
+               (dim == 2 ? " m^3/m" : " m^3");
     return lines;
   }
 

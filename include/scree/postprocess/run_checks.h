@@ -25,7 +25,7 @@ namespace scree
     depth,     ///< of a point below the bed, over the cell size
     shrinkage, ///< V_0/V of soil
     dilation,  ///< V/V_0 of soil in contact, mean of a cell
-    stress,    ///< vertical stress over rho g H of the soil, with H from the lowest to the highest point of it
+    stress,    ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
     lost       ///< points of soil that left the box
   };
 

@@ -4,7 +4,7 @@
 scree-terrain-bank results/bank --seeds 1-8 --cell 10 --cell 20 --method FLIP --method TPIC
 
 The columns: fastest point over the largest 99.9 % quantile of the speeds, depth of a point below the bed over the cell size, points lost, mass over that
-of the map less one, largest energy gain of any channel over the released energy, largest vertical stress over rho g H, smallest V/V_0. What misses its
+of the map less one, largest energy gain of any channel over the released energy, largest stress over rho g H, smallest V/V_0. What misses its
 bound has a star.
 """
 
@@ -27,7 +27,7 @@ def numbers_of(folder, run, cell):
     """What the bounds are about, from log and statistics of a run."""
     log = (folder / run / "log.txt").read_text(encoding="utf-8")
     gain = re.findall(r"largest energy gain (\S+) %", log)
-    patterns = {"speed": r"fastest point (\S+) times", "V/V_0": r"smallest V/V_0 ([^\s;]+)", "stress": r"largest vertical stress (\S+) of", "depth": r"deepest point (\S+) m"}
+    patterns = {"speed": r"fastest point (\S+) times", "V/V_0": r"smallest V/V_0 ([^\s;]+)", "stress": r"largest stress (\S+) of", "depth": r"deepest point (\S+) m"}
     found = {name: re.findall(pattern, log[log.rindex("Checks "):])[0] for name, pattern in patterns.items()}
     table, release = results.read_statistics(folder / run), results.read_raster(folder / "release.asc")
     return {"speed": float(found["speed"]), "depth": float(found["depth"]) / cell, "lost": table["Points lost"][-1],
