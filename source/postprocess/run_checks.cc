@@ -261,7 +261,7 @@ namespace scree
         return which + "it is compressed to V/V_0 = " + found;
       case Check::dilation:
         return which + "soil in contact has dilated to V/V_0 = " + found +
-               "; write a smaller dilation angle, or a law with a critical state";
+               "; write a smaller dilation angle, a larger tension cut-off, or a law with a critical state";
       case Check::stress:
         return which + "p' and the vertical stress reach " + found + " Pa, " + value + " times rho g H of all the soil";
       default:

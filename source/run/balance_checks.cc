@@ -106,9 +106,11 @@ namespace scree
         std::max(largest_work, std::abs(balance.load_work + balance.correction_work + balance.obstacle_energy()));
     dissipation = start_energy - energy - totals.energy_taken();
     // What a channel gives back is a gain, too: the numerical dissipation does not show it. Plastic dissipation is
-    // left out: with hardening it can fall.
+    // left out: with hardening it can fall. So are walls with an inflow: they push what enters.
+    const bool has_entered = totals.entered_mass + totals.entered_water_mass > 0.;
     std::vector<std::pair<std::string, double>> channels{ { "", dissipation },
-                                                          { ", of the walls", balance.wall_dissipation },
+                                                          { ", of the walls",
+                                                            has_entered ? 0. : balance.wall_dissipation },
                                                           { ", of the bed", balance.bed_dissipation },
                                                           { ", of contact", balance.contact_dissipation },
                                                           { ", of drag", balance.drag_dissipation },
