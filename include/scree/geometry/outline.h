@@ -27,7 +27,7 @@ namespace scree
     std::vector<std::vector<Polygon>> areas;
   };
 
-  /// Reads the areas of a GeoJSON file or shapefile, by the end of its name, else one by read_polygon(). Throws
+  /// Reads the areas of a file in a vector format of GDAL, else one by read_polygon(). Throws
   /// EntryError, which begins with `where` (see entry_name()), if there is none, or if edges cross.
   /// @param origin where the map has the origin of the outline's x and y, m
   Outline read_outline(const std::string &file, const std::string &where, const dealii::Point<2> &origin);

@@ -62,9 +62,9 @@ namespace scree
     std::string text_of(const unsigned int column, const unsigned int row) const;
   };
 
-  /// Reads a raster by the format that claims it most, see RegisterRasterFormat: an ESRI ASCII grid if it is text, else
-  /// GDAL. Values are those at the middles of its cells. Throws EntryError, which begins with `where` (see
-  /// entry_name()), if it is none.
+  /// Reads the first band of a raster in any format of GDAL. Values are those at the middles of its cells, NaN where
+  /// the file marks them as missing. Throws EntryError, which begins with `where` (see entry_name()), if it is none in
+  /// m along the axes of a projected system of coordinates.
   /// @param origin where the map has the origin of the raster's x and y, m
   Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 

@@ -6,8 +6,8 @@
 #include <scree/input/input_error.h>
 #include <scree/input/number_table.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cpl_conv.h>
 #include <filesystem>
 #include <fstream>
 #include <gdal_priv.h>
@@ -65,13 +65,14 @@ namespace scree
     std::unique_ptr<GDALDataset> open(std::istream &text, const std::string &file, const std::string &name)
     {
       GDALAllRegister();
-      CPLSetConfigOption("AAIGRID_DATATYPE", "Float64"); // else it rounds to 32 bits
       const auto begin       = static_cast<long>(text.tellg());
       const std::string path = begin > 0 ? "/vsisubfile/" + std::to_string(begin) + ',' + file : file;
       std::unique_ptr<GDALDataset> data(
           GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+      std::string reason = CPLGetLastErrorMsg();
+      reason.erase(reason.find_last_not_of('.') + 1);
       if (!data || data->GetRasterCount() < 1)
-        throw EntryError(name + "GDAL finds no raster in it: " + CPLGetLastErrorMsg() +
+        throw EntryError(name + "GDAL finds no raster in it: " + reason +
                          ". Write GeoTIFF, or an ESRI ASCII grid: it begins with ncols, nrows, xllcorner, yllcorner, "
                          "cellsize.");
       return data;
@@ -90,36 +91,44 @@ namespace scree
     }
 
 
-    /// Throws EntryError unless an ESRI ASCII grid has numbers only, and as many as its size: GDAL reads any other word
-    /// as 0 and ignores what follows the last one.
-    void require_complete(std::istream &in, const std::size_t n_values, const std::string &name)
+    /// The values of an ESRI ASCII grid in the order of the file. Throws EntryError unless all are numbers, and as many
+    /// as its size: GDAL reads any other word as 0, ignores what follows the last one and skips a first row of `nan`.
+    std::vector<double> values_of_text(std::istream &in, const std::size_t n_values, const std::string &name)
     {
-      const auto require = [&](const bool is_right, const std::string &fault, const std::string &word) {
-        if (!is_right)
-          throw EntryError(name + fault + (word.find(',') == std::string::npos ? "" : ". Decimals have a point: 0.5") +
-                           ". Write a complete ESRI ASCII grid.");
+      const auto fail = [&](const std::string &fault, const std::string &word) {
+        throw EntryError(name + fault + (word.find(',') == std::string::npos ? "" : ". Decimals have a point: 0.5") +
+                         ". Write a complete ESRI ASCII grid.");
       };
       const auto is_number = [](const std::string &word) {
-        return lower_case(word) == "nan" || std::isfinite(number_of(word));
+        return std::isfinite(number_of(word)) || lower_case(word) == "nan";
       };
-      std::size_t n = 0;
-      for (std::string word, value; in >> word;)
-        if (n == 0 && std::isalpha(static_cast<unsigned char>(word[0])) && !is_number(word)) // of the head
-          require(in >> value && is_number(value), "its head has " + word + " = " + value, value);
-        else
+      const std::string heights = "the last of its " + std::to_string(n_values) + " heights";
+      std::vector<double> values;
+      for (std::string word, entry; in >> word;)
+        if (values.empty() && std::isalpha(static_cast<unsigned char>(word[0])) && !is_number(word))
           {
-            require(is_number(word), scree::quoted(word) + " stands where a height should be", word);
-            require(++n <= n_values,
-                    "it goes on with " + scree::quoted(word) + " after the last of its " + std::to_string(n_values) +
-                        " heights",
-                    "");
+            if (!(in >> entry) || !is_number(entry))
+              fail("its head has " + word + " = " + entry, entry);
           }
-      require(n == n_values, "it ends before the last of its " + std::to_string(n_values) + " heights", "");
+        else if (!is_number(word))
+          fail(scree::quoted(word) + " stands where a height should be", word);
+        else if (values.size() == n_values)
+          fail("it goes on with " + scree::quoted(word) + " after " + heights, "");
+        else
+          values.push_back(number_of(word));
+      if (values.size() < n_values)
+        fail("it ends before " + heights, "");
+      return values;
     }
 
 
-    /// Reads rows of the first band, from the north or the south; what its mask hides is NaN.
-    void read_values(GDALDataset &data, const bool from_north, const std::string &name, Raster &raster)
+    /// Reads the first band, or the values of a text, whose first row is in the north or the south; what its mask hides
+    /// is NaN.
+    void read_values(GDALDataset &data,
+                     const std::vector<double> &text,
+                     const bool from_north,
+                     const std::string &name,
+                     Raster &raster)
     {
       // The value for missing ones may be rounded otherwise than theirs; no height is as large as 1e30 m.
       constexpr double rounding = 1e-7, largest = 1e30;
@@ -128,14 +137,16 @@ namespace scree
       const double marked  = band.GetNoDataValue(&has_missing);
       const double missing = has_missing && !std::isnan(marked) ? marked : missing_value;
       raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
-      std::vector<GByte> mask(raster.n_columns);
+      std::vector<GByte> mask(raster.n_columns, 1);
       const int width = raster.n_columns;
       for (unsigned int row = 0; row < raster.n_rows; ++row)
         {
           double *values = &raster.values[std::size_t(from_north ? raster.n_rows - 1 - row : row) * width];
-          if (band.RasterIO(GF_Read, 0, row, width, 1, values, width, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
-              band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, 1, mask.data(), width, 1, GDT_Byte, 0, 0, nullptr) !=
-                  CE_None)
+          if (!text.empty())
+            std::copy_n(text.begin() + std::size_t(row) * width, width, values);
+          else if (band.RasterIO(GF_Read, 0, row, width, 1, values, width, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
+                   band.GetMaskBand()->RasterIO(
+                       GF_Read, 0, row, width, 1, mask.data(), width, 1, GDT_Byte, 0, 0, nullptr) != CE_None)
             throw EntryError(name + "GDAL cannot read row " + std::to_string(row + 1) + ": " + CPLGetLastErrorMsg() +
                              ". Write the raster anew.");
           for (unsigned int column = 0; column < raster.n_columns; ++column)
@@ -169,15 +180,16 @@ namespace scree
     raster.n_rows    = data->GetRasterYSize();
     if (raster.n_columns < 2 || raster.n_rows < 2)
       throw EntryError(name + "it must have 2 columns and 2 rows at least.");
+    std::vector<double> text;
     if (data->GetDriverName() == std::string("AAIGrid"))
-      require_complete(in, std::size_t(raster.n_columns) * raster.n_rows, name);
+      text = values_of_text(in, std::size_t(raster.n_columns) * raster.n_rows, name);
     const bool from_north = map[5] < 0.;
     raster.spacing        = map[1];
     raster.x              = map[0] + 0.5 * map[1] - origin[0];
     raster.y              = map[3] + (from_north ? raster.n_rows - 0.5 : 0.5) * map[5] - origin[1];
     raster.system         = system_of(*data, file);
 
-    read_values(*data, from_north, name, raster);
+    read_values(*data, text, from_north, name, raster);
     return raster;
   }
 

@@ -214,7 +214,6 @@ def _gdal():
     """Only maps need it."""
     from osgeo import gdal  # pylint: disable=import-outside-toplevel
     gdal.UseExceptions()
-    gdal.SetConfigOption("AAIGRID_DATATYPE", "Float64")
     return gdal
 
 
@@ -223,14 +222,15 @@ def read_raster(path):
     try:
         data = _gdal().Open(str(path))
         band, system = data.GetRasterBand(1), data.GetSpatialRef()
-        values, is_valid = band.ReadAsArray().astype(float), band.GetMaskBand().ReadAsArray() > 0
-    except (AttributeError, RuntimeError) as error:
-        raise ValueError(f"{path}: GDAL reads no raster ({error})") from error
-    if data.GetDriver().ShortName == "AAIGrid":  # of which GDAL reads what is missing at the end as 0
-        words = pathlib.Path(path).read_text(encoding="utf-8").split()
-        n_keys = sum(word[0].isalpha() and word.lower() != "nan" for word in words)
-        if len(words) != values.size + 2 * n_keys:
-            raise ValueError(f"{path} has {len(words) - 2 * n_keys} values in place of {values.size}")
+        if data.GetDriver().ShortName == "AAIGrid":  # of which GDAL reads words and what is missing at the end as 0
+            words = pathlib.Path(path).read_text(encoding="utf-8").split()
+            first = 2 * sum(word[0].isalpha() and word.lower() != "nan" for word in words)
+            values = np.array(words[first:], dtype=float).reshape(data.RasterYSize, data.RasterXSize)
+            is_valid = np.full(values.shape, True)
+        else:
+            values, is_valid = band.ReadAsArray().astype(float), band.GetMaskBand().ReadAsArray() > 0
+    except (AttributeError, RuntimeError, ValueError) as error:
+        raise ValueError(f"{path}: GDAL reads no complete raster ({error})") from error
     x, width, row_x, y, column_y, height = data.GetGeoTransform()
     if row_x or column_y or abs(abs(height) - width) > 1e-6 * width:
         raise ValueError(f"{path}: its cells are {width:g} x {height:g} m. Write squares along the axes")
