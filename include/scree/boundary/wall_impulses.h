@@ -56,14 +56,6 @@ namespace scree
           of_face[faces.of_axis[a]][a] += impulse[a];
     }
 
-    /// Adds the impulses of each face.
-    WallImpulses &operator+=(const WallImpulses &other)
-    {
-      for (unsigned int f = 0; f < 2 * dim; ++f)
-        of_face[f] += other.of_face[f];
-      return *this;
-    }
-
     /// Saves or loads the impulses (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)

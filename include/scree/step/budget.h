@@ -25,9 +25,6 @@ namespace scree
     double work        = 0;                        ///< of both at the obstacle's velocity, on soil and water, J
     double dissipation = 0;                        ///< energy that is lost in contact, J
 
-    /// Adds the members of another balance.
-    ObstacleBalance &operator+=(const ObstacleBalance &other);
-
     /// Adds the moment of an impulse, N s, on an arm from the pivot, m.
     void add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse);
 
