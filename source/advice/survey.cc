@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/survey.h>
 #include <scree/bodies/drag_law.h>
-#include <scree/postprocess/soil_motion.h>
+#include <scree/postprocess/statistics/soil_motion.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
