@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/survey.h>
 #include <scree/bodies/drag_law.h>
-#include <scree/postprocess/soil_motion.h>
+#include <scree/postprocess/statistics/soil_motion.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
@@ -16,42 +16,6 @@ namespace scree
 
   namespace
   {
-    /// The smallest box around points of all ranks.
-    template <int dim>
-    class Extent
-    {
-    public:
-      void add(const Point<dim> &x)
-      {
-        for (unsigned int a = 0; a < dim; ++a)
-          {
-            ends[2 * a]     = std::max(ends[2 * a], x[a]);
-            ends[2 * a + 1] = std::max(ends[2 * a + 1], -x[a]);
-          }
-      }
-      void unite_ranks(const MPI_Comm communicator)
-      {
-        Utilities::MPI::max(ends, communicator, ends);
-      }
-      /// 0 without points.
-      double length(const unsigned int axis) const
-      {
-        return std::max(0., ends[2 * axis] + ends[2 * axis + 1]);
-      }
-      double longest_side() const
-      {
-        double longest = 0;
-        for (unsigned int a = 0; a < dim; ++a)
-          longest = std::max(longest, length(a));
-        return longest;
-      }
-
-    private:
-      // largest coordinate and minus the smallest, for each axis
-      std::vector<double> ends = std::vector<double>(2 * dim, -std::numeric_limits<double>::infinity());
-    };
-
-
     template <int dim>
     class Surveyor
     {
@@ -123,18 +87,29 @@ namespace scree
             scene.height = grid.cell_size() * motion.look(simulation.bodies(), 0.).thickness;
             return;
           }
-        Extent<dim> extent;
-        const auto add = [&](const auto &point) { extent.add(point.location); };
+        // Largest coordinate and minus the smallest, for each axis.
+        std::vector<double> ends(2 * dim, -std::numeric_limits<double>::infinity());
+        const auto add = [&](const auto &point) {
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              ends[2 * a]     = std::max(ends[2 * a], point.location[a]);
+              ends[2 * a + 1] = std::max(ends[2 * a + 1], -point.location[a]);
+            }
+        };
         for (const auto &body : simulation.bodies())
           for_each_point(body.points, add);
         if (!scene.has_soil)
           for (const auto &part : simulation.water_phases())
             for_each_point(part.points(), add);
-        extent.unite_ranks(communicator);
+        Utilities::MPI::max(ends, communicator, ends);
         // Outer points stand half a spacing inside the surface.
-        const double spacing = scene.cell_size / (scene.has_soil ? parameters.bodies[0].seeding.points_per_cell
-                                                                 : parameters.water.points_per_cell);
-        scene.height         = (scene.gravity > 0 ? extent.length(axis) : extent.longest_side()) + spacing;
+        scene.height  = scene.cell_size / (scene.has_soil ? parameters.bodies[0].seeding.points_per_cell
+                                                          : parameters.water.points_per_cell);
+        double length = 0.; // without points
+        for (unsigned int a = 0; a < dim; ++a)
+          if (scene.gravity == 0. || a == axis)
+            length = std::max(length, ends[2 * a] + ends[2 * a + 1]);
+        scene.height += length;
       }
 
       void look_at_soil(const SoilBody<dim> &body)

@@ -8,47 +8,44 @@
 
 namespace scree
 {
-  /// An archive that lists where the numbers of an object are, in the order of its serialize().
-  class NumbersOf
+  /// An archive that lists where all numbers of an object are, in the order of its serialize().
+  struct NumbersOf
   {
-  public:
-    /// @param object outlives the list
+    std::vector<double *> list; ///< valid as long as the object
+
+    /// Lists those of an object.
     template <class T>
     explicit NumbersOf(T &object)
     {
       object.serialize(*this, 0);
     }
 
-    /// @{
-    /// Appends a number, those of a vector or of a list, or all that an object has.
-    NumbersOf &operator&(double &number)
-    {
-      list.push_back(&number);
-      return *this;
-    }
-    template <int dim>
-    NumbersOf &operator&(dealii::Tensor<1, dim> &vector)
-    {
-      for (unsigned int a = 0; a < dim; ++a)
-        list.push_back(&vector[a]);
-      return *this;
-    }
-    template <class T>
-    NumbersOf &operator&(std::vector<T> &objects)
-    {
-      for (T &object : objects)
-        *this &object;
-      return *this;
-    }
+    /// Appends a number, a vector, or what is in a list or an object.
     template <class T>
     NumbersOf &operator&(T &object)
     {
       object.serialize(*this, 0);
       return *this;
     }
-    /// @}
-
-    std::vector<double *> list; ///< where they are
+    NumbersOf &operator&(double &number) ///< See above.
+    {
+      list.push_back(&number);
+      return *this;
+    }
+    template <int dim>
+    NumbersOf &operator&(dealii::Tensor<1, dim> &vector) ///< See above.
+    {
+      for (unsigned int a = 0; a < dim; ++a)
+        list.push_back(&vector[a]);
+      return *this;
+    }
+    template <class T>
+    NumbersOf &operator&(std::vector<T> &objects) ///< See above.
+    {
+      for (T &object : objects)
+        *this &object;
+      return *this;
+    }
   };
 } // namespace scree
 

@@ -6,7 +6,7 @@
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/point_sums.h>
 #include <scree/postprocess/run_totals.h>
-#include <scree/postprocess/soil_motion.h>
+#include <scree/postprocess/statistics/soil_motion.h>
 
 namespace scree
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/postprocess/measures.h>
-#include <scree/postprocess/soil_motion.h>
+#include <scree/postprocess/statistics/soil_motion.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>

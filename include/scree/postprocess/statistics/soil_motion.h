@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_postprocess_soil_motion_h
-#define scree_postprocess_soil_motion_h
+#ifndef scree_postprocess_statistics_soil_motion_h
+#define scree_postprocess_statistics_soil_motion_h
 
 #include <scree/io/check_result.h>
 #include <scree/mesh/discrete_level_set.h>
