@@ -25,7 +25,7 @@ for ranks in 1 2; do
   if [ "$ranks" -eq 1 ]; then named='1 rank'; else named='2 ranks'; fi
   sed -n 1p screen | grep -Eqx "Scree [0-9.]+ \([0-9a-f]+(-dirty)?\), $named +20[0-9][0-9]-[0-9-]+ [0-9:]+ \w+"
   sed -n 2p screen | grep -qx 'Case        case.prm -> results'
-  sed -n 3p screen | grep -Eqx 'Model       2D plane strain, dry, FLIP \(PIC rate auto: [0-9.]+ 1/s\), [1-9][0-9]* soil points'
+  sed -n 3p screen | grep -Eqx 'Model       2D plane strain, dry, AFLIP \(PIC rate auto: [0-9.]+ 1/s\), [1-9][0-9]* soil points'
   sed -n 4p screen | grep -qx 'Mesh        128 cells of 0.125 m'
   sed -n 5p screen | grep -Eqx 'Memory      [1-9][0-9]* MB estimated'
   grep -Eqx ' +time \(s\) +done +step +dt \(s\) +front 90 % \(m\) +kinetic \(J\) +remaining' screen

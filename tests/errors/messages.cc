@@ -115,8 +115,8 @@ namespace
       fs::remove_all(folder);
       fs::create_directories(folder);
       for (const auto &entry : fs::directory_iterator(source))
-        if (const std::string type = entry.path().extension();
-            type == ".prm" || type == ".part" || type == ".tif" || type == ".prj" || type == ".geojson")
+        if (const std::string type = entry.path().extension(); type == ".prm" || type == ".part" || type == ".tif" ||
+                                                               type == ".prj" || type == ".vrt" || type == ".geojson")
           {
             originals[entry.path().filename()] = entry.path();
             copy(entry.path());

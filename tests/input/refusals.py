@@ -65,9 +65,9 @@ QUESTIONED = {
         INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n"
         "  subsection Mohr-Coulomb\n    set Friction angle kind = direct shear or repose\n  end\nend\n", []),
     "rain in mm/h, a water table above all soil": (
-        INSTANT + SOIL + "subsection Rain\n  set Rate = 50\nend\nsubsection Water\n  set Phreatic surface = 3\nend\n",
+        INSTANT + SOIL + "subsection Rain\n  set Rate = 50\nend\nsubsection Water\n  set Phreatic surface = 0.95\nend\n",
         ['subsection Rain, entry "Rate" = 50: the unit is m/s (1 mm/h = 2.78e-7 m/s)',
-         'subsection Water, entry "Phreatic surface" = 3: all soil lies more than a cell below it']),
+         'subsection Water, entry "Phreatic surface" = 0.95: all soil lies more than a cell below it']),
     "a water table at the ground": (INSTANT + SOIL + "subsection Water\n  set Phreatic surface = 0.55\nend\n", []),
     "water above the ground": (INSTANT + SOIL + "subsection Water\n  set Phreatic surface = 0.8\n  set Reservoir level = 0.8\nend\n", []),
     "a conductivity in m/d, and mPa s": (

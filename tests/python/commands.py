@@ -172,7 +172,7 @@ def check_maps(commands):
     (folder / "deposit.asc").write_text(GRID + "0 -1 0 0\n0 1 2\n", encoding="utf-8")
     for name in ("thickness_0s", "thickness_10.50s"):
         (folder / f"{name}.asc").write_text(GRID + "0 1 0 0\n0 1 2 0\n", encoding="utf-8")
-    commands.refuses("^scree-maps: flume/maps/deposit.asc is no ESRI ASCII grid", "scree-maps", "flume")
+    commands.refuses("^scree-maps: flume/maps/deposit.asc: GDAL reads no complete raster", "scree-maps", "flume")
     (folder / "deposit.asc").write_text(GRID + "0 -1 0 0\n0 1 2 0\n", encoding="utf-8")
     commands.writes(["flume/maps.png"], "scree-maps", "flume")
     commands.writes(["flume/maps_deposit_thickness_10.5s.png"], "scree-maps", "flume", "--maps", "deposit", "--times", "10.5")

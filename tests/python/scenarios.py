@@ -22,9 +22,11 @@ subsection Mesh
   set Cell size = 0.25
 end
 subsection Soil
-  set Region = x < 0.5 && y < 0.5
+  set Region   = x < 0.5 && y < 0.5
+  set Material = Mohr-Coulomb
   subsection Mohr-Coulomb
     set Friction angle = 30
+    set Dilation angle = 0
   end
 end
 subsection Output

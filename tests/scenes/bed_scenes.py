@@ -322,7 +322,7 @@ def bed_column(scree):
                         {"End time": "1", "Mesh/Upper corner": "4, %g" % height, **plane.entries(), **kind, "Bed/Profile": "",
                          "Soil/Region": "abs(%s) < 0.5 && %s < 0.5" % (s, plane.along(normal)),
                          "Soil/Mohr-Coulomb/Young's modulus": "1e6", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
-                         "Soil/Grain density": "1500", "Soil/Initial porosity": "0", "Transfer/PIC rate": "5",
+                         "Soil/Grain density": "1500", "Soil/Initial porosity": "0", "Transfer/Method": "FLIP", "Transfer/PIC rate": "5",
                          "Boundaries/Left": "open", "Boundaries/Right": "open",
                          "Output/Graphics": "points", "Output/Interval": "1"})
             found = spread("collapses", plane)

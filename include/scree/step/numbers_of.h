@@ -20,27 +20,30 @@ namespace scree
       object.serialize(*this, 0);
     }
 
-    /// Appends a number, a vector, or what is in a list or an object.
+    /// Appends the numbers of an object.
     template <class T>
     NumbersOf &operator&(T &object)
     {
       object.serialize(*this, 0);
       return *this;
     }
-    NumbersOf &operator&(double &number) ///< See above.
+    /// Appends a number.
+    NumbersOf &operator&(double &number)
     {
       list.push_back(&number);
       return *this;
     }
+    /// Appends the components of a vector.
     template <int dim>
-    NumbersOf &operator&(dealii::Tensor<1, dim> &vector) ///< See above.
+    NumbersOf &operator&(dealii::Tensor<1, dim> &vector)
     {
       for (unsigned int a = 0; a < dim; ++a)
         list.push_back(&vector[a]);
       return *this;
     }
+    /// Appends what is in a list.
     template <class T>
-    NumbersOf &operator&(std::vector<T> &objects) ///< See above.
+    NumbersOf &operator&(std::vector<T> &objects)
     {
       for (T &object : objects)
         *this &object;

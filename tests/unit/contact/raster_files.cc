@@ -56,8 +56,8 @@ void read_marked_values()
   std::ofstream("mask.asc") << head << "1 0 1 1\n1 1 1 0\n";
   std::ofstream("places.xyz") << "0 0 1\n1 0 2\n0 1 3\n1 1 4\n";
   const auto band = [](const int number, const std::string &file, const std::string &more) {
-    return "<VRTRasterBand dataType=\"Float64\" band=\"" + std::to_string(number) + "\">" + more +
-           "<SimpleSource><SourceFilename relativeToVRT=\"1\">" + file +
+    return std::string("<VRTRasterBand dataType=\"") + (number == 1 ? "Float64" : "Byte") + "\" band=\"" +
+           std::to_string(number) + "\">" + more + "<SimpleSource><SourceFilename relativeToVRT=\"1\">" + file +
            "</SourceFilename></SimpleSource></VRTRasterBand>";
   };
   const std::string begin = R"(<VRTDataset rasterXSize="4" rasterYSize="2"><GeoTransform>0,1,0,2,0,-1</GeoTransform>)",

@@ -110,28 +110,29 @@ void average(const std::string &f_bar, const PropertyLayout<dim> &layout, std::v
 {
   if (f_bar == "none")
     return;
-  double volume = 0, change = 0, unloaded = 0;
-  const auto elastic = [&](Reference<dim> &point) { return &point.properties[layout.left_cauchy_green]; };
+  // J_e of a point that takes part in the means, else 0; the standard one does not read it.
+  const auto ratio = [&](const Reference<dim> &point) {
+    if (f_bar == "standard")
+      return 1.;
+    const double *stress = &point.properties[layout.stress];
+    const bool has_none  = stress[0] == 0. && stress[1] == 0. && stress[2] == 0.;
+    return has_none ? 0. : std::sqrt(determinant_of_components<dim>(&point.properties[layout.left_cauchy_green]));
+  };
+  double volume = 0, unloaded = 0;
+  for (const auto &point : points)
+    if (const double own = point.properties[layout.volume], J_e = ratio(point); J_e > 0)
+      {
+        volume += own * point.volume_change;
+        unloaded += own / J_e;
+      }
   for (auto &point : points)
     {
-      const double own = point.properties[layout.volume];
-      volume += own;
-      change += own * point.volume_change;
-      unloaded += own / std::sqrt(determinant_of_components<dim>(elastic(point)));
-    }
-  for (auto &point : points)
-    {
-      if (f_bar == "modified")
-        {
-          const double scale =
-              std::cbrt(Utilities::fixed_power<2>(volume / unloaded) / determinant_of_components<dim>(elastic(point)));
-          for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
-            elastic(point)[c] *= scale;
-        }
-      point.stretch = std::cbrt(change / volume / point.volume_change);
+      const double J_e    = ratio(point);
+      const double change = J_e > 0 ? volume / unloaded / J_e : point.volume_change;
+      point.stretch       = std::cbrt(change / point.volume_change);
       point.increment *= point.stretch;
       if (f_bar == "modified")
-        point.volume_change = change / volume;
+        point.volume_change = change;
     }
 }
 

@@ -34,7 +34,8 @@ def biaxial(size, length):
 def bank(size, length):
     return Variant({"scene": BANK, "h": size, "length": length}, {
         "Mesh/Cell size": f"{size:.15g}", "Mesh/Upper corner": "20, 7", "Soil/Mohr-Coulomb/Cohesion": 4e3, "Soil/Mohr-Coulomb/Softening strain": 0.1,
-        "Soil/Mohr-Coulomb/Residual cohesion": 500, "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}", "Output/Interval": 5}, "prm/slopes/first_slope.prm")
+        "Soil/Mohr-Coulomb/Tension cut-off": 0, "Soil/Mohr-Coulomb/Residual cohesion": 500,
+        "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}", "Output/Interval": 5}, "prm/slopes/first_slope.prm")
 
 
 def band_width(points, size):
