@@ -30,7 +30,7 @@ def per_metre(table, thickness):
     result = {}
     for column, values in table.items():
         column = column.replace("Momentum z", "Momentum y").replace("Bed impulse z", "Bed impulse y")
-        if any(unit in column for unit in ("(kg)", "(N s)", "(J)")):
+        if any(unit in column for unit in ("(kg)", "(N s)", "(J)")) or column.startswith("Deposit "):
             values = [value / thickness for value in values]
         result[column] = values
     return result
