@@ -13,6 +13,13 @@ namespace scree
     std::atomic<int> received{ 0 }; // the last signal, which any thread may get
     static_assert(std::atomic<int>::is_always_lock_free, "A signal must not wait.");
 
+    /// Whether the program was started under nohup; PETSc sets a handler of its own in MPI_InitFinalize.
+    const bool hangup_is_ignored = [] {
+      struct sigaction action = {};
+      sigaction(SIGHUP, nullptr, &action);
+      return action.sa_handler == SIG_IGN;
+    }();
+
     extern "C" void remember(const int signal)
     {
       received = signal;
@@ -57,12 +64,12 @@ namespace scree
   {
     for (const ListenedSignal &signal : listened)
       {
-        struct sigaction action = {}, before = {};
-        action.sa_handler = remember;
-        action.sa_flags   = SA_RESTART | (signal.number == SIGINT ? int(SA_RESETHAND) : 0);
-        sigaction(signal.number, nullptr, &before);
-        if (signal.number != SIGHUP || before.sa_handler != SIG_IGN) // nohup ignores it
-          sigaction(signal.number, &action, nullptr);
+        struct sigaction action = {};
+        action.sa_handler       = remember;
+        action.sa_flags         = SA_RESTART | (signal.number == SIGINT ? int(SA_RESETHAND) : 0);
+        if (signal.number == SIGHUP && hangup_is_ignored)
+          action.sa_handler = SIG_IGN;
+        sigaction(signal.number, &action, nullptr);
       }
     is_listening = true;
     last_call    = std::chrono::steady_clock::now();
