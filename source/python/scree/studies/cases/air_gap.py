@@ -62,7 +62,7 @@ def verdict(rows):
             for pair in PAIRS if gaining[pair]) or "none")
               + f". With Fading = 5, {sum(row['state'] == 'stable' for row in faded)} of "
               f"{len(faded)} are stable, and the gain is at most {gain(faded):.2g} %. Bound: 0.5 % by default.",
-              gain([row for row in rows if row["old p"] == "default"]) <= 0.5),
+              gain([row for row in rows if row["old p"] == "default"]) <= 0.5, quick=False),
         Claim("The bodies do not touch: by default, air remains in the closed gap. Its height in cells is, below " + ", ".join(
             f"{pair.split()[0]} on soil {min(left):.2g} to {max(left):.2g}" for pair in PAIRS[2:]
             if (left := [row["air left, cells"] for row in of(pair, "default")])) + ". Bound: half a cell.",
