@@ -2,6 +2,8 @@
 #include <scree/input/input_error.h>
 #include <scree/bodies/pressure_parameters.h>
 
+#include <utility>
+
 namespace scree
 {
   using namespace dealii;
@@ -17,6 +19,11 @@ namespace scree
                       maximum_iterations,
                       "Number of iterations after which a solve that has not converged stops the run.",
                       Patterns::Integer(1, 100000));
+    prm.add_parameter("Step",
+                      step,
+                      "fractional: approximate projection. variational: the force of the pressure is the transpose of "
+                      "the divergence, so that pressure makes no energy.",
+                      Patterns::Selection("fractional|variational"));
     prm.add_parameter("Previous pressure",
                       previous_pressure,
                       "Pressure at the start of a time step, from the points. affine: with their pressure gradient. "
@@ -52,6 +59,12 @@ namespace scree
         fading,
         "the water is compressible (entry \"Bulk modulus\" of subsection Water), and its pressure stores energy. "
         "Remove one of them.");
+    for (const auto &[name, value] : { std::make_pair("Fading", fading), std::make_pair("Projection", projection) })
+      require_entry(!is_variational() || value == 0.,
+                    "Water/Pressure",
+                    name,
+                    value,
+                    "with \"Step = variational\" it has no effect. Remove it.");
     require_entry(
         n_bodies > 0 || projection == defaults.projection, "Water/Pressure", "Projection", projection, remedy);
   }

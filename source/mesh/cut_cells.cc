@@ -17,24 +17,6 @@ namespace scree
 
   namespace
   {
-    constexpr unsigned int n_gauss = CutCell<2>::n_gauss;
-
-    /// Calls `visit(place, part)` for the points of a rule on a simplex with `corners`; parts add up to 1.
-    template <int dim, int dim_of_simplex, typename Visit>
-    void visit_rule(const Quadrature<dim_of_simplex> &rule,
-                    const std::array<Point<dim>, dim_of_simplex + 1> &corners,
-                    const Visit &visit)
-    {
-      const double whole = std::accumulate(rule.get_weights().begin(), rule.get_weights().end(), 0.);
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          Point<dim> place = corners[0];
-          for (unsigned int a = 0; a < dim_of_simplex; ++a)
-            place += rule.point(q)[a] * (corners[a + 1] - corners[0]);
-          visit(place, rule.weight(q) / whole);
-        }
-    }
-
     /// Normal of a line, as long as it, and of a triangle, as long as its area.
     Tensor<1, 2> area_vector(const std::array<Point<2>, 2> &line)
     {
@@ -43,33 +25,6 @@ namespace scree
     Tensor<1, 3> area_vector(const std::array<Point<3>, 3> &triangle)
     {
       return 0.5 * cross_product_3d(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-    }
-
-    using AtGaussPoints = std::array<double, n_gauss>; // along an axis
-
-    /// Products of the cubics' factors without x: 1 at their own Gauss point.
-    AtGaussPoints cubic_scales(const AtGaussPoints &points)
-    {
-      AtGaussPoints scales;
-      for (unsigned int i = 0; i < n_gauss; ++i)
-        {
-          scales[i] = 1.;
-          for (unsigned int j = 0; j < n_gauss; ++j)
-            if (j != i)
-              scales[i] /= points[i] - points[j];
-        }
-      return scales;
-    }
-
-    /// Lagrange's cubics through the Gauss points at `x`, from 0 to 1.
-    AtGaussPoints cubics(const AtGaussPoints &points, const AtGaussPoints &scales, const double x)
-    {
-      AtGaussPoints values = scales;
-      for (unsigned int i = 0; i < n_gauss; ++i)
-        for (unsigned int j = 0; j < n_gauss; ++j)
-          if (j != i)
-            values[i] *= x - points[j];
-      return values;
     }
   } // namespace
 
@@ -82,54 +37,6 @@ namespace scree
       , unit_cube(simplices_of_cube(Point<dim>(), 1.))
   {
     reinit();
-  }
-
-
-  template <int dim>
-  std::array<double, CutCell<dim>::n_gauss> CutCells<dim>::gauss_points()
-  {
-    const QGauss<1> rule(n_gauss);
-    std::array<double, n_gauss> points;
-    for (unsigned int q = 0; q < n_gauss; ++q)
-      points[q] = rule.point(q)[0];
-    return points;
-  }
-
-
-  template <int dim>
-  void CutCells<dim>::integrate_open_part(const std::vector<Simplex<dim>> &open, CutCell<dim> &cut) const
-  {
-    static const QWitherdenVincentSimplex<dim> rule(dim == 2 ? 4 : 5); // cubics along all axes: degree 6, 9
-    constexpr unsigned int n_rows = CutCell<dim>::n_points / n_gauss;
-    const AtGaussPoints points = gauss_points(), scales = cubic_scales(points);
-    for (const Simplex<dim> &simplex : open)
-      {
-        std::array<Point<dim>, dim + 1> corners;
-        for (unsigned int i = 0; i <= dim; ++i)
-          corners[i] = simplex[i].place;
-        const double volume = volume_of(simplex);
-        cut.open_fraction += volume;
-        visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
-          std::array<AtGaussPoints, dim> along;
-          for (unsigned int a = 0; a < dim; ++a)
-            along[a] = cubics(points, scales, x[a]);
-          for (unsigned int r = 0; r < n_rows; ++r)
-            {
-              double of_row = part * volume * along[1][r % n_gauss];
-              if constexpr (dim == 3)
-                of_row *= along[2][r / n_gauss];
-              for (unsigned int i = 0; i < n_gauss; ++i)
-                cut.weights[r * n_gauss + i] += of_row * along[0][i];
-            }
-          for (unsigned int v = 0; v < cut.n_vertices; ++v)
-            {
-              double hat = part * volume;
-              for (unsigned int a = 0; a < dim; ++a)
-                hat *= v >> a & 1 ? x[a] : 1. - x[a];
-              cut.open_hats[v] += hat;
-            }
-        });
-      }
   }
 
 
@@ -253,11 +160,16 @@ namespace scree
           corner.side = distance > -on_ground && distance < margin_at(corner.place, view) ? 0. : distance;
         }
     CutCell<dim> cut;
-    cut.cell        = cell;
-    cut.may_change  = may_change;
-    const auto open = open_part(std::move(simplices), linear_crossing<dim>);
-    integrate_open_part(open, cut);
-    integrate_ground(open, cut);
+    cut.cell       = cell;
+    cut.may_change = may_change;
+    cut.open       = open_part(std::move(simplices), linear_crossing<dim>);
+    CubicWeights<dim> integrals;
+    for (const Simplex<dim> &simplex : cut.open)
+      integrals.add(simplex);
+    cut.open_fraction = integrals.fraction;
+    cut.weights       = integrals.weights;
+    cut.open_hats     = integrals.hats;
+    integrate_ground(cut.open, cut);
     if (cut.open_fraction > 1. - nothing && cut.n_segments == 0)
       return;
     entry_of_cell[cell] = cut_cells.size();

@@ -56,11 +56,11 @@ namespace scree
 
 
   template <int dim>
-  void Mixture<dim>::find_porosities(const unsigned int record)
+  void Mixture<dim>::find_porosities(const unsigned int record, const bool by_flux)
   {
     MixtureCell<dim> &cell = records[record];
     cell.find_fill();
-    porosities[record].find(std::min(cell.fill, 1.) * cell.volume);
+    porosities[record].find((by_flux ? 1. : std::min(cell.fill, 1.)) * cell.volume);
   }
 
 

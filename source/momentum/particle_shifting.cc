@@ -88,18 +88,28 @@ namespace scree
                                           const double time_step)
   {
     shifts->clear();
-    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
-      if (const MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
-        {
+    if (pressure.is_variational())
+      {
+        for (const MixtureCell<dim> &cell : mixture.cells())
           shifts->activate_cell(cell.cell);
-          mixture.add_pressure_gradient(record,
-                                        multilinear_of<dim>(pressure.at_vertices(potential, cell.cell)),
-                                        -time_step * time_step,
-                                        *shifts,
-                                        0,
-                                        *shifts,
-                                        dim);
-        }
+        const FlowField<dim> &of_flow = pressure.impulses_of(potential, time_step);
+        for (const unsigned int node : shifts->active_nodes())
+          for (unsigned int c = 0; c < dim; ++c)
+            (*shifts)[node][dim + c] = time_step * (of_flow[node][c] + of_flow[node][dim + c]);
+      }
+    else
+      for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+        if (const MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
+          {
+            shifts->activate_cell(cell.cell);
+            mixture.add_pressure_gradient(record,
+                                          multilinear_of<dim>(pressure.at_vertices(potential, cell.cell)),
+                                          -time_step * time_step,
+                                          *shifts,
+                                          0,
+                                          *shifts,
+                                          dim);
+          }
     shifts->add_contributions();
     const double most = 0.1 * grid.cell_size();
     for (const unsigned int node : shifts->active_nodes())

@@ -84,13 +84,15 @@ namespace scree
                                           const WallGaps<dim> &wall_gaps,
                                           const BodyForces<dim> &forcing,
                                           const double water_density,
-                                          TimerOutput &timer)
+                                          TimerOutput &timer,
+                                          const bool by_flux)
       : constraints(constraints)
       , wall_gaps(wall_gaps)
       , forcing(forcing)
       , grid(grid)
       , water_density(forcing.mass_scaling() * water_density)
       , timer(timer)
+      , by_flux(by_flux)
       , friction(constraints)
       , pressure_impulses(grid.numbering())
   {
@@ -158,6 +160,81 @@ namespace scree
     pore[PoreField<dim>::inertial_drag] *= time_step * porosity * porosity;
     pore[PoreField<dim>::grain_fraction] = fraction;
     pore[PoreField<dim>::soil_share]     = soil_share(grains, pore[PoreField<dim>::local_solid_volume]);
+  }
+
+
+  template <int dim>
+  void TwoPhaseMomentum<dim>::find_flux_inertia(const MixtureNodes<dim> &nodes,
+                                                const NodalField<dim> &excess,
+                                                const double time_step)
+  {
+    for (const unsigned int node : nodes.pores.active_nodes())
+      {
+        if (is_empty(nodes, node))
+          continue;
+        assign_rigid_mass(nodes, node);
+        double *pore = nodes.pores[node], *soil = nodes.soil[node], *water = nodes.water[node];
+        const double mass    = water[Field<dim>::mass];
+        const bool has_both  = mass > 0. && soil[Field<dim>::mass] > 0.;
+        const double inverse = has_both ? 1. + water_density * pore[PoreField<dim>::local_solid_volume] / mass : 1.;
+        const double inertia = mass + water_density * pore[PoreField<dim>::flux_inertia];
+        const double square  = inverse * inverse;
+        pore[PoreField<dim>::grain_fraction] = mass > 0. ? 1. - 1. / inverse : 1.;
+        pore[PoreField<dim>::coupling]       = has_both ? std::max(inertia / square - mass, 0.) : 0.;
+        pore[PoreField<dim>::soil_share]     = 1.;
+        pore[PoreField<dim>::drag] =
+            pore[PoreField<dim>::coupling] + (has_both ? time_step * pore[PoreField<dim>::drag] / square : 0.);
+        pore[PoreField<dim>::inertial_drag] *= has_both ? time_step / (square * inverse) : 0.;
+        if (has_both)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              double &momentum = water[Field<dim>::momentum + c];
+              const double own = (momentum + excess[node][Field<dim>::momentum + c]) / inverse;
+              soil[Field<dim>::momentum + c] += momentum - own;
+              momentum = own;
+            }
+      }
+  }
+
+
+  template <int dim>
+  void TwoPhaseMomentum<dim>::find_pressed_nodes(const MixtureNodes<dim> &nodes, PressedNodes<dim> &pressed) const
+  {
+    pressed.all.clear();
+    pressed.held.clear();
+    for (const unsigned int node : nodes.pores.active_nodes())
+      {
+        if (is_empty(nodes, node))
+          continue;
+        const double soil = nodes.soil[node][Field<dim>::mass], water = nodes.water[node][Field<dim>::mass];
+        const double *pore        = nodes.pores[node];
+        const DragBlock<dim> pair = drag_block_at(nodes, node);
+        pressed.all.push_back({ node,
+                                1. - pore[PoreField<dim>::grain_fraction],
+                                drag_mobility(soil, water, pore[PoreField<dim>::drag]),
+                                PressedNode<dim>::free });
+        if (!pair.is_held())
+          continue;
+        pressed.all.back().held = pressed.held.size();
+        pressed.held.push_back(pair);
+      }
+  }
+
+
+  template <int dim>
+  void TwoPhaseMomentum<dim>::add_pressure_forces(const MixtureNodes<dim> &nodes,
+                                                  const FlowField<dim> &impulses,
+                                                  const double time_step) const
+  {
+    for (const unsigned int node : nodes.pores.active_nodes())
+      {
+        if (is_empty(nodes, node))
+          continue;
+        const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
+        const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
+        add_to(nodes.soil[node] + Field<dim>::force, of_phases.soil / time_step);
+        add_to(nodes.water[node] + Field<dim>::force, of_phases.water / time_step);
+      }
   }
 
 
@@ -252,9 +329,20 @@ namespace scree
       {
         if (is_empty(nodes, node))
           continue;
-        assign_rigid_mass(nodes, node);
-        compute_porosity_and_drag(nodes, node, time_step);
+        if (!by_flux)
+          {
+            assign_rigid_mass(nodes, node);
+            compute_porosity_and_drag(nodes, node, time_step);
+          }
         SoilAndWater<dim> before{ velocity_of_sums<dim>(nodes.soil[node]), velocity_of_sums<dim>(nodes.water[node]) };
+        if (const double coupling = nodes.pores[node][PoreField<dim>::coupling]; by_flux && coupling > 0.)
+          {
+            DragBlock<dim> inertia;
+            inertia.soil_mass  = nodes.soil[node][Field<dim>::mass];
+            inertia.water_mass = nodes.water[node][Field<dim>::mass];
+            inertia.drag       = coupling;
+            before             = inertia.solve({ inertia.soil_mass * before.soil, inertia.water_mass * before.water });
+          }
         SoilAndWater<dim> impulses    = impulses_at(nodes, node, time_step, balance);
         const SoilAndWater<dim> after = stop_at_walls(nodes, node, impulses, before, balance);
         // A phase that is absent has no motion of its own to change.
@@ -272,10 +360,23 @@ namespace scree
 
   template <int dim>
   void TwoPhaseMomentum<dim>::sum_pressure_impulses(const Mixture<dim> &mixture,
-                                                    const PorePressure<dim> &pressure,
+                                                    PorePressure<dim> &pressure,
                                                     const double time_step)
   {
     pressure_impulses.clear();
+    if (by_flux)
+      {
+        for (const MixtureCell<dim> &cell : mixture.cells())
+          pressure_impulses.activate_cell(cell.cell);
+        const FlowField<dim> &of_flow = pressure.impulses_of_change(time_step);
+        for (const PressedNode<dim> &node : pressure.pressed_nodes.all)
+          {
+            const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(node, of_flow[node.node]);
+            add_to(pressure_impulses[node.node], of_phases.soil);
+            add_to(pressure_impulses[node.node] + dim, of_phases.water);
+          }
+        return;
+      }
     const bool has_menisci = pressure.has_menisci();
     for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       {
@@ -326,7 +427,7 @@ namespace scree
   template <int dim>
   void TwoPhaseMomentum<dim>::correct(const MixtureNodes<dim> &nodes,
                                       const Mixture<dim> &mixture,
-                                      const PorePressure<dim> &pressure,
+                                      PorePressure<dim> &pressure,
                                       const double time_step,
                                       Budget<dim> &balance)
   {
@@ -351,7 +452,8 @@ namespace scree
         add_to_velocities(change, of_soil, of_water);
         const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;
         // The work of an impulse, as at walls.
-        balance.drag_dissipation += 0.5 * pair.drag * slip * (before.water - before.soil + slip);
+        const double drag = pair.drag - (by_flux ? nodes.pores[node][PoreField<dim>::coupling] : 0.);
+        balance.drag_dissipation += 0.5 * drag * slip * (before.water - before.soil + slip);
       }
     nodes.update_velocity_ghosts();
   }

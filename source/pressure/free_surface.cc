@@ -24,15 +24,17 @@ namespace scree
                                 const WaterBoundaryConditions<dim> &walls,
                                 const Tensor<1, dim> &gravity,
                                 const CutCells<dim> *cut_cells,
-                                const double air_entry)
+                                const double air_entry,
+                                const bool by_flux)
       : grid(grid)
       , vertices(vertices)
       , walls(walls)
+      , by_flux(by_flux)
       , down(gravity.norm() > 0. ? gravity / gravity.norm() : gravity)
       , cut_cells(cut_cells)
       , filling(vertices)
       , neighbours(vertices)
-      , menisci(vertices, air_entry)
+      , menisci(vertices, by_flux ? 0. : air_entry)
       , sides(vertices)
   {
     reinit();
@@ -49,6 +51,7 @@ namespace scree
     kinds.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), PressureDofType::dry);
     distances.assign(kinds.size(), -1.);
     menisci.reinit(kinds.size());
+    scratch.reinit(vertices.partitioner());
     if (cut_cells)
       find_closed();
   }
@@ -178,8 +181,9 @@ namespace scree
             {
               double *node = filling[nodes[v]];
               node[water] += cell.water_at_vertex[v];
-              node[filled] += cell.water_at_vertex[v] + cell.effective_saturation * cell.grains_at_vertex[v];
-              if (cell.pore_volume > 0.)
+              node[filled] += by_flux ? cell.bulk_at_vertex[v]
+                                      : cell.water_at_vertex[v] + cell.effective_saturation * cell.grains_at_vertex[v];
+              if (cell.pore_volume > 0. && !by_flux)
                 node[by_scatter] += cell.effective_saturation * cell.grains_at_vertex[v] - cell.wet_grains_at(v);
               node[weighted_pressure] += cell.pressure_at_vertex[v];
               node[weighted_forgotten] += cell.forgotten_at_vertex[v];
@@ -214,7 +218,7 @@ namespace scree
       // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
       const double fill = std::min(sums[filled] / volume_under(vertex), sums[wet_cells] / open_cells_around(vertex));
       PressureDofType &kind = kinds[vertex];
-      distances[vertex]     = distance_from_fill(fill_with_ground(vertex, fill));
+      distances[vertex]     = distance_from_fill(by_flux ? fill : fill_with_ground(vertex, fill));
       kind                  = PressureDofType::dry;
       double value          = 0.;
       if (menisci.exist())
@@ -233,7 +237,8 @@ namespace scree
       pressure.local_element(vertex) = value;
     };
     for_all_wet_vertices(mixture, classify);
-    close_gaps(mixture, pressure);
+    if (!by_flux)
+      close_gaps(mixture, pressure);
 
     // Kinds beside the surface: those with unknown neighbours, then those that have only those.
     neighbours.clear();
@@ -255,6 +260,72 @@ namespace scree
     spread(PressureDofType::unknown, PressureDofType::surface);
     neighbours.clear_ghosts();
     spread(PressureDofType::surface, PressureDofType::beyond);
+    if (!by_flux)
+      return;
+    followers[0].followed = PressureDofType::unknown;
+    followers[1].followed = PressureDofType::surface;
+    for (Followers &group : followers)
+      {
+        const PressureDofType kind =
+            group.followed == PressureDofType::unknown ? PressureDofType::surface : PressureDofType::beyond;
+        group.vertices.clear();
+        group.pairs.clear();
+        for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
+          if (kinds[vertex] == kind)
+            group.vertices.push_back(vertex);
+        });
+        for_pairs(mixture, kind, group.followed, [&](const unsigned int vertex, const unsigned int neighbour) {
+          group.pairs.emplace_back(vertex, neighbour);
+        });
+      }
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::clear(VertexVector &values) const
+  {
+    for (const unsigned int vertex : filling.active_nodes())
+      values.local_element(vertex) = 0.;
+    values.zero_out_ghost_values();
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::extend(VertexVector &pressure)
+  {
+    for (const Followers &group : followers)
+      {
+        for (const auto &pair : group.pairs)
+          scratch.local_element(pair.first) += pressure.local_element(pair.second);
+        scratch.compress(VectorOperation::add);
+        scratch.update_ghost_values();
+        for (const unsigned int vertex : group.vertices)
+          pressure.local_element(vertex) = share(vertex) * scratch.local_element(vertex);
+        for (const unsigned int vertex : group.vertices)
+          scratch.local_element(vertex) = 0.;
+        scratch.zero_out_ghost_values();
+      }
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::restrict_to_unknown(VertexVector &sums)
+  {
+    for (unsigned int g = followers.size(); g-- > 0;)
+      {
+        const Followers &group = followers[g];
+        sums.update_ghost_values();
+        for (const auto &pair : group.pairs)
+          scratch.local_element(pair.second) += share(pair.first) * sums.local_element(pair.first);
+        sums.zero_out_ghost_values();
+        scratch.compress(VectorOperation::add);
+        for (const unsigned int vertex : filling.active_nodes())
+          if (kinds[vertex] == group.followed)
+            {
+              sums.local_element(vertex) += scratch.local_element(vertex);
+              scratch.local_element(vertex) = 0.;
+            }
+      }
   }
 
 

@@ -85,14 +85,20 @@ namespace scree
       , projection(parameters.projection)
       , bulk_modulus(water.bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
+      , variational(parameters.is_variational())
       , timer(timer)
       , vertices(numbered(grid))
-      , surface(grid, vertices, walls, gravity, cut_cells, water.air_entry_pressure)
+      , surface(grid, vertices, walls, gravity, cut_cells, water.air_entry_pressure, variational)
+      , part(grid, vertices, surface, cut_cells)
+      , pair(grid, vertices, part)
+      , schur(grid, vertices, surface, part, pair)
       , gaps(grid, vertices, surface)
       , divergence(grid, vertices, surface, gravity.norm(), cut_cells, ground_gaps)
       , solver(grid, vertices, parameters)
-      , memory(vertices, parameters.fading, water, grid.cell_size())
+      , memory(vertices, variational ? 0. : parameters.fading, water, grid.cell_size())
   {
+    if (variational)
+      solver.set_matrix(schur);
     reinit_vectors();
   }
 
@@ -112,6 +118,8 @@ namespace scree
     vertices.distribute(grid.fine_cells());
     surface.reinit();
     gaps.reinit();
+    pair.reinit();
+    schur.reinit();
     solver.reinit();
     memory.reinit();
     reinit_vectors();
@@ -144,6 +152,8 @@ namespace scree
   {
     if (has_menisci())
       surface.extrapolate_with_menisci(mixture, is_start, values, is_start ? pull : pull_change);
+    else if (variational)
+      surface.extend(values);
     else
       surface.extrapolate(mixture, values);
   }
@@ -189,6 +199,23 @@ namespace scree
 
 
   template <int dim>
+  void PorePressure<dim>::find_mobilities(Mixture<dim> &mixture, const double time_step) const
+  {
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    for (MixtureCell<dim> &cell : mixture.cells())
+      if (const double volume = cell.bulk_volume; volume > 0.)
+        {
+          const double both = cell.soil_mass + cell.water_mass, flux = cell.mass_of_flux;
+          const double alone       = cell.inertia_of_flux + time_step * cell.drag_of_flux;
+          const double determinant = both * alone - flux * flux;
+          const bool moves         = cell.soil_mass > 0. && !cell.is_rigid && determinant > 1e-12 * both * alone;
+          const double inverse     = moves ? (alone - 2. * flux + both) / determinant : 1. / alone;
+          cell.mobility            = volume * volume * inverse / (cell_volume * std::min(volume / cell_volume, 1.));
+        }
+  }
+
+
+  template <int dim>
   void PorePressure<dim>::assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus)
   {
     const double storage = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
@@ -204,20 +231,28 @@ namespace scree
 
   template <int dim>
   void PorePressure<dim>::solve(Mixture<dim> &mixture,
-                                const NodalField<dim> &soil,
-                                const NodalField<dim> &water,
-                                const PoreField<dim> &pores,
+                                const MixtureNodes<dim> &nodes,
                                 const double time_step,
                                 const double shear_modulus,
                                 Budget<dim> &balance)
   {
     {
-      const TimedPart part(timer, TimerSection::pressure_system);
-      divergence.integrate(mixture, soil, water, pores, time_step, source);
-      compute_pressure_coefficients(mixture, soil, water, time_step);
+      const TimedPart timed(timer, TimerSection::pressure_system);
+      if (variational)
+        {
+          find_mobilities(mixture, time_step);
+          schur.assemble(mixture, pressed_nodes, time_step);
+          schur.find_source(nodes, pressure, source);
+          surface.clear(change);
+        }
+      else
+        {
+          divergence.integrate(mixture, nodes.soil, nodes.water, nodes.pores, time_step, source);
+          compute_pressure_coefficients(mixture, nodes.soil, nodes.water, time_step);
+        }
       assemble(mixture, time_step, shear_modulus);
     }
-    const TimedPart part(timer, TimerSection::pressure_solve);
+    const TimedPart timed(timer, TimerSection::pressure_solve);
     const SolveReport report = solver.solve(source, pressure, relative_tolerance, change);
     solver.update_preconditioner_age(report);
     count(report, balance);
@@ -258,7 +293,10 @@ namespace scree
     const double tolerance_of_potential = std::min(1e-2, 100. * relative_tolerance);
     count(solver.solve(source, pressure, tolerance_of_potential, potential), balance);
     potential.update_ghost_values();
-    surface.extrapolate(mixture, potential);
+    if (variational)
+      surface.extend(potential);
+    else
+      surface.extrapolate(mixture, potential);
   }
 
 

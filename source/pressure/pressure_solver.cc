@@ -30,10 +30,12 @@ namespace scree
                                       const NodeNumbering<dim> &vertices,
                                       const PressureParameters &parameters)
       : grid(grid)
+      , vertices(vertices)
       , numbering(grid, vertices)
       , system(grid, vertices, numbering)
       , maximum_iterations(parameters.maximum_iterations)
   {
+    reinit();
   }
 
 
@@ -42,6 +44,8 @@ namespace scree
   {
     numbering.reinit();
     preconditioner.reset();
+    of_schur.reinit(vertices.partitioner());
+    times_schur.reinit(vertices.partitioner());
     is_worn = true;
   }
 
@@ -62,6 +66,26 @@ namespace scree
         is_worn = true;
       }
     system.assemble(mixture, surface, time_step, storage, projection);
+    if (schur == nullptr)
+      return;
+    storage_of_number.resize(system.n_owned());
+    for (unsigned int i = 0; i < storage_of_number.size(); ++i)
+      storage_of_number[i] = system.is_unknown(i) ? storage(numbering.vertex(i)) : 0.;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::vmult(VertexVector &target, const VertexVector &source)
+  {
+    if (schur == nullptr)
+      return system.vmult(target, source);
+    for (unsigned int i = 0; i < system.n_owned(); ++i)
+      of_schur.local_element(numbering.vertex(i)) = system.is_unknown(i) ? source.local_element(i) : 0.;
+    schur->vmult(times_schur, of_schur);
+    for (unsigned int i = 0; i < system.n_owned(); ++i)
+      target.local_element(i) = system.is_unknown(i) ? times_schur.local_element(numbering.vertex(i)) +
+                                                           storage_of_number[i] * source.local_element(i)
+                                                     : 0.;
   }
 
 
@@ -79,7 +103,7 @@ namespace scree
   typename PressureSolver<dim>::Iterations PressureSolver<dim>::iterate(const unsigned int most)
   {
     const auto n_owned = system.n_owned();
-    system.vmult(remainder, solution);
+    vmult(remainder, solution);
     remainder.sadd(-1., 1., source);
     direction         = 0.;
     direction_product = 0.;
@@ -88,7 +112,7 @@ namespace scree
     while (result.residual > tolerance && result.n < most)
       {
         preconditioner->vmult(preconditioned, remainder);
-        system.vmult(product, preconditioned);
+        vmult(product, preconditioned);
         const double *r = remainder.begin(), *z = preconditioned.begin(), *w = product.begin();
         const double *s = direction_product.begin();
         double rr = 0, rz = 0, zw = 0, rw = 0, ww = 0, rs = 0, ws = 0, ss = 0;
@@ -167,7 +191,7 @@ namespace scree
                                          VertexVector &change)
   {
     take(pressure, solution);
-    system.vmult(scratch, solution);
+    vmult(scratch, solution);
     take(rhs, source);
     take(change, solution);
     constexpr double rounding = 1e-12;
@@ -190,7 +214,7 @@ namespace scree
     right_side = source;
     for (unsigned int i = 0; i < is_held.size(); ++i)
       held.local_element(i) = is_held[i] ? solution.local_element(i) : 0.;
-    system.vmult(scratch, held);
+    vmult(scratch, held);
 
     // The held vertices leave the system like those of a drained wall.
     system.hold(is_held);
@@ -206,7 +230,7 @@ namespace scree
       if (is_held[i])
         solution.local_element(i) = held.local_element(i);
     source = right_side;
-    system.vmult(scratch, solution);
+    vmult(scratch, solution);
     residual = scratch;
     residual -= source;
   }

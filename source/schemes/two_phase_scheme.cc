@@ -28,8 +28,8 @@ namespace scree
       // Without gravity nothing falls; where water is compressible, closing is strain; what soil gains would be water
       // if its points carry that.
       , limits_volumetric_strain(
-            model.stabilisation.f_bar_kind() != FBar::none && forces.gravity().norm() > 0. &&
-            model.water_parameters.bulk_modulus == 0. &&
+            !model.pressure_parameters.is_variational() && model.stabilisation.f_bar_kind() != FBar::none &&
+            forces.gravity().norm() > 0. && model.water_parameters.bulk_modulus == 0. &&
             std::all_of(water.begin(), water.end(), [](const auto &one) { return one.carrier() == nullptr; }))
       , faces_closed_to_soil(model.constraints[0]->faces_closed_to_soil())
       , faces_closed_to_water(model.water_walls->closed_faces())
@@ -39,10 +39,12 @@ namespace scree
       , transfer(grid,
                  model.transfer,
                  with_inertia(model.water_parameters, forces.mass_scaling()),
-                 model.pressure_parameters.uses_pressure_gradient() ? 1. : 0.)
+                 model.pressure_parameters.uses_pressure_gradient() ? 1. : 0.,
+                 model.pressure_parameters.is_variational())
       , mixture(grid, model.soil_points, model.cut_cells)
       , pores(grid)
       , water_field(grid)
+      , excess(grid)
       , ground_gaps(grid, model.cut_cells, forces.fall().norm())
       , pressure(grid,
                  *model.water_walls,
@@ -54,7 +56,13 @@ namespace scree
                  timer)
       , wall_gaps(grid, *model.constraints[0])
       , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
-      , momentum(grid, *model.constraints[0], wall_gaps, forces, model.water_parameters.density, timer)
+      , momentum(grid,
+                 *model.constraints[0],
+                 wall_gaps,
+                 forces,
+                 model.water_parameters.density,
+                 timer,
+                 pressure.is_variational())
       , viscosity(grid, model.water_parameters, model.bodies, water, timer)
       , contact(grid,
                 model.ground,
@@ -78,6 +86,7 @@ namespace scree
     mixture.reinit();
     pores.reinit();
     water_field.reinit();
+    excess.reinit();
     pressure.reinit();
     wall_gaps.reinit();
     momentum.reinit();
@@ -101,10 +110,11 @@ namespace scree
     mixture.clear();
     pores.clear();
     water_field.clear();
+    excess.clear();
     for (const auto &body : soil.all_bodies())
       transfer.soil_to_grid(body, mixture);
     for (const auto &part : water)
-      transfer.to_grid(part, mixture, water_field, pores);
+      transfer.to_grid(part, mixture, water_field, excess, pores);
     for (const Inflow<dim> &inflow : inflows)
       if (inflow.water_share > 0.)
         inflow.add_to(mixture);
@@ -123,7 +133,8 @@ namespace scree
         soil.field.activate_cell(cell.cell);
         pores.activate_cell(cell.cell);
         water_field.activate_cell(cell.cell);
-        if (cell.effective_saturation == 0 || cell.grain_volume == 0)
+        excess.activate_cell(cell.cell);
+        if (cell.effective_saturation == 0 || cell.grain_volume == 0 || pressure.is_variational())
           continue;
         const unsigned int *nodes = grid.nodes(cell.cell);
         const unsigned int n = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
@@ -201,14 +212,32 @@ namespace scree
     const TimedPart part(timer, TimerSection::nodes);
     complete_pores();
     pressure.locate(mixture);
-    add_pressure_forces();
+    if (!pressure.is_variational())
+      add_pressure_forces();
     soil.add_loads(time_step); // Pressure is implicit, so the load is that of the step's end.
     soil.field.add_contributions();
     water_field.add_contributions();
     pores.add_contributions();
+    excess.add_contributions();
     soil.field.scale_inertia(forces.mass_scaling());
     water_field.scale_inertia(forces.mass_scaling());
+    excess.scale_inertia(forces.mass_scaling());
+    if (pressure.is_variational())
+      find_pair(time_step);
     wall_gaps.release(forces, time_step);
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::find_pair(const double time_step)
+  {
+    const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
+    pressure.find_pair(mixture, [&](const unsigned int node) {
+      return water_field[node][NodalField<dim>::mass] / transfer.water_density() +
+             pores[node][PoreField<dim>::local_solid_volume];
+    });
+    momentum.find_flux_inertia(nodes, excess, time_step);
+    momentum.add_pressure_forces(nodes, pressure.impulses(time_step), time_step);
   }
 
 
@@ -224,8 +253,10 @@ namespace scree
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
     contact.predict(nodes, mixture, momentum, time_step, budget);
-    pressure.solve(mixture, soil.field, water_field, pores, time_step, shear_modulus, budget); // L dp = -div u**
-    momentum.correct(nodes, mixture, pressure, time_step, budget);                             // v = v** - dt A^-1 G dp
+    if (pressure.is_variational())
+      momentum.find_pressed_nodes(nodes, pressure.pressed_nodes);
+    pressure.solve(mixture, nodes, time_step, shear_modulus, budget); // L dp = -div u**
+    momentum.correct(nodes, mixture, pressure, time_step, budget);    // v = v** - dt A^-1 G dp
     contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);
     end_step(nodes, time_step, budget);
   }

@@ -48,13 +48,15 @@ namespace scree
   WaterTransfer<dim>::WaterTransfer(const BackgroundGrid<dim> &grid,
                                     const TransferParameters &transfer,
                                     const WaterParameters &water,
-                                    const double pressure_slope)
+                                    const double pressure_slope,
+                                    const bool by_flux)
       : grid(grid)
       , method(transfer.transfer_method())
       , pic_rate(transfer.pic_rate)
       , pressure_slope(pressure_slope)
       , point_sets(water.point_sets_kind())
       , density(water.density)
+      , by_flux(by_flux)
   {
   }
 
@@ -84,7 +86,11 @@ namespace scree
 
               moments.add(shape, grains);
               if (parts != nullptr)
-                parts->add_soil(shape.x, grains, volume);
+                parts->add_soil(shape.x,
+                                grains,
+                                volume,
+                                volume * law.linear(porosity) / porosity,
+                                grains * law.inertial(porosity) / porosity);
               add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
               sums.soil_mass += mass;
               sums.grain_volume += grains;
@@ -104,9 +110,12 @@ namespace scree
   void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water,
                                      Mixture<dim> &mixture,
                                      NodalField<dim> &field,
+                                     NodalField<dim> &excess,
                                      PoreField<dim> &pores) const
   {
+    using Pores                   = typename PorosityOfParts<dim>::Pores;
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+    const SoilBody<dim> *carrier  = water.carrier();
     const double width            = grid.cell_size();
     const auto &layout            = water.layout;
     for (const auto &cell : water.points().cells())
@@ -118,19 +127,46 @@ namespace scree
             cell, [&](const auto &point) { mixture.cells()[record].water_volume += point.properties[layout.volume]; });
         const PorosityOfParts<dim> *porosity = mixture.porosity_of_parts(cell.cell);
         if (porosity != nullptr)
-          mixture.find_porosities(record);
+          mixture.find_porosities(record, by_flux);
         MixtureCell<dim> totals = mixture.cells()[record];
         CellSums<dim, n> sums(width);
-        NodeRow grains_about[n_rows] = {};
+        CellSums<dim, n> excess_sums(width);
+        NodeRow grains_about[n_rows] = {}, inertia[n_rows] = {}, drag[n_rows] = {}, inertial[n_rows] = {};
+        const bool has_pores = porosity != nullptr || (by_flux && carrier != nullptr);
+        const auto pores_at  = [&](const auto &point, const Point<dim> &x) {
+          if (porosity != nullptr)
+            return porosity->at(x);
+          if (carrier == nullptr || !by_flux)
+            return Pores{ 1., 0., 0. };
+          const double porous = std::max(carrier->porosity(point.properties), smallest_porosity);
+          return Pores{ 1. / porous,
+                        carrier->drag->linear(porous) / porous,
+                        (1. - porous) * carrier->drag->inertial(porous) / porous };
+        };
 
         for_each_record_with_shape<n>(cell, cell.stride, open, width, [&](const auto &point, const auto &shape) {
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
           moments.add(shape, volume);
-          if (porosity != nullptr)
-            add_row_sums(shape, volume * (porosity->inverse_at(shape.x) - 1.), grains_about);
-
+          const Pores about = pores_at(point, shape.x);
+          const double bulk = about.inverse_porosity * volume;
+          if (has_pores)
+            [&] {
+              const double more = about.inverse_porosity - 1.;
+              add_row_sums(shape, volume * more, grains_about);
+              if (!by_flux)
+                return;
+              add_row_sums(shape, volume * more * (2. + more), inertia);
+              add_row_sums(shape, bulk * about.resistance, drag);
+              add_row_sums(shape, bulk * about.inertial, inertial);
+              excess_sums.template add_momentum<method>(shape, mass * more, properties + layout.velocity, affine);
+            }();
+          add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
+          totals.bulk_volume += bulk;
+          totals.mass_of_flux += about.inverse_porosity * mass;
+          totals.inertia_of_flux += about.inverse_porosity * about.inverse_porosity * mass;
+          totals.drag_of_flux += bulk * about.resistance;
           std::array<double, dim> rise;
           for (unsigned int a = 0; a < dim; ++a)
             rise[a] = pressure_slope * width * properties[layout.pressure_gradient + a];
@@ -143,10 +179,18 @@ namespace scree
 
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
-        if (porosity != nullptr)
+        if (has_pores)
           {
+            const unsigned int *nodes = grid.nodes(cell.cell);
             pores.activate_cell(cell.cell);
-            scatter<dim, n>(grains_about, grid.nodes(cell.cell), PoreField<dim>::local_solid_volume, pores);
+            scatter<dim, n>(grains_about, nodes, PoreField<dim>::local_solid_volume, pores);
+            if (!by_flux)
+              continue;
+            excess.activate_cell(cell.cell);
+            excess_sums.scatter(nodes, excess);
+            scatter<dim, n>(inertia, nodes, PoreField<dim>::flux_inertia, pores);
+            scatter<dim, n>(drag, nodes, PoreField<dim>::drag, pores);
+            scatter<dim, n>(inertial, nodes, PoreField<dim>::inertial_drag, pores);
           }
       }
   }
@@ -254,18 +298,19 @@ namespace scree
   void WaterTransfer<dim>::to_grid(const WaterPhase<dim> &water,
                                    Mixture<dim> &mixture,
                                    NodalField<dim> &field,
+                                   NodalField<dim> &excess,
                                    PoreField<dim> &pores) const
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::apic:
-          return add_water<n, TransferMethod::apic>(water, mixture, field, pores);
+          return add_water<n, TransferMethod::apic>(water, mixture, field, excess, pores);
         case TransferMethod::tpic:
         case TransferMethod::aflip: // They differ on the way back only.
-          return add_water<n, TransferMethod::tpic>(water, mixture, field, pores);
+          return add_water<n, TransferMethod::tpic>(water, mixture, field, excess, pores);
         default:
-          return add_water<n, TransferMethod::flip>(water, mixture, field, pores);
+          return add_water<n, TransferMethod::flip>(water, mixture, field, excess, pores);
         }
     };
     if (grid.n_nodes_1d() == 2)

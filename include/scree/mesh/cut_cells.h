@@ -2,7 +2,7 @@
 #ifndef scree_mesh_cut_cells_h
 #define scree_mesh_cut_cells_h
 
-#include <scree/geometry/open_part.h>
+#include <scree/mesh/cubic_weights.h>
 #include <scree/mesh/rigid_boundary.h>
 
 #include <algorithm>
@@ -15,16 +15,14 @@ namespace scree
   struct CutCell
   {
     static constexpr unsigned int n_vertices = 1 << dim; ///< vertices of a cell
-    static constexpr unsigned int n_gauss  = 4; ///< along an axis: their cubic Lagrange polynomials span the integrands
-    static constexpr unsigned int n_points = dealii::Utilities::pow(n_gauss, dim); ///< Gauss points of a cell
-    using AtVertices                       = std::array<double, n_vertices>; ///< a number a vertex, in deal.II's order
+    using AtVertices = std::array<double, n_vertices>;   ///< a number a vertex, in deal.II's order
 
-    unsigned int cell    = 0;  ///< active cell index
-    double open_fraction = 0.; ///< of the volume
-    /// Of the Gauss points of the whole cell (first axis fastest), over its volume: they integrate polynomials of third
-    /// degree an axis exactly over the open part. Some are negative.
-    std::array<double, n_points> weights{};
+    unsigned int cell    = 0;                                  ///< active cell index
+    double open_fraction = 0.;                                 ///< of the volume
+    std::array<double, CubicWeights<dim>::n_points> weights{}; ///< see CubicWeights, of the open part
     AtVertices open_hats{}; ///< integrals of the corners' linear functions over the open part, over the cell's volume
+
+    std::vector<Simplex<dim>> open; ///< what they integrate over
 
     unsigned int first_segment = 0,     ///< its first one in CutCells::segments()
         n_segments             = 0;     ///< how many it has there
@@ -99,17 +97,12 @@ namespace scree
       return of_part == nullptr ? dealii::Tensor<1, dim>() : *of_part;
     }
 
-    /// The Gauss points of CutCell::weights along an axis.
-    static std::array<double, CutCell<dim>::n_gauss> gauss_points();
-
     static constexpr double smallest   = 1e-9;                                  ///< lower bound of open_fraction()
     static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int; ///< stands for no cell or segment
 
   private:
     /// Adds a cell, if it is not all open, and its segments.
     void look_at(const unsigned int cell);
-
-    void integrate_open_part(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut) const;
 
     /// Adds the segments of a cell.
     void integrate_ground(const std::vector<Simplex<dim>> &simplices, CutCell<dim> &cut);

@@ -40,6 +40,12 @@ namespace scree
         water_at_vertex{};            ///< volume of water, m^3
     AtVertices pressure_at_vertex{};  ///< volume of water times pressure there, Pa m^3
     AtVertices forgotten_at_vertex{}; ///< volume of water times what its pressure has lost, m^3
+    AtVertices bulk_at_vertex{};      ///< volume of water and the grains about it, sum V/n_p, m^3
+
+    double bulk_volume  = 0, ///< sum V/n_p, m^3
+        mass_of_flux    = 0, ///< sum m/n_p, kg
+        inertia_of_flux = 0; ///< sum m/n_p^2, kg
+    double drag_of_flux = 0; ///< sum V/n_p times the resistance of the pores, N s/m
 
     double drag_share           = 0; ///< of the drag of soil full of water, see drag_share_of()
     double effective_saturation = 0; ///< of the pores, see effective_saturation_of()
@@ -152,6 +158,8 @@ namespace scree
         {
           cell.soil_mass *= factor;
           cell.water_mass *= factor;
+          cell.mass_of_flux *= factor;
+          cell.inertia_of_flux *= factor;
         }
     }
 
@@ -217,7 +225,8 @@ namespace scree
     }
 
     /// Finds the porosities of a cell's parts, when all soil and water of the cell is in its record.
-    void find_porosities(const unsigned int record);
+    /// @param by_flux whether all of the cell counts that is open, or what soil and water fill
+    void find_porosities(const unsigned int record, const bool by_flux);
 
     /// What the soil's change of volume in a cell is multiplied by.
     double volume_factor(const unsigned int cell) const

@@ -31,25 +31,53 @@ namespace scree
     /// @param x its place in the cell
     /// @param grains volume of its grains, m^3
     /// @param volume with pores, m^3
-    void add_soil(const dealii::Point<dim> &x, const double grains, const double volume)
+    /// @param resistance of its pores to slow flow, times volume, N s/m
+    /// @param inertial the same over the discharge, N s^2/m^2
+    void add_soil(const dealii::Point<dim> &x,
+                  const double grains,
+                  const double volume,
+                  const double resistance,
+                  const double inertial)
     {
       Part &part = parts[part_of(x)];
       part.grains += grains;
       part.volume += volume;
+      part.resistance += resistance;
+      part.inertial += inertial;
     }
 
-    /// Finds the porosities, when all soil is in. Soil that does not fill its part shares it with free water.
+    /// Finds porosities and resistances, when all soil is in. Soil that does not fill its part shares it with free
+    /// water.
     ///
-    /// @param filled volume of water and wet grains in the cell, at most that of the cell, m^3
+    /// @param filled volume of the cell that soil and water share, m^3
     void find(const double filled)
     {
       // Less than `whole` is no scatter of points: to take it for that lends water at a face the grains of its
       // neighbourhood, and consolidating mud blows up.
       const double whole = filled / dealii::Utilities::fixed_power<dim>(n_1d);
       for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
-        if (parts[p].volume > 0.)
-          parts[p].inverse_porosity =
-              1. / std::max(closures::least_porosity, 1. - parts[p].grains / std::max(parts[p].volume, whole));
+        if (Part &part = parts[p]; part.volume > 0.)
+          {
+            const double volume   = std::max(part.volume, whole);
+            part.inverse_porosity = 1. / std::max(closures::least_porosity, 1. - part.grains / volume);
+            part.resistance /= volume;
+            part.inertial /= volume;
+          }
+    }
+
+    /// The pores about a point of water.
+    struct Pores
+    {
+      double inverse_porosity; ///< -
+      double resistance;       ///< pressure gradient of slow flow over the discharge, N s/m^4
+      double inertial;         ///< what that grows by with the discharge, N s^2/m^5
+    };
+
+    /// Pores about a place of the cell, after find().
+    Pores at(const dealii::Point<dim> &x) const
+    {
+      const Part &part = parts[part_of(x)];
+      return { part.inverse_porosity, part.resistance, part.inertial };
     }
 
     /// 1 over the porosity about a place of the cell, -; 1 without soil.
@@ -73,7 +101,8 @@ namespace scree
   private:
     struct Part
     {
-      double grains = 0, volume = 0; // m^3
+      double grains = 0, volume = 0;       // m^3
+      double resistance = 0, inertial = 0; // see Pores; times volume until find()
       double inverse_porosity = 1;
     };
 

@@ -17,15 +17,29 @@ namespace scree
   public:
     /// Keeps references to all but the density.
     /// @param water_density kg/m^3
+    /// @param by_flux whether the discharge is an unknown
     TwoPhaseMomentum(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      const WallGaps<dim> &wall_gaps,
                      const BodyForces<dim> &forcing,
                      const double water_density,
-                     dealii::TimerOutput &timer);
+                     dealii::TimerOutput &timer,
+                     const bool by_flux = false);
 
     /// Fits what lives on the nodes to the grid's current partition. Collective.
     void reinit();
+
+    /// Where the discharge is an unknown, before predict(): finds n_i, coupling and drag of the step at the pores, and
+    /// the momentum of soil and water from those of the mixture and of the discharge.
+    /// @param excess see WaterTransfer::to_grid(), summed over ranks as `nodes`
+    void find_flux_inertia(const MixtureNodes<dim> &nodes, const NodalField<dim> &excess, const double time_step);
+
+    /// Adds the force of the old pressure to the sums of soil and water.
+    void
+    add_pressure_forces(const MixtureNodes<dim> &nodes, const FlowField<dim> &impulses, const double time_step) const;
+
+    /// The nodes as the pressure sees them, after predict().
+    void find_pressed_nodes(const MixtureNodes<dim> &nodes, PressedNodes<dim> &pressed) const;
 
     /// A v* = m v + dt f, where A holds masses and drag, and f the force of the old pressure. `nodes` hold the sums of
     /// all ranks before, and velocities and their change afterwards; the pores then hold drag times step, and the
@@ -35,7 +49,7 @@ namespace scree
     /// v = v* - dt A^-1 G dp with the change of `pressure`. Collective.
     void correct(const MixtureNodes<dim> &nodes,
                  const Mixture<dim> &mixture,
-                 const PorePressure<dim> &pressure,
+                 PorePressure<dim> &pressure,
                  const double time_step,
                  Budget<dim> &balance);
 
@@ -90,7 +104,7 @@ namespace scree
                           Budget<dim> &balance) const;
 
     /// Forces of the change of the pressure on soil and water, times the step.
-    void sum_pressure_impulses(const Mixture<dim> &mixture, const PorePressure<dim> &pressure, const double time_step);
+    void sum_pressure_impulses(const Mixture<dim> &mixture, PorePressure<dim> &pressure, const double time_step);
 
     const Constraints<dim> &constraints;
     const WallGaps<dim> &wall_gaps;
@@ -98,6 +112,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const double water_density;
     dealii::TimerOutput &timer;
+    const bool by_flux;
     WallFriction<dim> friction;
     NodeValues<dim, 2 * dim> pressure_impulses; // of the change of pressure on soil and water, N s
   };

@@ -3,7 +3,7 @@
 #define scree_momentum_wall_friction_h
 
 #include <scree/boundary/constraints.h>
-#include <scree/momentum/drag_block.h>
+#include <scree/boundary/drag_block.h>
 
 #include <vector>
 

@@ -140,7 +140,7 @@ namespace scree
     const CutCells<dim> *cut_cells; // may be null
     const GroundGaps<dim> &ground_gaps;
     const Rule<2> whole; // exact for slopes of quadratics times linear functions
-    const Rule<CutCell<dim>::n_gauss> cut_rule;
+    const Rule<CubicWeights<dim>::n_1d> cut_rule;
   };
 } // namespace scree
 

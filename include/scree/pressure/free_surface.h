@@ -42,12 +42,14 @@ namespace scree
     /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
     /// @param air_entry pressure of the soil, Pa; 0: its water has no suction at the surface
+    /// @param by_flux whether the fill is that of the water's points with the grains about them
     FreeSurface(const BackgroundGrid<dim> &grid,
                 const NodeNumbering<dim> &vertices,
                 const WaterBoundaryConditions<dim> &walls,
                 const dealii::Tensor<1, dim> &gravity,
                 const CutCells<dim> *cut_cells,
-                const double air_entry = 0.);
+                const double air_entry = 0.,
+                const bool by_flux     = false);
 
     /// Fits the surface to the grid's current vertices. Collective.
     void reinit();
@@ -64,6 +66,22 @@ namespace scree
 
     /// Sets a pressure (or its change) at the vertices beside the surface. Collective; ghosts hold values afterwards.
     void extrapolate(const Mixture<dim> &mixture, VertexVector &pressure);
+
+    /// Sets a pressure at the vertices beside the surface from the unknown ones, whose ghosts hold values: p <- T p.
+    /// Collective; ghosts hold values afterwards.
+    void extend(VertexVector &pressure);
+
+    /// The transpose of extend(): adds to the unknown owned vertices what those beside the surface have. Collective.
+    void restrict_to_unknown(VertexVector &sums);
+
+    /// Sets the wet vertices to 0, ghosts too.
+    void clear(VertexVector &values) const;
+
+    /// Signed distance of a vertex from the surface along the cells, cells; positive in the water.
+    double depth(const unsigned int vertex) const
+    {
+      return distances[vertex];
+    }
 
     /// Whether menisci in the pores make the pressure at the surface differ from 0.
     bool has_menisci() const
@@ -180,7 +198,7 @@ namespace scree
     double depth(const unsigned int vertex, const unsigned int neighbour) const
     {
       const double own = distances[vertex], from_neighbour = 1. + distances[neighbour];
-      if (distances[neighbour] <= 0. || own < 0.5)
+      if (by_flux || distances[neighbour] <= 0. || own < 0.5)
         return own;
       return own + std::min(4. * (own - 0.5), 1.) * std::max(from_neighbour - own, 0.);
     }
@@ -245,9 +263,24 @@ namespace scree
               act(vertex);
     }
 
+    /// Vertices beside the surface of one kind, and what they follow.
+    struct Followers
+    {
+      PressureDofType followed;
+      std::vector<unsigned int> vertices;                       // ghosts too, these more than once
+      std::vector<std::pair<unsigned int, unsigned int>> pairs; // with their neighbours, cell by cell
+    };
+
+    /// What a vertex beside the surface takes of the sum of its neighbours.
+    double share(const unsigned int vertex) const
+    {
+      return distances[vertex] / neighbours[vertex][sum_of_distances];
+    }
+
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
     const WaterBoundaryConditions<dim> &walls;
+    const bool by_flux;
     const dealii::Tensor<1, dim> down; // unit, or 0
     const CutCells<dim> *cut_cells;    // may be null
     NodeValues<dim, 6> filling;        // Filling
@@ -256,6 +289,8 @@ namespace scree
     NodeValues<dim, 2 * dim> sides; // number of neighbours that press, on each side along each axis
     std::vector<PressureDofType> kinds;
     std::vector<double> distances; // cells; positive in the water
+    std::array<Followers, 2> followers;
+    VertexVector scratch; // 0 between calls
 
     // Without ground they are empty.
     std::vector<double> closed_volume; // under a vertex's linear function, m^3

@@ -48,12 +48,46 @@ namespace scree
     /// @param mixture gets the drag of the predicted flow and the mobilities of its cells
     /// @param shear_modulus of the soil, Pa: scales the pressure projection
     void solve(Mixture<dim> &mixture,
-               const NodalField<dim> &soil,
-               const NodalField<dim> &water,
-               const PoreField<dim> &pores,
+               const MixtureNodes<dim> &nodes,
                const double time_step,
                const double shear_modulus,
                Budget<dim> &balance);
+
+    /// Whether SchurOperator is the matrix.
+    bool is_variational() const
+    {
+      return variational;
+    }
+
+    /// Finds divergence and force of a step, once the nodes' sums over ranks are known. Collective.
+    /// @param volume sum V_p phi_i/n_p of the water at an owned node, m^3
+    void find_pair(const Mixture<dim> &mixture, const std::function<double(unsigned int node)> &volume)
+    {
+      part.find(mixture);
+      schur.begin_step(mixture);
+      pair.find_moments(volume);
+    }
+
+    /// Impulses of the pressure in a step, N s, at the owned nodes: of u, then of q beside it. Collective.
+    const FlowField<dim> &impulses(const double time_step)
+    {
+      return schur.impulses(pressure, time_step);
+    }
+
+    /// The same of its change over the step.
+    const FlowField<dim> &impulses_of_change(const double time_step)
+    {
+      return schur.impulses(change, time_step);
+    }
+
+    /// The same of a potential as of a pressure.
+    const FlowField<dim> &impulses_of(const VertexVector &potential, const double time_step)
+    {
+      return schur.impulses(potential, time_step);
+    }
+
+    /// The nodes of a step, to be set before solve().
+    PressedNodes<dim> pressed_nodes;
 
     /// Adds the change to the pressure, which is that of the end of the step from here on. Collective.
     /// @param soil velocity and its change over the step, as `water`, at nodes whose ghosts hold values
@@ -155,6 +189,9 @@ namespace scree
                                        const NodalField<dim> &soil,
                                        const NodalField<dim> &water,
                                        const double time_step) const;
+
+    /// The same where the discharge is an unknown.
+    void find_mobilities(Mixture<dim> &mixture, const double time_step) const;
     void assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus);
 
     /// Adds a solve to the counts of the run.
@@ -162,10 +199,14 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const double relative_tolerance, projection, bulk_modulus, cavitation_pressure;
+    const bool variational;
     dealii::TimerOutput &timer;
 
     NodeNumbering<dim> vertices;
     FreeSurface<dim> surface;
+    FilledPart<dim> part;
+    PressurePair<dim> pair;
+    SchurOperator<dim> schur;
     SoilGaps<dim> gaps;
     MixtureDivergence<dim> divergence;
     PressureSolver<dim> solver;

@@ -3,6 +3,7 @@
 #define scree_pressure_pressure_solver_h
 
 #include <scree/pressure/pressure_operator.h>
+#include <scree/pressure/schur_operator.h>
 
 #include <functional>
 #include <memory>
@@ -34,6 +35,12 @@ namespace scree
                    const NodeNumbering<dim> &vertices,
                    const PressureParameters &parameters);
     ~PressureSolver();
+
+    /// The matrix is this one from here on, and L its preconditioner.
+    void set_matrix(SchurOperator<dim> &matrix)
+    {
+      schur = &matrix;
+    }
 
     /// Forgets what belongs to another partition of the mesh.
     void reinit();
@@ -67,6 +74,9 @@ namespace scree
     void update_preconditioner_age(const SolveReport &report);
 
   private:
+    /// Sets `target` to the matrix times `source`, at the owned numbers. Collective.
+    void vmult(VertexVector &target, const VertexVector &source);
+
     /// Sets `to` to the values of the owned unknown vertices, and to 0 elsewhere.
     void take(const VertexVector &from, VertexVector &to) const;
 
@@ -89,9 +99,13 @@ namespace scree
     void solve_held(const std::vector<char> &is_held, VertexVector &residual, SolveReport &report);
 
     const BackgroundGrid<dim> &grid;
+    const NodeNumbering<dim> &vertices;
     PressureNumbering<dim> numbering;
     PressureOperator<dim> system;
     const unsigned int maximum_iterations;
+    SchurOperator<dim> *schur = nullptr;   // null: L
+    VertexVector of_schur, times_schur;    // by vertex
+    std::vector<double> storage_of_number; // with it: on the diagonal, of owned numbers
 
     VertexVector source, solution, scratch; // by number
     // Of iterate(): what is left of the source, that preconditioned, that times L; the step's direction, that times L.

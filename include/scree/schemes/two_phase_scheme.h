@@ -54,6 +54,10 @@ namespace scree
     /// The force of the old pressure on soil and water.
     void add_pressure_forces();
 
+    /// Where the discharge is an unknown: what the nodes' sums over ranks say of it, and the force of the old pressure.
+    /// Collective.
+    void find_pair(const double time_step);
+
     /// What the predictor starts from at the nodes: sums of all ranks, forces of loads and of the old pressure, walls
     /// that act. Collective.
     void sum_at_nodes(const double time_step);
@@ -93,6 +97,7 @@ namespace scree
     Mixture<dim> mixture;
     PoreField<dim> pores;
     NodalField<dim> water_field;
+    NodalField<dim> excess; // see WaterTransfer::to_grid()
     GroundGaps<dim> ground_gaps;
     PorePressure<dim> pressure;
     WallGaps<dim> wall_gaps;

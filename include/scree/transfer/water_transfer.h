@@ -14,7 +14,7 @@ namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
   template <int dim>
-  class PoreField : public NodeValues<dim, 5>
+  class PoreField : public NodeValues<dim, 6>
   {
   public:
     static constexpr unsigned int drag           = 0; ///< of slow flow over q, N s/m; then C of the step, kg
@@ -28,9 +28,14 @@ namespace scree
     static constexpr unsigned int wet_pores  = 4; ///< sum S n V phi_i of the soil in cells with water, m^3
     static constexpr unsigned int soil_share = 4; ///< then: soil_share(), -
 
+    static constexpr unsigned int flux_inertia = 5; ///< sum V_w (1/n_p^2 - 1) phi_i, m^3
+    /// Then: inertia that water has beside its mass, as it passes through pores of different width; of that of the slip
+    /// between soil and water, sum m_p phi_i (n_i/n_p)^2 - m_i with n_i the harmonic mean of n_p, kg.
+    static constexpr unsigned int coupling = 5;
+
     /// Makes room on the nodes of the grid, which must live on.
     explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 5>(grid.numbering())
+        : NodeValues<dim, 6>(grid.numbering())
     {
     }
   };
@@ -76,18 +81,30 @@ namespace scree
   {
   public:
     /// @param pressure_slope 1: the points' pressure travels with its gradient, 0: without
+    /// @param by_flux whether the discharge q = n (v_w - v_s) is the unknown beside v_s, or v_w
     WaterTransfer(const BackgroundGrid<dim> &grid,
                   const TransferParameters &transfer,
                   const WaterParameters &water,
-                  const double pressure_slope);
+                  const double pressure_slope,
+                  const bool by_flux = false);
+
+    /// Density of the water at the nodes, kg/m^3.
+    double water_density() const
+    {
+      return density;
+    }
 
     /// Adds pores, drag and grains of a body's points to the mixture.
     void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
 
     /// Adds mass and momentum of the water's points to `field`, volume and pressure to the mixture, and
-    /// the grains about points of the water's own to `pores`. All soil has to be in.
-    void
-    to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field, PoreField<dim> &pores) const;
+    /// the pores about its points to `pores`. All soil has to be in.
+    /// @param excess gets m (1/n_p - 1) in place of the mass m, and its momentum: what the discharge has in pores
+    void to_grid(const WaterPhase<dim> &water,
+                 Mixture<dim> &mixture,
+                 NodalField<dim> &field,
+                 NodalField<dim> &excess,
+                 PoreField<dim> &pores) const;
 
     /// One pass over the water's points at the end of a step: velocity, pressure with its gradient and what the next
     /// step forgets of it, and place, if they are the water's own; else the volume of the pores. Points of the water's
@@ -107,8 +124,11 @@ namespace scree
     void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
 
     template <int n, TransferMethod method>
-    void
-    add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, NodalField<dim> &field, PoreField<dim> &pores) const;
+    void add_water(const WaterPhase<dim> &water,
+                   Mixture<dim> &mixture,
+                   NodalField<dim> &field,
+                   NodalField<dim> &excess,
+                   PoreField<dim> &pores) const;
 
     template <int n, TransferMethod method>
     double move_water(WaterPhase<dim> &water,
@@ -138,6 +158,7 @@ namespace scree
     const double pressure_slope;
     const PointSets point_sets;
     const double density; // of the water at the nodes, kg/m^3
+    const bool by_flux;
   };
 } // namespace scree
 

@@ -171,8 +171,8 @@ void run()
     const WaterTransfer<2> transfer(box.grid, flip, parameters, 1.);
     Mixture<2> mixture(box.grid, 2);
     PoreField<2> pores(box.grid);
-    NodalField<2> field(box.grid);
-    transfer.to_grid(phase, mixture, field, pores);
+    NodalField<2> field(box.grid), excess(box.grid);
+    transfer.to_grid(phase, mixture, field, excess, pores);
     mixture.finish();
     box.add({ middle, middle }, down);
     box.release(dt, &mixture);

@@ -69,11 +69,11 @@ template <int dim>
 double
 moment(const BackgroundGrid<dim> &grid, const CutCells<dim> &cells, const LevelSet<dim> &ground, const unsigned int p)
 {
-  const auto points  = CutCells<dim>::gauss_points();
+  const auto points  = CubicWeights<dim>::points();
   const double width = grid.cell_size(), volume = Utilities::fixed_power<dim>(width);
   CutCell<dim> whole;
   whole.weights.fill(0.);
-  for (unsigned int q = 0; q < whole.n_points; ++q)
+  for (unsigned int q = 0; q < CubicWeights<dim>::n_points; ++q)
     {
       constexpr double gauss[4] = {
         0.173927422568726928687, 0.326072577431273071313, 0.326072577431273071313, 0.173927422568726928687
@@ -93,7 +93,7 @@ moment(const BackgroundGrid<dim> &grid, const CutCells<dim> &cells, const LevelS
       if (cut == nullptr && !ground.is_open(middle))
         continue;
       const CutCell<dim> &used = cut ? *cut : whole;
-      for (unsigned int q = 0; q < used.n_points; ++q)
+      for (unsigned int q = 0; q < CubicWeights<dim>::n_points; ++q)
         {
           double value = volume * used.weights[q];
           for (unsigned int a = 0, rest = q; a < dim; ++a, rest /= 4)

@@ -2,7 +2,7 @@
 // Drag of grains: Ergun's gradient of the pressure at all speeds, the law of a given conductivity, a step of soil and
 // water whose drag grows with the slip, and which water of a cell drag acts on.
 #include <scree/bodies/drag_law.h>
-#include <scree/momentum/drag_block.h>
+#include <scree/boundary/drag_block.h>
 #include <scree/mixture/mixture.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Soil and water at a node, tied by drag: the equations hold for any drag and any walls, momentum is kept, the limits
 // are right.
-#include <scree/momentum/drag_block.h>
+#include <scree/boundary/drag_block.h>
 
 #include <cmath>
 #include <iostream>

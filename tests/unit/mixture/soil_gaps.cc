@@ -56,9 +56,9 @@ unsigned int n_beside(const std::string &basis, const unsigned int axis, std::st
   const WaterTransfer<dim> transfer(grid, flip, water_parameters, 1.);
   Mixture<dim> mixture(grid, n_points);
   PoreField<dim> pores(grid);
-  NodalField<dim> field(grid);
+  NodalField<dim> field(grid), excess(grid);
   transfer.soil_to_grid(soil, mixture);
-  transfer.to_grid(water, mixture, field, pores);
+  transfer.to_grid(water, mixture, field, excess, pores);
   mixture.finish();
 
   WaterBoundaryParameters wall_parameters;

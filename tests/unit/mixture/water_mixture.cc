@@ -93,9 +93,9 @@ void test(const std::string &basis, std::ostream &out)
   const WaterTransfer<dim> transfer(grid, transfer_parameters, water_parameters, 1.);
   Mixture<dim> mixture(grid, n_points);
   PoreField<dim> pores(grid);
-  NodalField<dim> soil_field(grid), water_field(grid);
+  NodalField<dim> soil_field(grid), water_field(grid), excess(grid);
   transfer.soil_to_grid(soil, mixture);
-  transfer.to_grid(water, mixture, water_field, pores);
+  transfer.to_grid(water, mixture, water_field, excess, pores);
   mixture.finish();
 
   // 1. A multilinear pressure in every cell: moments against points.
@@ -272,7 +272,7 @@ void test(const std::string &basis, std::ostream &out)
   PorePressure<dim> pore_pressure(
       grid, walls, PressureParameters(), water_parameters, Tensor<1, dim>(), nullptr, no_ground, timer);
   pore_pressure.locate(mixture);
-  pore_pressure.solve(mixture, soil_field, water_field, pores, time_step, 0., balance);
+  pore_pressure.solve(mixture, { soil_field, water_field, pores }, time_step, 0., balance);
   double n_partly = 0;
   off             = 0;
   for (unsigned int record = 0; record < before.size(); ++record)

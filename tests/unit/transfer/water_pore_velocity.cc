@@ -62,6 +62,7 @@ namespace
         , pores(grid)
         , soil_field(grid)
         , water_field(grid)
+        , excess(grid)
     {
       if (soil_region != "none")
         {
@@ -85,7 +86,7 @@ namespace
     void gather()
     {
       transfer->soil_to_grid(soil, mixture);
-      transfer->to_grid(water, mixture, water_field, pores);
+      transfer->to_grid(water, mixture, water_field, excess, pores);
       for (const auto &cell : mixture.cells())
         {
           soil_field.activate_cell(cell.cell);
@@ -146,7 +147,7 @@ namespace
     std::unique_ptr<WaterTransfer<dim>> transfer;
     Mixture<dim> mixture;
     PoreField<dim> pores;
-    NodalField<dim> soil_field, water_field;
+    NodalField<dim> soil_field, water_field, excess;
 
   private:
     static GridParameters grid_parameters(const std::string &basis)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_momentum_drag_block_h
-#define scree_momentum_drag_block_h
+#ifndef scree_boundary_drag_block_h
+#define scree_boundary_drag_block_h
 
 #include <scree/boundary/node_constraint.h>
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_pressure_schur_operator_h
+#define scree_pressure_schur_operator_h
+
+#include <scree/boundary/drag_block.h>
+#include <scree/pressure/pressure_pair.h>
+#include <scree/transfer/water_transfer.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// A node as the pressure sees it: soil and water with their drag, where walls leave them free to move.
+  template <int dim>
+  struct PressedNode
+  {
+    unsigned int node;     ///< owned
+    double porosity;       ///< n_i: of soil alone 0, of water alone 1
+    DragMobility mobility; ///< without walls
+    unsigned int held;     ///< number of its DragBlock among those that walls hold, or `free`
+
+    static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int; ///< no wall holds it
+  };
+
+  /// The nodes of a step that soil or water act on.
+  template <int dim>
+  struct PressedNodes
+  {
+    std::vector<PressedNode<dim>> all; ///< owned
+    std::vector<DragBlock<dim>> held;  ///< see PressedNode
+
+    /// What a force on u and one on q beside it, in a node's numbers of a FlowField, give soil and water, N.
+    static SoilAndWater<dim> forces(const PressedNode<dim> &node, const double *of_flow)
+    {
+      SoilAndWater<dim> result;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          result.water[c] = node.porosity * (of_flow[c] + of_flow[dim + c]);
+          result.soil[c]  = node.porosity < 1. ? of_flow[c] - result.water[c] : 0.;
+        }
+      return result;
+    }
+
+    /// Writes the flow of velocities of soil and water, m/s.
+    static void set_flow(const PressedNode<dim> &node, const SoilAndWater<dim> &velocity, double *of_flow)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double soil = node.porosity < 1. ? velocity.soil[c] : 0.;
+          of_flow[dim + c]  = node.porosity * (velocity.water[c] - soil);
+          of_flow[c]        = soil + of_flow[dim + c];
+        }
+    }
+
+    /// Velocities, m/s, that impulses on soil and water, N s, give.
+    SoilAndWater<dim> solve(const PressedNode<dim> &node, const SoilAndWater<dim> &impulses) const
+    {
+      if (node.held != PressedNode<dim>::free)
+        return held[node.held].solve(impulses);
+      return { node.mobility.soil * impulses.soil + node.mobility.other * impulses.water,
+               node.mobility.other * impulses.soil + node.mobility.water * impulses.water };
+    }
+  };
+
+  /// The matrix of the pressure S = T^T (dt B A^-1 B^T + H) T on the unknown vertices, applied and never stored: B of
+  /// PressurePair, T of FreeSurface, masses, drag and walls in A, and H, which sees what B^T does not: the pressures
+  /// of a cell that are not linear, at a hundredth of what a gradient of that size costs, in proportion to the part of
+  /// the cell that is wet.
+  template <int dim>
+  class SchurOperator
+  {
+  public:
+    /// All are kept by reference.
+    SchurOperator(const BackgroundGrid<dim> &grid,
+                  const NodeNumbering<dim> &vertices,
+                  FreeSurface<dim> &surface,
+                  const FilledPart<dim> &part,
+                  const PressurePair<dim> &pair);
+
+    /// Fits it to the grid's current partition.
+    void reinit();
+
+    /// Makes room for the flow of a mixture's cells, before a new step.
+    void begin_step(const Mixture<dim> &mixture);
+
+    /// Sets the matrix of a step; the nodes must live on.
+    void assemble(const Mixture<dim> &mixture, const PressedNodes<dim> &nodes, const double time_step);
+
+    /// Sets `target` to S times a pressure at the unknown owned vertices, m^3/s; the other ones of `pressure` are not
+    /// read. Collective.
+    void vmult(VertexVector &target, const VertexVector &pressure);
+
+    /// Sets `target` to T^T (B u - H p), m^3/s. Collective.
+    /// @param pressure at all vertices, with ghosts
+    void find_source(const MixtureNodes<dim> &of_mixture, const VertexVector &pressure, VertexVector &target);
+
+    /// Sets impulses of a pressure, N s, at the owned nodes: of u, then of q beside it. Collective.
+    /// @param pressure at all vertices, with ghosts
+    const FlowField<dim> &impulses(const VertexVector &pressure, const double time_step);
+
+  private:
+    /// Adds `factor` H p.
+    void add_hourglass(const double factor, const VertexVector &pressure, VertexVector &sums) const;
+
+    void clear_flow();
+
+    const BackgroundGrid<dim> &grid;
+    const NodeNumbering<dim> &vertices;
+    FreeSurface<dim> &surface;
+    const FilledPart<dim> &part;
+    const PressurePair<dim> &pair;
+    const PressedNodes<dim> *nodes = nullptr;
+    double time_step               = 0;
+    std::vector<double> stiffness; // of H in a part's cell, m^3/(Pa s)
+    FlowField<dim> flow;
+    VertexVector full;
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/pressure/schur_operator.h>
+#include <scree/tensor/vector.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  SchurOperator<dim>::SchurOperator(const BackgroundGrid<dim> &grid,
+                                    const NodeNumbering<dim> &vertices,
+                                    FreeSurface<dim> &surface,
+                                    const FilledPart<dim> &part,
+                                    const PressurePair<dim> &pair)
+      : grid(grid)
+      , vertices(vertices)
+      , surface(surface)
+      , part(part)
+      , pair(pair)
+      , flow(grid.numbering())
+  {
+    reinit();
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::reinit()
+  {
+    flow.reinit();
+    full.reinit(vertices.partitioner());
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::assemble(const Mixture<dim> &mixture,
+                                    const PressedNodes<dim> &pressed_nodes,
+                                    const double of_step)
+  {
+    constexpr double part_of_laplacian = 0.01;
+    nodes                              = &pressed_nodes;
+    time_step                          = of_step;
+    stiffness.clear();
+    const double scale = part_of_laplacian * time_step * std::pow(grid.cell_size(), dim - 2);
+    for (const auto &cell : part.cells())
+      stiffness.push_back(scale * cell.fraction * mixture.cells()[cell.record].mobility);
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::begin_step(const Mixture<dim> &mixture)
+  {
+    flow.clear();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      flow.activate_cell(cell.cell);
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::clear_flow()
+  {
+    for (const unsigned int node : flow.active_nodes())
+      std::fill_n(flow[node], 2 * dim, 0.);
+    flow.clear_ghosts();
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::add_hourglass(const double factor, const VertexVector &pressure, VertexVector &sums) const
+  {
+    constexpr unsigned int n_vertices = FilledPart<dim>::n_vertices;
+    constexpr double same_as_2d       = dim == 2 ? 1. : 0.25; // of a pressure that does not change along an axis
+    for (unsigned int k = 0; k < part.cells().size(); ++k)
+      {
+        const unsigned int *corners = vertices.nodes(part.cells()[k].cell);
+        // Sums with the signs of the products of the axes in each subset, by Hadamard's transform and back.
+        std::array<double, n_vertices> values;
+        const auto transform = [&] {
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int v = 0; v < n_vertices; ++v)
+              if ((v >> a & 1) == 0)
+                {
+                  const double lower = values[v], upper = values[v | 1u << a];
+                  values[v]           = lower + upper;
+                  values[v | 1u << a] = lower - upper;
+                }
+        };
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          values[v] = pressure.local_element(corners[v]);
+        transform();
+        for (unsigned int m = 0; m < n_vertices; ++m)
+          values[m] = (m & (m - 1)) == 0 ? 0. : factor * same_as_2d * stiffness[k] * values[m]; // 1 and x_a are linear
+        transform();
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          sums.local_element(corners[v]) += values[v];
+      }
+  }
+
+
+  template <int dim>
+  const FlowField<dim> &SchurOperator<dim>::impulses(const VertexVector &pressure, const double of_step)
+  {
+    clear_flow();
+    pair.add_force(pressure, flow);
+    flow.add_contributions();
+    for (const unsigned int node : flow.active_nodes())
+      for (unsigned int c = 0; c < 2 * dim; ++c)
+        flow[node][c] *= of_step;
+    return flow;
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::vmult(VertexVector &target, const VertexVector &pressure)
+  {
+    surface.clear(full);
+    for (const unsigned int vertex : surface.wet_vertices())
+      if (surface.kind(vertex) == PressureDofType::unknown)
+        full.local_element(vertex) = pressure.local_element(vertex);
+    full.update_ghost_values();
+    surface.extend(full);
+
+    clear_flow();
+    pair.add_force(full, flow);
+    flow.add_contributions();
+    for (const PressedNode<dim> &node : nodes->all)
+      {
+        SoilAndWater<dim> impulses = PressedNodes<dim>::forces(node, flow[node.node]);
+        impulses.soil *= -time_step;
+        impulses.water *= -time_step;
+        PressedNodes<dim>::set_flow(node, nodes->solve(node, impulses), flow[node.node]);
+      }
+    flow.update_ghosts();
+    surface.clear(target);
+    pair.add_divergence(flow, target);
+    add_hourglass(1., full, target);
+    target.compress(VectorOperation::add);
+    surface.restrict_to_unknown(target);
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::find_source(const MixtureNodes<dim> &of_mixture,
+                                       const VertexVector &pressure,
+                                       VertexVector &target)
+  {
+    clear_flow();
+    for (const PressedNode<dim> &node : nodes->all)
+      PressedNodes<dim>::set_flow(node,
+                                  { vector_of<dim>(of_mixture.soil[node.node] + NodalField<dim>::velocity),
+                                    vector_of<dim>(of_mixture.water[node.node] + NodalField<dim>::velocity) },
+                                  flow[node.node]);
+    flow.update_ghosts();
+    surface.clear(target);
+    pair.add_divergence(flow, target);
+    add_hourglass(-1., pressure, target);
+    target.compress(VectorOperation::add);
+    surface.restrict_to_unknown(target);
+  }
+
+  template class SchurOperator<2>;
+  template class SchurOperator<3>;
+} // namespace scree

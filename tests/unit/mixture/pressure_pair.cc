@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Divergence and force of the variational pressure step, for scattered points of soil and water whose surface lies
+// inside cells, for every basis, on one rank and on two: they are transposes; uniform flow and motion as a rigid body
+// have no divergence; forces add up to 0; the filled part is a half plane's where the depth is linear; the matrix is
+// symmetric and does not gain: p.(B v) <= 0 after the correction by its solution.
+
+#include "../elastic_soil.h"
+#include "../pattern.h"
+
+#include <scree/pressure/schur_operator.h>
+#include <scree/seeding/water_seeding.h>
+#include <scree/transfer/water_transfer.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "../unit_test.h"
+
+namespace test_pressure_pair
+{
+using namespace dealii;
+using namespace scree;
+
+namespace
+{
+  double sum_of_ranks(const double value)
+  {
+    return Utilities::MPI::sum(value, MPI_COMM_WORLD);
+  }
+
+  /// 0 but for what is more than rounding.
+  double beyond_rounding(const double error, const double size)
+  {
+    return std::abs(error) > 1e-11 * size ? error / size : 0.;
+  }
+} // namespace
+
+template <int dim>
+class Scene
+{
+public:
+  explicit Scene(const std::string &basis)
+      : grid(parameters_of(basis), MPI_COMM_WORLD)
+      , corners(numbered(grid))
+      , soil(grid, "x < 0.33", 2, 0.4)
+      , water(1000., false, grid.triangulation(), grid.mapping())
+      , mixture(grid, 2)
+      , pores(grid)
+      , soil_field(grid)
+      , water_field(grid)
+      , excess(grid)
+      , flow(grid.numbering())
+      , forces(grid.numbering())
+      , walls(grid, WaterBoundaryParameters())
+      , surface(grid, corners, walls, Tensor<1, dim>(), nullptr, 0., true)
+      , part(grid, corners, surface, nullptr)
+      , pair(grid, corners, part)
+      , schur(grid, corners, surface, part, pair)
+      , pressure(corners.partitioner())
+      , sums(corners.partitioner())
+  {
+    WaterParameters parameters;
+    parameters.region          = "y < 0.44";
+    parameters.points_per_cell = 3;
+    seed_water(
+        water, parameters, { { "Soil", "x < 0.33", 0.4, soil.density } }, grid.triangulation(), grid.cell_size());
+    for (PointSet<dim> *points : { &soil.points, &water.points() })
+      {
+        for_each_point(*points, [&](const auto &point) {
+          const Point<dim> x = point.location;
+          for (unsigned int a = 0; a < dim; ++a)
+            point.location[a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
+        });
+        points->hand_over();
+      }
+    soil.drag.emplace(parameters, 0.4);
+    TransferParameters flip;
+    flip.method = "FLIP"; // The points have no room for a gradient.
+    const WaterTransfer<dim> transfer(grid, flip, parameters, 1., true);
+    transfer.soil_to_grid(soil, mixture);
+    transfer.to_grid(water, mixture, water_field, excess, pores);
+    mixture.finish();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      {
+        pores.activate_cell(cell.cell);
+        flow.activate_cell(cell.cell);
+        forces.activate_cell(cell.cell);
+      }
+    water_field.add_contributions();
+    pores.add_contributions();
+    surface.locate(mixture, pressure);
+    part.find(mixture);
+    pair.find_moments([&](const unsigned int node) {
+      return water_field[node][NodalField<dim>::mass] / 1000. + pores[node][PoreField<dim>::local_solid_volume];
+    });
+    schur.begin_step(mixture);
+    for (MixtureCell<dim> &cell : mixture.cells())
+      cell.mobility = 1e-3;
+    for (const unsigned int node : pores.active_nodes())
+      {
+        const Point<dim> x = grid.node_position(node);
+        // Two masses and their drag, soil alone, water alone.
+        const double kind = pattern(x), n = kind < -0.5 ? 0. : kind > 0.5 ? 1. : 0.7 + 0.2 * kind;
+        const DragMobility mobility =
+            drag_mobility(n < 1. ? 1.5 + kind : 0., n > 0. ? 1. + pattern(2. * x) / 2. : 0., 10.);
+        nodes.all.push_back({ node, n, mobility, PressedNode<dim>::free });
+      }
+    schur.assemble(mixture, nodes, time_step);
+  }
+
+  /// Sets the flow at the owned nodes from functions of their places.
+  template <typename Function>
+  void set_flow(const Function &function)
+  {
+    for (const unsigned int node : flow.active_nodes())
+      {
+        const auto [mixture, discharge] = function(grid.node_position(node));
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            flow[node][c]       = mixture[c];
+            flow[node][dim + c] = discharge[c];
+          }
+      }
+    flow.update_ghosts();
+  }
+
+  /// Sets a pressure at all wet vertices; ghosts hold values.
+  void set_pressure(const double phase)
+  {
+    pressure.zero_out_ghost_values();
+    for (const unsigned int vertex : surface.wet_vertices())
+      pressure.local_element(vertex) = pattern(corners.position(vertex) + phase * Point<dim>::unit_vector(0));
+    pressure.update_ghost_values();
+  }
+
+  /// B of the flow, at owned vertices.
+  const VertexVector &divergence()
+  {
+    surface.clear(sums);
+    pair.add_divergence(flow, sums);
+    sums.compress(VectorOperation::add);
+    return sums;
+  }
+
+  double largest_divergence()
+  {
+    return divergence().linfty_norm();
+  }
+
+  static constexpr double time_step = 0.01;
+
+  const BackgroundGrid<dim> grid;
+  const NodeNumbering<dim> corners;
+  ElasticSoil<dim> soil;
+  WaterPhase<dim> water;
+  Mixture<dim> mixture;
+  PoreField<dim> pores;
+  NodalField<dim> soil_field, water_field, excess;
+  FlowField<dim> flow, forces;
+  const WaterBoundaryConditions<dim> walls;
+  FreeSurface<dim> surface;
+  FilledPart<dim> part;
+  PressurePair<dim> pair;
+  PressedNodes<dim> nodes;
+  SchurOperator<dim> schur;
+  VertexVector pressure, sums;
+
+private:
+  static GridParameters parameters_of(const std::string &basis)
+  {
+    GridParameters parameters;
+    parameters.basis = basis;
+    parameters.lower_corner.assign(dim, 0.);
+    parameters.upper_corner.assign(dim, 0.6);
+    return parameters;
+  }
+  static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid)
+  {
+    NodeNumbering<dim> corners(Basis::linear);
+    corners.distribute(grid.fine_cells());
+    return corners;
+  }
+};
+
+
+template <int dim>
+void test(const std::string &basis, std::ostream &out)
+{
+  Scene<dim> scene(basis);
+  using Vectors = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
+  double volume = 0.;
+  for (const auto &cell : scene.part.cells())
+    volume += cell.fraction * std::pow(scene.grid.cell_size(), dim);
+  out << dim << "D, " << basis << ", filled part / m^dim: " << sum_of_ranks(volume) << std::endl;
+
+  // Transposes: p.(B u) = -u.f(p).
+  scene.set_flow([](const Point<dim> &x) {
+    Vectors result;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        result.first[c]  = pattern(x + double(c + 2) * Point<dim>::unit_vector(1));
+        result.second[c] = pattern(x + double(c + 7) * Point<dim>::unit_vector(0));
+      }
+    return result;
+  });
+  scene.set_pressure(0.3);
+  const VertexVector &divergence = scene.divergence();
+  scene.pair.add_force(scene.pressure, scene.forces);
+  scene.forces.add_contributions();
+  double by_divergence = 0., by_force = 0., size = 0.;
+  Tensor<1, dim> total;
+  for (const unsigned int vertex : scene.surface.wet_vertices())
+    by_divergence += scene.pressure.local_element(vertex) * divergence.local_element(vertex);
+  for (const unsigned int node : scene.forces.active_nodes())
+    for (unsigned int c = 0; c < 2 * dim; ++c)
+      {
+        by_force -= scene.forces[node][c] * scene.flow[node][c];
+        size += std::abs(scene.forces[node][c] * scene.flow[node][c]);
+        total[c % dim] += scene.forces[node][c];
+      }
+  by_divergence = sum_of_ranks(by_divergence);
+  by_force      = sum_of_ranks(by_force);
+  size          = sum_of_ranks(size);
+  out << "  p.(B u) + u.f(p): " << beyond_rounding(by_divergence - by_force, size) << std::endl;
+  for (unsigned int c = 0; c < dim; ++c)
+    out << "  sum of forces: " << beyond_rounding(sum_of_ranks(total[c]), size) << std::endl;
+
+  // Uniform flow, and turning as a rigid body.
+  const double scale = std::pow(scene.grid.cell_size(), dim - 1);
+  Tensor<1, dim> uniform;
+  for (unsigned int c = 0; c < dim; ++c)
+    uniform[c] = 1. + c;
+  scene.set_flow([&](const Point<dim> &) { return Vectors{ uniform, -0.5 * uniform }; });
+  out << "  divergence of uniform flow: " << beyond_rounding(scene.largest_divergence(), scale) << std::endl;
+  scene.set_flow([&](const Point<dim> &x) {
+    Vectors turning;
+    turning.first[0] = -x[1];
+    turning.first[1] = x[0];
+    return turning;
+  });
+  out << "  of a rigid body: " << beyond_rounding(scene.largest_divergence(), scale) << std::endl;
+
+  // Symmetry: q.(S p) = p.(S q), and p.(S p) > 0.
+  VertexVector first(scene.corners.partitioner()), second(first), s_first(first), s_second(first);
+  for (const unsigned int vertex : scene.surface.wet_vertices())
+    if (scene.surface.kind(vertex) == PressureDofType::unknown)
+      {
+        first.local_element(vertex)  = pattern(scene.corners.position(vertex));
+        second.local_element(vertex) = pattern(3. * scene.corners.position(vertex));
+      }
+  scene.schur.vmult(s_first, first);
+  scene.schur.vmult(s_second, second);
+  const auto only_unknown = [&](const VertexVector &a, const VertexVector &b) {
+    double product = 0.;
+    for (const unsigned int vertex : scene.surface.wet_vertices())
+      if (scene.surface.kind(vertex) == PressureDofType::unknown)
+        product += a.local_element(vertex) * b.local_element(vertex);
+    return sum_of_ranks(product);
+  };
+  const double square = only_unknown(first, s_first);
+  out << "  q.(S p) - p.(S q): "
+      << beyond_rounding(only_unknown(second, s_first) - only_unknown(first, s_second), square)
+      << ", p.(S p) > 0: " << (square > 0.) << std::endl;
+  out << "  p.(S p): " << square << std::endl;
+}
+
+
+void run()
+{
+  std::ostream nowhere(nullptr);
+  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : nowhere;
+  for (const std::string basis : { "spline", "linear" })
+    {
+      test<2>(basis, out);
+      test<3>(basis, out);
+    }
+}
+
+const UnitTest registered("pressure_pair", run);
+} // namespace test_pressure_pair
