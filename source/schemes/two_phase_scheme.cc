@@ -133,8 +133,12 @@ namespace scree
         soil.field.activate_cell(cell.cell);
         pores.activate_cell(cell.cell);
         water_field.activate_cell(cell.cell);
-        excess.activate_cell(cell.cell);
-        if (cell.effective_saturation == 0 || cell.grain_volume == 0 || pressure.is_variational())
+        if (pressure.is_variational())
+          {
+            excess.activate_cell(cell.cell);
+            continue;
+          }
+        if (cell.effective_saturation == 0 || cell.grain_volume == 0)
           continue;
         const unsigned int *nodes = grid.nodes(cell.cell);
         const unsigned int n = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
@@ -218,10 +222,8 @@ namespace scree
     soil.field.add_contributions();
     water_field.add_contributions();
     pores.add_contributions();
-    excess.add_contributions();
     soil.field.scale_inertia(forces.mass_scaling());
     water_field.scale_inertia(forces.mass_scaling());
-    excess.scale_inertia(forces.mass_scaling());
     if (pressure.is_variational())
       find_pair(time_step);
     wall_gaps.release(forces, time_step);
@@ -232,6 +234,8 @@ namespace scree
   void TwoPhaseScheme<dim>::find_pair(const double time_step)
   {
     const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
+    excess.add_contributions();
+    excess.scale_inertia(forces.mass_scaling());
     pressure.find_pair(mixture, [&](const unsigned int node) {
       return water_field[node][NodalField<dim>::mass] / transfer.water_density() +
              pores[node][PoreField<dim>::local_solid_volume];

@@ -83,20 +83,18 @@ namespace scree
               const double grains         = mass / soil.grain_density;
               const double porosity       = std::max(1. - grains / volume, smallest_porosity);
               const double pores_of_point = porosity * volume;
+              const double linear = law.linear(porosity), inertial = law.inertial(porosity);
+              const double per_flux = by_flux ? 1. / porosity : 0.;
 
               moments.add(shape, grains);
               if (parts != nullptr)
-                parts->add_soil(shape.x,
-                                grains,
-                                volume,
-                                volume * law.linear(porosity) / porosity,
-                                grains * law.inertial(porosity) / porosity);
+                parts->add_soil(shape.x, grains, volume, volume * linear * per_flux, grains * inertial * per_flux);
               add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
               sums.soil_mass += mass;
               sums.grain_volume += grains;
               sums.pore_volume += pores_of_point;
-              sums.drag += volume * law.linear(porosity);
-              sums.inertial += grains * law.inertial(porosity);
+              sums.drag += volume * linear;
+              sums.inertial += grains * inertial;
             });
         moments.add_to(mixture.grain_moments(record));
         sums.is_rigid           = sums.is_rigid || soil.is_rigid;
@@ -130,7 +128,9 @@ namespace scree
           mixture.find_porosities(record, by_flux);
         MixtureCell<dim> totals = mixture.cells()[record];
         CellSums<dim, n> sums(width);
-        CellSums<dim, n> excess_sums(width);
+        std::optional<CellSums<dim, n>> excess_sums;
+        if (by_flux)
+          excess_sums.emplace(width);
         NodeRow grains_about[n_rows] = {}, inertia[n_rows] = {}, drag[n_rows] = {}, inertial[n_rows] = {};
         const bool has_pores = porosity != nullptr || (by_flux && carrier != nullptr);
         const auto pores_at  = [&](const auto &point, const Point<dim> &x) {
@@ -150,23 +150,26 @@ namespace scree
           sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
           moments.add(shape, volume);
           const Pores about = pores_at(point, shape.x);
-          const double bulk = about.inverse_porosity * volume;
+          const double more = about.inverse_porosity - 1.;
           if (has_pores)
-            [&] {
-              const double more = about.inverse_porosity - 1.;
-              add_row_sums(shape, volume * more, grains_about);
-              if (!by_flux)
-                return;
-              add_row_sums(shape, volume * more * (2. + more), inertia);
-              add_row_sums(shape, bulk * about.resistance, drag);
-              add_row_sums(shape, bulk * about.inertial, inertial);
-              excess_sums.template add_momentum<method>(shape, mass * more, properties + layout.velocity, affine);
-            }();
-          add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
-          totals.bulk_volume += bulk;
-          totals.mass_of_flux += about.inverse_porosity * mass;
-          totals.inertia_of_flux += about.inverse_porosity * about.inverse_porosity * mass;
-          totals.drag_of_flux += bulk * about.resistance;
+            add_row_sums(shape, volume * more, grains_about);
+          if (by_flux)
+            {
+              const double bulk = about.inverse_porosity * volume;
+              add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
+              totals.bulk_volume += bulk;
+              totals.mass_of_flux += about.inverse_porosity * mass;
+              totals.inertia_of_flux += about.inverse_porosity * about.inverse_porosity * mass;
+              totals.drag_of_flux += bulk * about.resistance;
+              if (has_pores)
+                {
+                  add_row_sums(shape, volume * more * (2. + more), inertia);
+                  add_row_sums(shape, bulk * about.resistance, drag);
+                  add_row_sums(shape, bulk * about.inertial, inertial);
+                  excess_sums->template add_momentum<method>(shape, mass * more, properties + layout.velocity, affine);
+                }
+            }
+
           std::array<double, dim> rise;
           for (unsigned int a = 0; a < dim; ++a)
             rise[a] = pressure_slope * width * properties[layout.pressure_gradient + a];
@@ -187,7 +190,7 @@ namespace scree
             if (!by_flux)
               continue;
             excess.activate_cell(cell.cell);
-            excess_sums.scatter(nodes, excess);
+            excess_sums->scatter(nodes, excess);
             scatter<dim, n>(inertia, nodes, PoreField<dim>::flux_inertia, pores);
             scatter<dim, n>(drag, nodes, PoreField<dim>::drag, pores);
             scatter<dim, n>(inertial, nodes, PoreField<dim>::inertial_drag, pores);
