@@ -83,7 +83,9 @@ namespace scree
     values.update_ghost_values();
   }
 
+  template class NodeValues<2, 1>;
   template class NodeValues<2, 2>; // change of the pressure at the corners
+  template class NodeValues<3, 1>;
   template class NodeValues<3, 2>;
   template class NodeValues<2, 3>; // surroundings of a corner beside the water's surface
   template class NodeValues<3, 3>;

@@ -60,7 +60,8 @@ namespace scree
   {
     MixtureCell<dim> &cell = records[record];
     cell.find_fill();
-    porosities[record].find((by_flux ? 1. : std::min(cell.fill, 1.)) * cell.volume);
+    porosities[record].find((by_flux ? 1. : std::min(cell.fill, 1.)) * cell.volume,
+                            by_flux ? &cell.soil_depths : nullptr);
   }
 
 

@@ -33,6 +33,7 @@ namespace scree
       , down(gravity.norm() > 0. ? gravity / gravity.norm() : gravity)
       , cut_cells(cut_cells)
       , filling(vertices)
+      , soil(vertices)
       , neighbours(vertices)
       , menisci(vertices, by_flux ? 0. : air_entry)
       , sides(vertices)
@@ -45,6 +46,7 @@ namespace scree
   void FreeSurface<dim>::reinit()
   {
     filling.reinit();
+    soil.reinit();
     neighbours.reinit();
     sides.reinit();
     const auto &nodes = *vertices.partitioner();
@@ -199,6 +201,30 @@ namespace scree
       if (!is_among_wet_cells(vertex))
         filling[vertex][filled] -= filling[vertex][by_scatter];
     filling.update_ghosts();
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::find_soil_depths(Mixture<dim> &mixture)
+  {
+    soil.clear();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.grain_volume > 0.)
+        {
+          soil.activate_cell(cell.cell);
+          const double bulk = 1. + cell.pore_volume / cell.grain_volume;
+          for (unsigned int v = 0; v < cell.n_vertices; ++v)
+            soil[vertices.nodes(cell.cell)[v]][0] += bulk * cell.grains_at_vertex[v];
+        }
+    soil.add_contributions();
+    soil.update_ghosts();
+    for (MixtureCell<dim> &cell : mixture.cells())
+      if (cell.grain_volume > 0.)
+        for (unsigned int v = 0; v < cell.n_vertices; ++v)
+          {
+            const unsigned int vertex = vertices.nodes(cell.cell)[v];
+            cell.soil_depths[v]       = distance_from_fill(soil[vertex][0] / volume_under(vertex));
+          }
   }
 
 

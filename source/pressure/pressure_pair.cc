@@ -126,7 +126,7 @@ namespace scree
         NodeRow drift[dim] = {};
         for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
           for (unsigned int c = 0; c < dim; ++c)
-            drift[c] += *of_moments * discharge[c][r];
+            drift[c] += *of_moments * mixture[c][r];
         for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
           {
             NodeRow divergence{};
@@ -172,7 +172,7 @@ namespace scree
               for (unsigned int c = 0; c < dim; ++c)
                 {
                   force[c] += of_mixture[c][r][i];
-                  force[dim + c] -= (*of_moments)[i] * slope[c];
+                  force[c] -= (*of_moments)[i] * slope[c];
                 }
             }
       }

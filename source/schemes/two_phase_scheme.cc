@@ -113,6 +113,8 @@ namespace scree
     excess.clear();
     for (const auto &body : soil.all_bodies())
       transfer.soil_to_grid(body, mixture);
+    if (pressure.is_variational())
+      pressure.find_soil_depths(mixture);
     for (const auto &part : water)
       transfer.to_grid(part, mixture, water_field, excess, pores);
     for (const Inflow<dim> &inflow : inflows)

@@ -269,7 +269,7 @@ def top_cell(name, time, cells):
     """Points of the highest cell that holds soil: vertical stress, compression positive; and the surface of all soil, m."""
     soil = read_points(name, time)
     layer = np.floor(soil.positions[:, 1] * cells)
-    rows = np.unique(np.round(soil.positions[:, 1], 7))
+    rows = np.unique(np.round(soil.positions[:, 1], 4))
     return -soil.arrays["stress"][layer == np.max(layer), 4], rows[-1] + (rows[-1] - rows[-2]) / 2
 
 

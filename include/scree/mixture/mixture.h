@@ -40,6 +40,7 @@ namespace scree
         water_at_vertex{};            ///< volume of water, m^3
     AtVertices pressure_at_vertex{};  ///< volume of water times pressure there, Pa m^3
     AtVertices forgotten_at_vertex{}; ///< volume of water times what its pressure has lost, m^3
+    AtVertices soil_depths{};         ///< signed distances from the surface of the soil, cells; positive inside
     AtVertices bulk_at_vertex{};      ///< volume of water and the grains about it, sum V/n_p, m^3
 
     double bulk_volume  = 0, ///< sum V/n_p, m^3

@@ -47,22 +47,40 @@ namespace scree
     }
 
     /// Finds porosities and resistances, when all soil is in. Soil that does not fill its part shares it with free
-    /// water.
+    /// water, but for parts inside the soil: these hold more or fewer of its points by chance, and have its porosity, or
+    /// that of the cell where there is none.
     ///
     /// @param filled volume of the cell that soil and water share, m^3
-    void find(const double filled)
+    /// @param depths signed distances of the vertices from the surface of the soil, positive inside; null: no part is
+    ///        inside
+    void find(const double filled, const std::array<double, (1 << dim)> *depths = nullptr)
     {
+      Part cell;
+      if (depths != nullptr)
+        for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
+          {
+            cell.grains += parts[p].grains;
+            cell.volume += parts[p].volume;
+            cell.resistance += parts[p].resistance;
+            cell.inertial += parts[p].inertial;
+          }
       // Less than `whole` is no scatter of points: to take it for that lends water at a face the grains of its
       // neighbourhood, and consolidating mud blows up.
       const double whole = filled / dealii::Utilities::fixed_power<dim>(n_1d);
       for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
-        if (Part &part = parts[p]; part.volume > 0.)
+        {
+          Part &part           = parts[p];
+          const bool is_inside = depths != nullptr && depth_of(p, *depths) > 0.;
+          if (is_inside && part.volume <= 0.)
+            part = cell;
+          if (part.volume > 0.)
           {
-            const double volume   = std::max(part.volume, whole);
+            const double volume   = is_inside ? part.volume : std::max(part.volume, whole);
             part.inverse_porosity = 1. / std::max(closures::least_porosity, 1. - part.grains / volume);
             part.resistance /= volume;
             part.inertial /= volume;
           }
+        }
     }
 
     /// The pores about a point of water.
@@ -105,6 +123,21 @@ namespace scree
       double resistance = 0, inertial = 0; // see Pores; times volume until find()
       double inverse_porosity = 1;
     };
+
+    /// A function that is linear along each axis, at the centre of a part.
+    double depth_of(const unsigned int part, std::array<double, (1 << dim)> depths) const
+    {
+      unsigned int rest = part, strides[dim]; // the last axis is the fastest
+      for (unsigned int a = dim; a-- > 0; rest /= n_1d)
+        strides[a] = rest % n_1d;
+      for (unsigned int a = dim; a-- > 0;)
+        {
+          const double x = (strides[a] + 0.5) / n_1d;
+          for (unsigned int v = 0; v < (1u << a); ++v)
+            depths[v] += x * (depths[v | 1u << a] - depths[v]);
+        }
+      return depths[0];
+    }
 
     /// In registers: numbers that are stored one by one and read as a vector wait for each other.
     template <typename Integers, std::size_t... lane>

@@ -60,6 +60,9 @@ namespace scree
       find_closed();
     }
 
+    /// Finds how deep the vertices are in the soil of a mixture, by what of their surroundings it fills. Collective.
+    void find_soil_depths(Mixture<dim> &mixture);
+
     /// Finds the surface, and fills `pressure` at the unknown vertices from the mixture's points (0 elsewhere but at
     /// drained walls). Collective.
     void locate(const Mixture<dim> &mixture, VertexVector &pressure);
@@ -284,6 +287,7 @@ namespace scree
     const dealii::Tensor<1, dim> down; // unit, or 0
     const CutCells<dim> *cut_cells;    // may be null
     NodeValues<dim, 6> filling;        // Filling
+    NodeValues<dim, 1> soil;           // grains and pores under a vertex's linear function, m^3
     NodeValues<dim, 4> neighbours;     // Neighbours
     Menisci<dim> menisci;
     NodeValues<dim, 2 * dim> sides; // number of neighbours that press, on each side along each axis

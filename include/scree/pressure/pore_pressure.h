@@ -59,6 +59,12 @@ namespace scree
       return variational;
     }
 
+    /// See FreeSurface.
+    void find_soil_depths(Mixture<dim> &mixture)
+    {
+      surface.find_soil_depths(mixture);
+    }
+
     /// Finds divergence and force of a step, once the nodes' sums over ranks are known. Collective.
     /// @param volume sum V_p phi_i/n_p of the water at an owned node, m^3
     void find_pair(const Mixture<dim> &mixture, const std::function<double(unsigned int node)> &volume)
