@@ -3,6 +3,7 @@
 #include <scree/mixture/closures.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace scree
 {
@@ -20,13 +21,17 @@ namespace scree
   template <int dim>
   void GroundGaps<dim>::clear()
   {
-    if (cut_cells != nullptr)
-      gaps.assign(cut_cells->segments().size(), grid.cell_size()); // a cell without particles
+    if (cut_cells == nullptr)
+      return;
+    const unsigned int n_facets = cut_cells->segments().size();
+    gaps.assign(n_facets, grid.cell_size()); // a cell without particles
+    closing_gaps.assign(n_facets, 0.);
+    closing_times.assign(n_facets, std::numeric_limits<double>::infinity());
   }
 
 
   template <int dim>
-  void GroundGaps<dim>::add(const PointSet<dim> &points, const double spacing)
+  void GroundGaps<dim>::add(const PointSet<dim> &points, const unsigned int velocity, const double spacing)
   {
     if (cut_cells == nullptr)
       return;
@@ -36,8 +41,19 @@ namespace scree
         for (unsigned int s = cut->first_segment; s < cut->first_segment + cut->n_segments; ++s)
           {
             const CutFacet<dim> &facet = cut_cells->segments()[s];
-            for (unsigned int p = 0; p < cell.n_points; ++p)
-              gaps[s] = std::min(gaps[s], (facet.middle - cell.location_of(p)) * facet.normal - reach);
+            const double of_ground     = facet.normal * cut_cells->velocity(facet);
+            for_each_point(cell, [&](const auto &point) {
+              const double gap = (facet.middle - point.location) * facet.normal - reach;
+              gaps[s]          = std::min(gaps[s], gap);
+              double speed     = -of_ground;
+              for (unsigned int a = 0; a < dim; ++a)
+                speed += facet.normal[a] * point.properties[velocity + a];
+              if (const double time = gap <= 0. || speed <= slow ? 0. : gap / speed; time < closing_times[s])
+                {
+                  closing_times[s] = time;
+                  closing_gaps[s]  = gap;
+                }
+            });
           }
   }
 

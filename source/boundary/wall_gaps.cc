@@ -25,6 +25,7 @@ namespace scree
     for (NodeVector &gap : gaps)
       gap.reinit(grid.numbering().partitioner());
     released.reinit(grid.numbering().partitioner());
+    closes.reinit(grid.numbering().partitioner());
     closing.assign(grid.n_owned_nodes(), Tensor<1, dim>());
     on_walls.clear();
     for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
@@ -43,6 +44,7 @@ namespace scree
         for (NodeVector &gap : gaps)
           gap.local_element(node) = far;
         released.local_element(node) = 0.;
+        closes.local_element(node)   = 0.;
         if (node < grid.n_owned_nodes())
           closing[node] = Tensor<1, dim>();
       }
@@ -145,11 +147,15 @@ namespace scree
             if (speed >= limit)
               open |= side << 2 * a;
             else
-              closing[node][a] = to_inside * limit;
+              {
+                closing[node][a]           = to_inside * limit;
+                closes.local_element(node) = 1.;
+              }
           }
         released.local_element(node) = open;
       }
     released.update_ghost_values();
+    closes.update_ghost_values();
     for (const unsigned int node : on_walls)
       if (released.local_element(node) != 0.)
         constraints.release(node, static_cast<std::uint8_t>(released.local_element(node)));

@@ -126,17 +126,12 @@ namespace scree
           "with water the bed has one angle of friction yet. Write a \"Friction angle\", or remove subsection "
           "Water.");
       if (parameters.pressure.is_variational())
-        {
-          const auto require_none = [&](const bool is_given, const std::string &what) {
-            require_entry(!is_given,
-                          "Water/Pressure",
-                          "Step",
-                          parameters.pressure.step,
-                          "it is not possible with " + what + " yet. Write fractional, or remove that.");
-          };
-          require_none(parameters.n_rigid_surfaces() > 0, "a bed or an obstacle");
-          require_none(parameters.water.air_entry_pressure > 0., "an \"Air entry pressure\" (subsection Water)");
-        }
+        require_entry(parameters.water.air_entry_pressure == 0.,
+                      "Water/Pressure",
+                      "Step",
+                      parameters.pressure.step,
+                      "it is not possible with an \"Air entry pressure\" (subsection Water) yet. Write fractional, or "
+                      "remove that.");
       for (const WaterWall &wall : parameters.water_boundaries.walls(parameters.dimension))
         require_entry(wall.type != WaterWallType::drained || wall.pressure >= parameters.pressure.cavitation_pressure,
                       "Water/Pressure",

@@ -15,20 +15,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Normal of a line, as long as it, and of a triangle, as long as its area.
-    Tensor<1, 2> area_vector(const std::array<Point<2>, 2> &line)
-    {
-      return cross_product_2d(line[1] - line[0]);
-    }
-    Tensor<1, 3> area_vector(const std::array<Point<3>, 3> &triangle)
-    {
-      return 0.5 * cross_product_3d(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-    }
-  } // namespace
-
-
   template <int dim>
   CutCells<dim>::CutCells(const BackgroundGrid<dim> &grid, const RigidBoundary<dim> &ground, const double thinnest)
       : grid(grid)
@@ -67,27 +53,33 @@ namespace scree
     for (const Simplex<dim> &simplex : open)
       {
         // A simplex with a face on the ground has one corner in the open.
-        std::array<Point<dim>, dim> face;
+        SimplexFace<dim> face;
+        std::array<Point<dim>, dim> places;
         unsigned int n_on_ground = 0;
         Point<dim> inside;
         for (const SimplexCorner<dim> &corner : simplex)
           if (corner.side > 0.)
             inside = corner.place;
           else if (n_on_ground++ < dim)
-            face[n_on_ground - 1] = corner.place;
+            {
+              face[n_on_ground - 1]   = corner;
+              places[n_on_ground - 1] = corner.place;
+            }
         if (n_on_ground != dim)
           continue;
-        Tensor<1, dim> area = area_vector(face);
-        if (area * (inside - face[0]) > 0.)
+        Tensor<1, dim> area = area_of<dim>(face);
+        if (area * (inside - places[0]) > 0.)
           area *= -1.;
         Point<dim> middle;
-        for (const Point<dim> &corner : face)
+        for (const Point<dim> &corner : places)
           middle += 1. / dim * corner;
         const double size      = area.norm();
         CutFacet<dim> &segment = facet_of(cut, middle);
+        if (size > 0.)
+          cut.faces.push_back({ face, area / size, segment.part });
         segment.area += size;
         segment.normal += area;
-        visit_rule<dim>(rule, face, [&](const Point<dim> &x, const double part) {
+        visit_rule<dim>(rule, places, [&](const Point<dim> &x, const double part) {
           for (unsigned int v = 0; v < cut.n_vertices; ++v)
             segment.vertex_weights[v] += part * size * GeometryInfo<dim>::d_linear_shape_function(x, v);
           unsigned int i = 0;

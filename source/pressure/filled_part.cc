@@ -2,6 +2,7 @@
 #include <scree/pressure/filled_part.h>
 
 #include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 
@@ -36,12 +37,14 @@ namespace scree
   FilledPart<dim>::FilledPart(const BackgroundGrid<dim> &grid,
                               const NodeNumbering<dim> &vertices,
                               const FreeSurface<dim> &surface,
-                              const CutCells<dim> *cut_cells)
+                              const CutCells<dim> *cut_cells,
+                              const GroundGaps<dim> &gaps)
       : n_rows(Utilities::pow(grid.n_nodes_1d(), dim - 1))
       , grid(grid)
       , vertices(vertices)
       , surface(surface)
       , cut_cells(cut_cells)
+      , gaps(gaps)
       , unit_cube(simplices_of_cube(Point<dim>(), 1.))
   {
     for (const Simplex<dim> &simplex : unit_cube)
@@ -104,7 +107,7 @@ namespace scree
     Point<dim> centre;
     for (unsigned int v = 0; v < n_vertices; ++v)
       centre += part.hats[v] / part.fraction * GeometryInfo<dim>::unit_cell_vertex(v);
-    with_water.push_back({ cell, record, integrals, part.fraction, {} });
+    with_water.push_back({ cell, record, integrals, part.fraction, {}, {} });
     for (unsigned int v = 0; v < n_vertices; ++v)
       with_water.back().hat_slopes[v] =
           GeometryInfo<dim>::d_linear_shape_function_gradient(centre, v) / grid.cell_size();
@@ -112,8 +115,7 @@ namespace scree
 
 
   template <int dim>
-  CubicWeights<dim> FilledPart<dim>::part_of(const std::vector<Simplex<dim>> &open,
-                                             const std::array<double, n_vertices> &depths) const
+  CubicWeights<dim> FilledPart<dim>::part_of(const std::vector<Simplex<dim>> &open, const AtVertices &depths) const
   {
     auto simplices = open;
     for (Simplex<dim> &simplex : simplices)
@@ -127,14 +129,137 @@ namespace scree
 
 
   template <int dim>
-  void FilledPart<dim>::find(const Mixture<dim> &mixture)
+  unsigned int FilledPart<dim>::faces_of_box(const unsigned int cell, const HoldsNode &holds) const
+  {
+    unsigned int result = 0;
+    for (unsigned int rest = grid.open_knots(cell); rest != 0; rest &= rest - 1)
+      {
+        unsigned int face = 0;
+        while (!(rest >> face & 1))
+          ++face;
+        bool bounds = surface.presses(face);
+        if (!bounds && !surface.is_drained(face))
+          bounds =
+              std::all_of(grid.nodes(cell), grid.nodes(cell) + grid.n_nodes_per_cell(), [&](const unsigned int node) {
+                return !(grid.node_faces(node) >> face & 1) || holds(node, face);
+              });
+        result |= bounds ? 1u << face : 0u;
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  template <int n>
+  void FilledPart<dim>::integrate_face(const SimplexFace<dim> &face,
+                                       const Tensor<1, dim> &normal,
+                                       const OpenKnots open,
+                                       NodeRow *integrals,
+                                       AtVertices &hats) const
+  {
+    static const QWitherdenVincentSimplex<dim - 1> rule(4);
+    constexpr unsigned int rows_of_cell = RowFactors<dim, n>::n_rows;
+    const double area                   = area_of<dim>(face).norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
+    std::array<Point<dim>, dim> corners;
+    for (unsigned int i = 0; i < dim; ++i)
+      corners[i] = face[i].place;
+    visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
+      const CellBasis<dim, n> basis(x, open);
+      const RowFactors<dim, n> rows(basis);
+      const NodeRow value_x = make_row(basis.value[0]);
+      for (unsigned int v = 0; v < n_vertices; ++v)
+        {
+          const double hat = part * area * GeometryInfo<dim>::d_linear_shape_function(x, v);
+          hats[v] += hat;
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int r = 0; r < rows_of_cell; ++r)
+              integrals[(c * n_vertices + v) * rows_of_cell + r] -= value_x * (hat * normal[c] * rows.value[r]);
+        }
+    });
+  }
+
+
+  template <int dim>
+  typename FilledPart<dim>::AtVertices FilledPart<dim>::add_face(const SimplexFace<dim> &face,
+                                                                 const Tensor<1, dim> &normal,
+                                                                 const AtVertices &depths,
+                                                                 const OpenKnots open,
+                                                                 const unsigned int integrals)
+  {
+    AtVertices hats{};
+    std::vector<SimplexFace<dim>> faces{ face };
+    for (SimplexCorner<dim> &corner : faces[0])
+      corner.side = interpolate<dim>(depths, corner.place);
+    for (const SimplexFace<dim> &wet : open_part(std::move(faces), linear_crossing<dim>))
+      if (grid.n_nodes_1d() == 2)
+        integrate_face<2>(wet, normal, open, &all_integrals[integrals], hats);
+      else
+        integrate_face<3>(wet, normal, open, &all_integrals[integrals], hats);
+    return hats;
+  }
+
+
+  template <int dim>
+  void FilledPart<dim>::add_box(const std::vector<Simplex<dim>> &simplices,
+                                const unsigned int faces,
+                                const AtVertices &depths,
+                                const OpenKnots open,
+                                const unsigned int integrals)
+  {
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if (faces >> f & 1)
+        for (const Simplex<dim> &simplex : simplices)
+          {
+            SimplexFace<dim> face;
+            unsigned int n_on_face = 0;
+            for (const SimplexCorner<dim> &corner : simplex)
+              if (std::abs(corner.place[f / 2] - f % 2) < 1e-12 && n_on_face++ < dim)
+                face[n_on_face - 1] = corner;
+            if (n_on_face == dim)
+              add_face(face, (f % 2 ? 1. : -1.) * Point<dim>::unit_vector(f / 2), depths, open, integrals);
+          }
+  }
+
+
+  template <int dim>
+  void FilledPart<dim>::add_ground(const CutCell<dim> &cut,
+                                   const AtVertices &depths,
+                                   const OpenKnots open,
+                                   const double time_step)
+  {
+    Cell &cell = with_water.back();
+    for (const GroundFace<dim> &face : cut.faces)
+      for (unsigned int s = cut.first_segment; s < cut.first_segment + cut.n_segments; ++s)
+        if (const CutFacet<dim> &segment = cut_cells->segments()[s];
+            segment.part == face.part && gaps.acts(s, time_step))
+          {
+            const AtVertices hats = add_face(face.corners, face.normal, depths, open, cell.integrals);
+            const double speed    = gaps.allowed_approach(s, time_step) + cut_cells->velocity(segment) * face.normal;
+            for (unsigned int v = 0; v < n_vertices; ++v)
+              cell.allowed[v] += speed * hats[v];
+          }
+  }
+
+
+  template <int dim>
+  void FilledPart<dim>::find(const Mixture<dim> &mixture, const HoldsNode &holds, const double time_step)
   {
     constexpr double smallest = 1e-9; // fraction of a cell
     with_water.clear();
     all_integrals.resize(end_of_whole);
+    AtVertices filled;
+    filled.fill(1.);
+    const auto kind_of = [&](const unsigned int cell) {
+      return grid.open_knots(cell) + (faces_of_box(cell, holds) << 2 * dim);
+    };
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (const OpenKnots open = grid.open_knots(cell.cell); integrals_of_whole.count(open) == 0)
-        integrals_of_whole[open] = add_integrals(whole, open);
+      if (const unsigned int kind = kind_of(cell.cell); integrals_of_whole.count(kind) == 0)
+        {
+          const OpenKnots open         = grid.open_knots(cell.cell);
+          const unsigned int integrals = add_integrals(whole, open);
+          add_box(unit_cube, kind >> 2 * dim, filled, open, integrals);
+          integrals_of_whole[kind] = integrals;
+        }
     end_of_whole = all_integrals.size();
     for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       {
@@ -143,15 +268,24 @@ namespace scree
           continue;
         const OpenKnots open    = grid.open_knots(cell.cell);
         const CutCell<dim> *cut = cut_cells ? cut_cells->find(cell.cell) : nullptr;
-        std::array<double, n_vertices> depths;
+        AtVertices depths;
         for (unsigned int v = 0; v < n_vertices; ++v)
           depths[v] = surface.depth(vertices.nodes(cell.cell)[v]);
         if (*std::max_element(depths.begin(), depths.end()) <= 0.)
           continue;
         if (*std::min_element(depths.begin(), depths.end()) > 0. && cut == nullptr)
-          add(cell.cell, record, whole, integrals_of_whole.at(open));
-        else if (const CubicWeights<dim> part = part_of(cut ? cut->open : unit_cube, depths); part.fraction > smallest)
-          add(cell.cell, record, part, add_integrals(part, open));
+          {
+            add(cell.cell, record, whole, integrals_of_whole.at(kind_of(cell.cell)));
+            continue;
+          }
+        const auto &simplices = cut ? cut->open : unit_cube;
+        if (const CubicWeights<dim> part = part_of(simplices, depths); part.fraction > smallest)
+          {
+            add(cell.cell, record, part, add_integrals(part, open));
+            add_box(simplices, faces_of_box(cell.cell, holds), depths, open, with_water.back().integrals);
+            if (cut)
+              add_ground(*cut, depths, open, time_step);
+          }
       }
   }
 

@@ -89,7 +89,7 @@ namespace scree
       , timer(timer)
       , vertices(numbered(grid))
       , surface(grid, vertices, walls, gravity, cut_cells, water.air_entry_pressure, variational)
-      , part(grid, vertices, surface, cut_cells)
+      , part(grid, vertices, surface, cut_cells, ground_gaps)
       , pair(grid, vertices, part)
       , schur(grid, vertices, surface, part, pair)
       , gaps(grid, vertices, surface)

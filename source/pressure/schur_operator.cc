@@ -62,7 +62,7 @@ namespace scree
   void SchurOperator<dim>::clear_flow()
   {
     for (const unsigned int node : flow.active_nodes())
-      std::fill_n(flow[node], 2 * dim, 0.);
+      std::fill_n(flow[node], dim, 0.);
     flow.clear_ghosts();
   }
 
@@ -106,7 +106,7 @@ namespace scree
     pair.add_force(pressure, flow);
     flow.add_contributions();
     for (const unsigned int node : flow.active_nodes())
-      for (unsigned int c = 0; c < 2 * dim; ++c)
+      for (unsigned int c = 0; c < dim; ++c)
         flow[node][c] *= of_step;
     return flow;
   }
@@ -155,6 +155,9 @@ namespace scree
     flow.update_ghosts();
     surface.clear(target);
     pair.add_divergence(flow, target);
+    for (const auto &cell : part.cells())
+      for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
+        target.local_element(vertices.nodes(cell.cell)[v]) -= cell.allowed[v];
     add_hourglass(-1., pressure, target);
     target.compress(VectorOperation::add);
     surface.restrict_to_unknown(target);

@@ -205,10 +205,12 @@ namespace scree
     wall_gaps.add(mixture);
     ground_gaps.clear();
     for (const PointSet<dim> *points : point_sets())
-      {
-        wall_gaps.add(*points, spacing);
-        ground_gaps.add(*points, spacing);
-      }
+      wall_gaps.add(*points, spacing);
+    for (const auto &body : soil.all_bodies())
+      ground_gaps.add(body.points, body.layout.velocity, spacing);
+    for (auto &one : water)
+      if (const PointSet<dim> *own = one.own_points())
+        ground_gaps.add(*own, one.layout.velocity, spacing);
   }
 
 
@@ -226,9 +228,9 @@ namespace scree
     pores.add_contributions();
     soil.field.scale_inertia(forces.mass_scaling());
     water_field.scale_inertia(forces.mass_scaling());
+    wall_gaps.release(forces, time_step);
     if (pressure.is_variational())
       find_pair(time_step);
-    wall_gaps.release(forces, time_step);
   }
 
 
@@ -238,10 +240,14 @@ namespace scree
     const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
     excess.add_contributions();
     excess.scale_inertia(forces.mass_scaling());
-    pressure.find_pair(mixture, [&](const unsigned int node) {
+    const auto volume_of_water = [&](const unsigned int node) {
       return water_field[node][NodalField<dim>::mass] / transfer.water_density() +
              pores[node][PoreField<dim>::local_solid_volume];
-    });
+    };
+    const auto holds = [&](const unsigned int node, const unsigned int face) {
+      return wall_gaps.holds_water(node, face);
+    };
+    pressure.find_pair(mixture, volume_of_water, holds, time_step);
     momentum.find_flux_inertia(nodes, excess, time_step);
     momentum.add_pressure_forces(nodes, pressure.impulses(time_step), time_step);
   }

@@ -27,8 +27,21 @@ namespace scree
     void clear();
 
     /// Looks at points.
+    /// @param velocity its place among their properties
     /// @param spacing of the points at the start, m
-    void add(const PointSet<dim> &points, const double spacing);
+    void add(const PointSet<dim> &points, const unsigned int velocity, const double spacing);
+
+    /// Whether the pressure acts on a facet in a step of `time_step` s: a point has reached it, or will, or is slow.
+    bool acts(const unsigned int facet, const double time_step) const
+    {
+      return closing_times[facet] < time_step;
+    }
+
+    /// Velocity, m/s, relative to the facet, with which the mixture may approach one on which the pressure acts.
+    double allowed_approach(const unsigned int facet, const double time_step) const
+    {
+      return closing_times[facet] > 0. ? closing_gaps[facet] / time_step : 0.;
+    }
 
     /// Velocity, m/s, with which material at a facet may approach it in a step of `time_step` s: what closes the gap
     /// within it; 0 where there is none.
@@ -43,6 +56,9 @@ namespace scree
     const CutCells<dim> *cut_cells; // may be null
     const double slow;              // m/s, up to which the ground acts at once
     std::vector<double> gaps;       // by facet, m
+
+    // Of the point that reaches the facet first, s and m; 0 where one has, or is slow.
+    std::vector<double> closing_times, closing_gaps;
   };
 } // namespace scree
 

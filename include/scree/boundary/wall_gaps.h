@@ -64,6 +64,14 @@ namespace scree
     /// `Fields` the one that approaches a wall fastest decides. Collective.
     void release(const BodyForces<dim> &forcing, const double time_step);
 
+    /// Whether water does not move through a face of the box at a node of this rank's cells that lies on that.
+    bool holds_water(const unsigned int node, const unsigned int face) const
+    {
+      const NodeConstraints<dim> *walls = constraints.at(node);
+      return walls != nullptr && walls->water_velocity.norm_square() == 0. && !(closes.local_element(node) > 0.) &&
+             walls->water_constraint.held_part(dealii::Point<dim>::unit_vector(face / 2)).norm_square() > 0.5;
+    }
+
     /// Velocity, m/s, at which walls hold an owned node that closes its gap in this step; else 0.
     const dealii::Tensor<1, dim> &closing_velocity(const unsigned int node) const
     {
@@ -90,6 +98,7 @@ namespace scree
     std::vector<Fields> all_fields;
     std::array<NodeVector, dim> gaps;            // to the wall that a node lies on across an axis, cells
     NodeVector released;                         // faces, bit f: face f
+    NodeVector closes;                           // whether a wall closes the gap in this step; with ghosts
     std::vector<dealii::Tensor<1, dim>> closing; // by owned node
     std::vector<unsigned int> on_walls;          // nodes on closed faces, ghosts included
   };

@@ -46,21 +46,36 @@ namespace scree
     return std::abs(determinant(edges_of(simplex))) / (dim == 2 ? 2. : 6.);
   }
 
-  /// Keeps of simplices what is in the open, cut at the surface: simplices without a negative side. A simplex is halved
-  /// at an edge with corners on either side until there is none; with a surface that is plane in it the result is
-  /// exact.
+  /// A line (2D) or triangle.
+  template <int dim>
+  using SimplexFace = std::array<SimplexCorner<dim>, dim>;
+
+  /// Normal of a face, as long as it or its area.
+  template <int dim>
+  dealii::Tensor<1, dim> area_of(const SimplexFace<dim> &face)
+  {
+    if constexpr (dim == 2)
+      return dealii::cross_product_2d(face[1].place - face[0].place);
+    else
+      return 0.5 * dealii::cross_product_3d(face[1].place - face[0].place, face[2].place - face[0].place);
+  }
+
+  /// Keeps of simplices, or of faces of such, what is in the open, cut at the surface: simplices without a negative
+  /// side. A simplex is halved at an edge with corners on either side until there is none; with a surface that is plane
+  /// in it the result is exact.
   ///
   /// @param crossing (inside, outside): the place, m, where the surface cuts the edge between two corners
-  template <int dim, typename Crossing>
-  std::vector<Simplex<dim>> open_part(std::vector<Simplex<dim>> simplices, const Crossing &crossing)
+  template <int dim, std::size_t n_corners, typename Crossing>
+  std::vector<std::array<SimplexCorner<dim>, n_corners>>
+  open_part(std::vector<std::array<SimplexCorner<dim>, n_corners>> simplices, const Crossing &crossing)
   {
-    std::vector<Simplex<dim>> open;
+    std::vector<std::array<SimplexCorner<dim>, n_corners>> open;
     while (!simplices.empty())
       {
-        const Simplex<dim> simplex = simplices.back();
+        const auto simplex = simplices.back();
         simplices.pop_back();
         unsigned int inside = 0, outside = 0; // the corner farthest from the surface on either side
-        for (unsigned int i = 1; i <= dim; ++i)
+        for (unsigned int i = 1; i < n_corners; ++i)
           {
             if (simplex[i].side > simplex[inside].side)
               inside = i;

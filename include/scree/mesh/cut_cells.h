@@ -9,6 +9,15 @@
 
 namespace scree
 {
+  /// A piece of the ground in a cell.
+  template <int dim>
+  struct GroundFace
+  {
+    SimplexFace<dim> corners;      ///< in the unit cell
+    dealii::Tensor<1, dim> normal; ///< unit, out of the open
+    unsigned int part;             ///< of RigidBoundary
+  };
+
   /// What rigid ground leaves open of a cell. The ground is plane in each simplex of the cell (Kuhn's), between
   /// distances at the corners.
   template <int dim>
@@ -22,7 +31,8 @@ namespace scree
     std::array<double, CubicWeights<dim>::n_points> weights{}; ///< see CubicWeights, of the open part
     AtVertices open_hats{}; ///< integrals of the corners' linear functions over the open part, over the cell's volume
 
-    std::vector<Simplex<dim>> open; ///< what they integrate over
+    std::vector<Simplex<dim>> open;     ///< what they integrate over
+    std::vector<GroundFace<dim>> faces; ///< of that, on the ground
 
     unsigned int first_segment = 0,     ///< its first one in CutCells::segments()
         n_segments             = 0;     ///< how many it has there

@@ -47,8 +47,8 @@ namespace scree
     }
 
     /// Finds porosities and resistances, when all soil is in. Soil that does not fill its part shares it with free
-    /// water, but for parts inside the soil: these hold more or fewer of its points by chance, and have its porosity, or
-    /// that of the cell where there is none.
+    /// water, but for parts inside the soil: these hold more or fewer of its points by chance, and have its porosity,
+    /// or that of the cell where there is none.
     ///
     /// @param filled volume of the cell that soil and water share, m^3
     /// @param depths signed distances of the vertices from the surface of the soil, positive inside; null: no part is
@@ -74,12 +74,12 @@ namespace scree
           if (is_inside && part.volume <= 0.)
             part = cell;
           if (part.volume > 0.)
-          {
-            const double volume   = is_inside ? part.volume : std::max(part.volume, whole);
-            part.inverse_porosity = 1. / std::max(closures::least_porosity, 1. - part.grains / volume);
-            part.resistance /= volume;
-            part.inertial /= volume;
-          }
+            {
+              const double volume   = is_inside ? part.volume : std::max(part.volume, whole);
+              part.inverse_porosity = 1. / std::max(closures::least_porosity, 1. - part.grains / volume);
+              part.resistance /= volume;
+              part.inertial /= volume;
+            }
         }
     }
 

@@ -2,8 +2,10 @@
 #ifndef scree_pressure_filled_part_h
 #define scree_pressure_filled_part_h
 
+#include <scree/boundary/ground_gaps.h>
 #include <scree/pressure/free_surface.h>
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -17,6 +19,8 @@ namespace scree
   public:
     static constexpr unsigned int n_vertices = 1 << dim; ///< vertices of a cell
 
+    using HoldsNode = std::function<bool(const unsigned int node, const unsigned int face)>; ///< see find()
+
     /// A cell that water fills or cuts.
     struct Cell
     {
@@ -25,6 +29,7 @@ namespace scree
       unsigned int integrals;                                    ///< where they begin, see divergence() and volumes()
       double fraction;                                           ///< of the volume of the whole cell
       std::array<dealii::Tensor<1, dim>, n_vertices> hat_slopes; ///< grad psi_a at the centre of the part, 1/m
+      std::array<double, n_vertices> allowed;                    ///< int psi_a of the flow into the ground, m^dim/s
     };
 
     /// All are kept by reference.
@@ -33,10 +38,12 @@ namespace scree
     FilledPart(const BackgroundGrid<dim> &grid,
                const NodeNumbering<dim> &vertices,
                const FreeSurface<dim> &surface,
-               const CutCells<dim> *cut_cells);
+               const CutCells<dim> *cut_cells,
+               const GroundGaps<dim> &gaps);
 
     /// Finds the parts of the cells of a mixture whose surface is known.
-    void find(const Mixture<dim> &mixture);
+    /// @param holds whether water does not move through a face of the box at a node on that
+    void find(const Mixture<dim> &mixture, const HoldsNode &holds, const double time_step);
 
     /// Cells that have a part, in the order of the mixture.
     const std::vector<Cell> &cells() const
@@ -44,7 +51,8 @@ namespace scree
       return with_water;
     }
 
-    /// Integrals of psi_a d phi_i/dx_c over the part of a cell, m^(dim-1): rows of nodes i, by axis c and vertex a.
+    /// Integrals of psi_a d phi_i/dx_c over the part of a cell, less those of psi_a phi_i nu_c over the ground and
+    /// the walls that bound it, m^(dim-1): rows of nodes i, by axis c and vertex a.
     const NodeRow *divergence(const Cell &cell, const unsigned int axis, const unsigned int vertex) const
     {
       return &all_integrals[cell.integrals + (axis * n_vertices + vertex) * n_rows];
@@ -72,17 +80,48 @@ namespace scree
              const CubicWeights<dim> &part,
              const unsigned int integrals);
 
-    /// The part of a cell with these depths, cells, at its vertices.
-    CubicWeights<dim> part_of(const std::vector<Simplex<dim>> &open,
-                              const std::array<double, n_vertices> &depths) const;
+    using AtVertices = std::array<double, n_vertices>; // a number a vertex
+
+    /// The part of a cell whose vertices have these depths, cells.
+    CubicWeights<dim> part_of(const std::vector<Simplex<dim>> &open, const AtVertices &depths) const;
+
+    /// Faces of the box with a cell through which nothing flows, or which prescribe a pressure other than 0, as bits.
+    unsigned int faces_of_box(const unsigned int cell, const HoldsNode &holds) const;
+
+    /// Takes the flow through the wet part of a face of the unit cell into the `integrals` from there on; returns the
+    /// integrals of the vertices' functions, m^(dim-1).
+    /// @param normal unit, out of the cell
+    AtVertices add_face(const SimplexFace<dim> &face,
+                        const dealii::Tensor<1, dim> &normal,
+                        const AtVertices &depths,
+                        const OpenKnots open,
+                        const unsigned int integrals);
+
+    /// The same through faces of the box on which simplices of the cell lie.
+    void add_box(const std::vector<Simplex<dim>> &simplices,
+                 const unsigned int faces,
+                 const AtVertices &depths,
+                 const OpenKnots open,
+                 const unsigned int integrals);
+
+    /// The same through the ground on which the pressure acts, in the last one of the cells.
+    void add_ground(const CutCell<dim> &cut, const AtVertices &depths, const OpenKnots open, const double time_step);
+
+    template <int n>
+    void integrate_face(const SimplexFace<dim> &face,
+                        const dealii::Tensor<1, dim> &normal,
+                        const OpenKnots open,
+                        NodeRow *integrals,
+                        AtVertices &hats) const;
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
     const FreeSurface<dim> &surface;
     const CutCells<dim> *cut_cells; // may be null
+    const GroundGaps<dim> &gaps;
     const std::vector<Simplex<dim>> unit_cube;
     CubicWeights<dim> whole;
-    std::map<OpenKnots, unsigned int> integrals_of_whole; // at the front of all_integrals
+    std::map<unsigned int, unsigned int> integrals_of_whole; // at the front of all_integrals, by knots and faces
     std::size_t end_of_whole = 0;
     std::vector<NodeRow> all_integrals;
     std::vector<Cell> with_water;

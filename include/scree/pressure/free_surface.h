@@ -150,6 +150,24 @@ namespace scree
     /// The same over a cell of this rank that has the vertex as its `v`th.
     double volume_in_cell(const unsigned int cell, const unsigned int v) const;
 
+    /// Whether a face of the box prescribes the pressure.
+    bool is_drained(const unsigned int face) const
+    {
+      return walls.is_drained(face);
+    }
+
+    /// Whether it prescribes one other than 0.
+    bool presses(const unsigned int face) const
+    {
+      return walls.is_drained(face) && walls.pressure(1u << face) != 0.;
+    }
+
+    /// Whether the pressure keeps the water of a cell of this rank out of the ground.
+    bool keeps_from_ground(const unsigned int cell) const
+    {
+      return by_flux && has_unknown(cell);
+    }
+
     /// Whether a cell of this rank has an unknown vertex.
     bool has_unknown(const unsigned int cell) const
     {

@@ -278,7 +278,8 @@ namespace scree
         if (cell.soil_mass > 0. && !cell.is_rigid)
           add_contact(
               segment, Phase::soil, !is_fixed(segment), nodes, time_step, known.soil, time_step * known.corrected_soil);
-        if (cell.water_volume > 0.)
+        const bool holds = std::binary_search(holding.begin(), holding.end(), segment);
+        if (cell.water_volume > 0. && (holds || !surface.keeps_from_ground(cell.cell)))
           add_contact(segment,
                       Phase::water,
                       !surface.has_unknown(cell.cell),

@@ -37,7 +37,7 @@ void test(const std::string &ground_expression, std::ostream &out)
   unsigned int n_far = 0, n_touching = 0;
   for (const double distance : { 0.1 * h, 0.2 * h })
     {
-      PointSet<dim> points(grid.triangulation(), grid.mapping(), 1);
+      PointSet<dim> points(grid.triangulation(), grid.mapping(), dim);
       std::vector<double> of_facets(facets.size(), -1.); // m; less than 0: the place is in another cell
       for (unsigned int f = 0; f < facets.size(); ++f)
         {
@@ -45,13 +45,13 @@ void test(const std::string &ground_expression, std::ostream &out)
           for (const auto &cell : grid.triangulation().active_cell_iterators())
             if (cell->active_cell_index() == facets[f].cell && cell->bounding_box().point_inside(x))
               {
-                points.add(cell, x, 0, { 0. });
+                points.add(cell, x, 0, std::vector<double>(dim, 0.));
                 of_facets[f] = distance;
               }
         }
       points.finish_adding();
       gaps.clear();
-      gaps.add(points, spacing);
+      gaps.add(points, 0, spacing);
       for (unsigned int f = 0; f < facets.size(); ++f)
         {
           const double gap     = of_facets[f] < 0. ? h : of_facets[f] - 0.6 * spacing; // of one ground in a cell
