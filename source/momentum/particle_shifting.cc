@@ -95,7 +95,7 @@ namespace scree
         const FlowField<dim> &of_flow = pressure.impulses_of(potential, time_step);
         for (const unsigned int node : shifts->active_nodes())
           for (unsigned int c = 0; c < dim; ++c)
-            (*shifts)[node][dim + c] = time_step * of_flow[node][c];
+            (*shifts)[node][dim + c] = time_step * (of_flow[node][c] + of_flow[node][dim + c]);
       }
     else
       for (unsigned int record = 0; record < mixture.cells().size(); ++record)

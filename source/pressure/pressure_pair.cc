@@ -9,19 +9,19 @@ namespace scree
 
   namespace
   {
-    /// Components of the nodes of a cell, in rows.
+    /// `dim` components of the nodes of a cell, from one on, in rows.
     template <int dim, int n>
     using Rows = NodeRow[dim][RowFactors<dim, n>::n_rows];
 
     template <int dim, int n>
-    void read(const FlowField<dim> &field, const unsigned int *nodes, Rows<dim, n> &rows)
+    void read(const FlowField<dim> &field, const unsigned int *nodes, const unsigned int first, Rows<dim, n> &rows)
     {
       for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
         for (unsigned int c = 0; c < dim; ++c)
           {
             rows[c][r] = NodeRow{};
             for (unsigned int i = 0; i < n; ++i)
-              rows[c][r][i] = field[nodes[r * n + i]][c];
+              rows[c][r][i] = field[nodes[r * n + i]][first + c];
           }
     }
   } // namespace
@@ -120,12 +120,13 @@ namespace scree
     for (const auto &cell : part.cells())
       {
         const unsigned int *nodes = grid.nodes(cell.cell);
-        Rows<dim, n> mixture;
-        read<dim, n>(flow, nodes, mixture);
+        Rows<dim, n> mixture, discharge;
+        read<dim, n>(flow, nodes, 0, mixture);
+        read<dim, n>(flow, nodes, dim, discharge);
         NodeRow drift[dim] = {};
         for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
           for (unsigned int c = 0; c < dim; ++c)
-            drift[c] += *of_moments * mixture[c][r];
+            drift[c] += *of_moments * discharge[c][r];
         for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
           {
             NodeRow divergence{};
@@ -169,7 +170,10 @@ namespace scree
             {
               double *force = forces[nodes[r * n + i]];
               for (unsigned int c = 0; c < dim; ++c)
-                force[c] += of_mixture[c][r][i] - (*of_moments)[i] * slope[c];
+                {
+                  force[c] += of_mixture[c][r][i];
+                  force[dim + c] -= (*of_moments)[i] * slope[c];
+                }
             }
       }
   }

@@ -198,7 +198,9 @@ namespace scree
     const std::vector<double> squares{ local_square(scratch), local_square(source) };
     std::vector<double> of_ranks(2);
     Utilities::MPI::sum(squares, grid.triangulation().get_communicator(), of_ranks);
-    tolerance = std::max(rounding * std::sqrt(of_ranks[0]), relative_tolerance * std::sqrt(of_ranks[1]));
+    // With the matrix itself each step finds the whole pressure: what is left is no sum over steps.
+    const double of_whole = schur ? relative_tolerance : rounding;
+    tolerance             = std::max(of_whole * std::sqrt(of_ranks[0]), relative_tolerance * std::sqrt(of_ranks[1]));
     SolveReport report;
     converge(report);
     for (unsigned int i = 0; i < system.n_owned(); ++i)

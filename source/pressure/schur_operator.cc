@@ -62,7 +62,7 @@ namespace scree
   void SchurOperator<dim>::clear_flow()
   {
     for (const unsigned int node : flow.active_nodes())
-      std::fill_n(flow[node], dim, 0.);
+      std::fill_n(flow[node], 2 * dim, 0.);
     flow.clear_ghosts();
   }
 
@@ -106,7 +106,7 @@ namespace scree
     pair.add_force(pressure, flow);
     flow.add_contributions();
     for (const unsigned int node : flow.active_nodes())
-      for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int c = 0; c < 2 * dim; ++c)
         flow[node][c] *= of_step;
     return flow;
   }

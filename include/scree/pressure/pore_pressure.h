@@ -78,7 +78,7 @@ namespace scree
       pair.find_moments(volume);
     }
 
-    /// Impulses of the pressure on the flow in a step, N s, at the owned nodes. Collective.
+    /// Impulses of the pressure in a step, N s, at the owned nodes: of u, then of q beside it. Collective.
     const FlowField<dim> &impulses(const double time_step)
     {
       return schur.impulses(pressure, time_step);

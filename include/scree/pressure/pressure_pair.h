@@ -8,21 +8,22 @@
 
 namespace scree
 {
-  /// Flow at the nodes, the mixture's velocity u = v_s + q, m/s, or the force of the pressure on it, N.
+  /// Flow at the nodes, and what the pressure does to it: the mixture's velocity u = v_s + q, m/s, and the discharge q,
+  /// m/s; or a force on u and one on q beside it, N.
   template <int dim>
-  using FlowField = NodeValues<dim, dim>;
+  using FlowField = NodeValues<dim, 2 * dim>;
 
   /// The divergence B of a flow at the vertices, and its transpose, the force of a pressure. As they are transposes,
   /// the pressure's work is what B leaves of the divergence, and pressure makes no energy, whatever the part of the
   /// cells that water fills is taken to be.
   ///
-  /// (B u)_a = - int psi_a div u + int_Gamma psi_a u.nu + sum_c grad psi_a . sum_i delta_ci u_i
+  /// (B u)_a = - int psi_a div u + int_Gamma psi_a u.nu + sum_c grad psi_a . sum_i delta_ci q_i
   ///
   /// over the part of the cells that water fills, and the ground and walls Gamma that bound it, but for walls that no
-  /// point has reached; nu points out of it. So what walls give the soil is the effective stress. The sum makes gravity on scattered points a gradient of
-  /// pressure, nearly: Delta_i = sum V_p phi_i/n_p - int phi_i is what the water's points have at a node beside the
-  /// part; each cell takes its share of it but for the mean, which is passed on to the nodes. sum_i delta_ci = 0, so
-  /// that a uniform flow has no divergence, and forces add up to 0.
+  /// point has reached; nu points out of it. So what walls give the soil is the effective stress. The sum makes gravity
+  /// on scattered points a gradient of pressure, nearly: Delta_i = sum V_p phi_i/n_p - int phi_i is what the water's
+  /// points have at a node beside the part; each cell takes its share of it but for the mean, which is passed on to the
+  /// nodes. sum_i delta_ci = 0, so that a uniform flow has no divergence, and forces add up to 0.
   template <int dim>
   class PressurePair
   {

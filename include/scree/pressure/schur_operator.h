@@ -29,13 +29,13 @@ namespace scree
     std::vector<PressedNode<dim>> all; ///< owned
     std::vector<DragBlock<dim>> held;  ///< see PressedNode
 
-    /// What a force on the flow, N, gives soil and water.
+    /// What a force on u and one on q beside it, in a node's numbers of a FlowField, give soil and water, N.
     static SoilAndWater<dim> forces(const PressedNode<dim> &node, const double *of_flow)
     {
       SoilAndWater<dim> result;
       for (unsigned int c = 0; c < dim; ++c)
         {
-          result.water[c] = node.porosity * of_flow[c];
+          result.water[c] = node.porosity * (of_flow[c] + of_flow[dim + c]);
           result.soil[c]  = node.porosity < 1. ? of_flow[c] - result.water[c] : 0.;
         }
       return result;
@@ -47,7 +47,8 @@ namespace scree
       for (unsigned int c = 0; c < dim; ++c)
         {
           const double soil = node.porosity < 1. ? velocity.soil[c] : 0.;
-          of_flow[c]        = soil + node.porosity * (velocity.water[c] - soil);
+          of_flow[dim + c]  = node.porosity * (velocity.water[c] - soil);
+          of_flow[c]        = soil + of_flow[dim + c];
         }
     }
 
@@ -94,7 +95,7 @@ namespace scree
     /// @param pressure at all vertices, with ghosts
     void find_source(const MixtureNodes<dim> &of_mixture, const VertexVector &pressure, VertexVector &target);
 
-    /// Sets impulses of a pressure on the flow, N s, at the owned nodes. Collective.
+    /// Sets impulses of a pressure, N s, at the owned nodes: of u, then of q beside it. Collective.
     /// @param pressure at all vertices, with ghosts
     const FlowField<dim> &impulses(const VertexVector &pressure, const double time_step);
 

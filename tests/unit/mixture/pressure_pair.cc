@@ -94,7 +94,8 @@ public:
     water_field.add_contributions();
     pores.add_contributions();
     surface.locate(mixture, pressure);
-    part.find(mixture, [](const unsigned int, const unsigned int) { return false; }, time_step);
+    part.find(
+        mixture, [](const unsigned int, const unsigned int) { return false; }, time_step);
     pair.find_moments([&](const unsigned int node) {
       return water_field[node][NodalField<dim>::mass] / 1000. + pores[node][PoreField<dim>::local_solid_volume];
     });
@@ -119,9 +120,12 @@ public:
   {
     for (const unsigned int node : flow.active_nodes())
       {
-        const Tensor<1, dim> velocity = function(grid.node_position(node));
+        const auto [mixture, discharge] = function(grid.node_position(node));
         for (unsigned int c = 0; c < dim; ++c)
-          flow[node][c] = velocity[c];
+          {
+            flow[node][c]       = mixture[c];
+            flow[node][dim + c] = discharge[c];
+          }
       }
     flow.update_ghosts();
   }
@@ -190,6 +194,7 @@ template <int dim>
 void test(const std::string &basis, std::ostream &out)
 {
   Scene<dim> scene(basis);
+  using Vectors = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
   double volume = 0.;
   for (const auto &cell : scene.part.cells())
     volume += cell.fraction * std::pow(scene.grid.cell_size(), dim);
@@ -197,9 +202,12 @@ void test(const std::string &basis, std::ostream &out)
 
   // Transposes: p.(B u) = -u.f(p).
   scene.set_flow([](const Point<dim> &x) {
-    Tensor<1, dim> result;
+    Vectors result;
     for (unsigned int c = 0; c < dim; ++c)
-      result[c] = pattern(x + double(c + 2) * Point<dim>::unit_vector(1));
+      {
+        result.first[c]  = pattern(x + double(c + 2) * Point<dim>::unit_vector(1));
+        result.second[c] = pattern(x + double(c + 7) * Point<dim>::unit_vector(0));
+      }
     return result;
   });
   scene.set_pressure(0.3);
@@ -211,11 +219,11 @@ void test(const std::string &basis, std::ostream &out)
   for (const unsigned int vertex : scene.surface.wet_vertices())
     by_divergence += scene.pressure.local_element(vertex) * divergence.local_element(vertex);
   for (const unsigned int node : scene.forces.active_nodes())
-    for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int c = 0; c < 2 * dim; ++c)
       {
         by_force -= scene.forces[node][c] * scene.flow[node][c];
         size += std::abs(scene.forces[node][c] * scene.flow[node][c]);
-        total[c] += scene.forces[node][c];
+        total[c % dim] += scene.forces[node][c];
       }
   by_divergence = sum_of_ranks(by_divergence);
   by_force      = sum_of_ranks(by_force);
@@ -229,12 +237,12 @@ void test(const std::string &basis, std::ostream &out)
   Tensor<1, dim> uniform;
   for (unsigned int c = 0; c < dim; ++c)
     uniform[c] = 1. + c;
-  scene.set_flow([&](const Point<dim> &) { return uniform; });
+  scene.set_flow([&](const Point<dim> &) { return Vectors{ uniform, -0.5 * uniform }; });
   out << "  divergence of uniform flow: " << beyond_rounding(scene.largest_divergence(), scale) << std::endl;
   scene.set_flow([&](const Point<dim> &x) {
-    Tensor<1, dim> turning;
-    turning[0] = -x[1];
-    turning[1] = x[0];
+    Vectors turning;
+    turning.first[0] = -x[1];
+    turning.first[1] = x[0];
     return turning;
   });
   out << "  of a rigid body: " << beyond_rounding(scene.largest_divergence(), scale) << std::endl;
