@@ -125,13 +125,6 @@ namespace scree
           parameters.bed.friction_angles,
           "with water the bed has one angle of friction yet. Write a \"Friction angle\", or remove subsection "
           "Water.");
-      if (parameters.pressure.is_variational())
-        require_entry(parameters.water.air_entry_pressure == 0.,
-                      "Water/Pressure",
-                      "Step",
-                      parameters.pressure.step,
-                      "it is not possible with an \"Air entry pressure\" (subsection Water) yet. Write fractional, or "
-                      "remove that.");
       for (const WaterWall &wall : parameters.water_boundaries.walls(parameters.dimension))
         require_entry(wall.type != WaterWallType::drained || wall.pressure >= parameters.pressure.cavitation_pressure,
                       "Water/Pressure",

@@ -35,7 +35,8 @@ namespace scree
       , filling(vertices)
       , soil(vertices)
       , neighbours(vertices)
-      , menisci(vertices, by_flux ? 0. : air_entry)
+      , air_entry(air_entry)
+      , menisci(vertices, air_entry)
       , sides(vertices)
   {
     reinit();
@@ -54,6 +55,8 @@ namespace scree
     distances.assign(kinds.size(), -1.);
     menisci.reinit(kinds.size());
     scratch.reinit(vertices.partitioner());
+    if (menisci.exist())
+      suction.reinit(vertices.partitioner());
     if (cut_cells)
       find_closed();
   }
@@ -255,7 +258,7 @@ namespace scree
           value = walls.pressure(vertices.faces(vertex));
         }
       else if (sums[water] > 0. &&
-               (distances[vertex] >= closures::least_vertex_depth - 1e-9 || (menisci.exist() && keeps_water(vertex))))
+               (distances[vertex] >= closures::least_vertex_depth - 1e-9 || (menisci.exist() && !by_flux && keeps_water(vertex))))
         {
           kind  = PressureDofType::unknown;
           value = pressure_of_points(vertex);
@@ -303,6 +306,25 @@ namespace scree
         for_pairs(mixture, kind, group.followed, [&](const unsigned int vertex, const unsigned int neighbour) {
           group.pairs.emplace_back(vertex, neighbour);
         });
+      }
+    if (menisci.exist())
+      find_suction();
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::find_suction()
+  {
+    // What extend() would give of a pressure that is 1 in all of the water.
+    for (unsigned int vertex = 0; vertex < kinds.size(); ++vertex)
+      suction.local_element(vertex) = kinds[vertex] == PressureDofType::unknown ? 1. : 0.;
+    extend(suction);
+    for (unsigned int vertex = 0; vertex < kinds.size(); ++vertex)
+      {
+        double &value        = suction.local_element(vertex);
+        const bool is_beside = kinds[vertex] == PressureDofType::surface || kinds[vertex] == PressureDofType::beyond ||
+                               kinds[vertex] == PressureDofType::dry;
+        value = is_beside ? -air_entry * menisci.dry_soil_behind(vertex) * (1. - value) : 0.;
       }
   }
 

@@ -198,6 +198,24 @@ namespace scree
       add_force_of_cells<3>(pressure, forces);
   }
 
+  template <int dim>
+  void PressurePair<dim>::add_suction(const VertexVector &pressure, FlowField<dim> &forces) const
+  {
+    const unsigned int n = grid.n_nodes_1d();
+    for (const auto &cell : part.cells())
+      {
+        Tensor<1, dim> slope;
+        for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
+          slope += pressure.local_element(vertices.nodes(cell.cell)[v]) * cell.hat_slopes[v];
+        if (slope.norm_square() == 0.)
+          continue;
+        const NodeRow *volumes = part.volumes(cell);
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            forces[grid.nodes(cell.cell)[i]][dim + c] -= volumes[i / n][i % n] * slope[c];
+      }
+  }
+
   template class PressurePair<2>;
   template class PressurePair<3>;
 } // namespace scree

@@ -100,10 +100,13 @@ namespace scree
 
 
   template <int dim>
-  const FlowField<dim> &SchurOperator<dim>::impulses(const VertexVector &pressure, const double of_step)
+  const FlowField<dim> &
+  SchurOperator<dim>::impulses(const VertexVector &pressure, const double of_step, const VertexVector *suction)
   {
     clear_flow();
     pair.add_force(pressure, flow);
+    if (suction != nullptr)
+      pair.add_suction(*suction, flow);
     flow.add_contributions();
     for (const unsigned int node : flow.active_nodes())
       for (unsigned int c = 0; c < 2 * dim; ++c)

@@ -53,6 +53,12 @@ namespace scree
     /// @param volume of the vertex's surroundings, m^3
     void find_behind(const unsigned int vertex, const double distance, const double volume);
 
+    /// Part of what lies behind the surface at a vertex that is dry soil.
+    double dry_soil_behind(const unsigned int vertex) const
+    {
+      return behind[vertex];
+    }
+
     /// Whether the soil ends with its water at a vertex.
     bool end_soil(const unsigned int vertex) const;
 

@@ -86,6 +86,13 @@ namespace scree
       return distances[vertex];
     }
 
+    /// What dry soil behind the surface adds to the pressure of extend(), Pa, for the discharge alone; with ghosts. Null:
+    /// nothing.
+    const VertexVector *suction_behind() const
+    {
+      return menisci.exist() ? &suction : nullptr;
+    }
+
     /// Whether menisci in the pores make the pressure at the surface differ from 0.
     bool has_menisci() const
     {
@@ -267,6 +274,8 @@ namespace scree
       return filling[vertex][weighted_pressure] / filling[vertex][water];
     }
 
+    void find_suction();
+
     /// Makes the vertices in gaps unknown. Collective.
     void close_gaps(const Mixture<dim> &mixture, VertexVector &pressure);
 
@@ -307,12 +316,14 @@ namespace scree
     NodeValues<dim, 6> filling;        // Filling
     NodeValues<dim, 1> soil;           // grains and pores under a vertex's linear function, m^3
     NodeValues<dim, 4> neighbours;     // Neighbours
+    const double air_entry; // Pa
     Menisci<dim> menisci;
     NodeValues<dim, 2 * dim> sides; // number of neighbours that press, on each side along each axis
     std::vector<PressureDofType> kinds;
     std::vector<double> distances; // cells; positive in the water
     std::array<Followers, 2> followers;
     VertexVector scratch; // 0 between calls
+    VertexVector suction; // see suction_behind()
 
     // Without ground they are empty.
     std::vector<double> closed_volume; // under a vertex's linear function, m^3

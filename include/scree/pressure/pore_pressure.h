@@ -81,7 +81,7 @@ namespace scree
     /// Impulses of the pressure in a step, N s, at the owned nodes: of u, then of q beside it. Collective.
     const FlowField<dim> &impulses(const double time_step)
     {
-      return schur.impulses(pressure, time_step);
+      return schur.impulses(pressure, time_step, surface.suction_behind());
     }
 
     /// The same of its change over the step.
@@ -133,7 +133,11 @@ namespace scree
     /// Pressure at the vertices of a cell with points, Pa, in deal.II's order.
     AtVertices pressure_of(const unsigned int cell) const
     {
-      return at_vertices(pressure, cell);
+      AtVertices result = at_vertices(pressure, cell);
+      if (const VertexVector *suction = variational ? surface.suction_behind() : nullptr)
+        for (unsigned int v = 0; v < result.size(); ++v)
+          result[v] += suction->local_element(vertices.nodes(cell)[v]);
+      return result;
     }
 
     /// Change of the pressure over the step at the vertices of a cell, Pa.
@@ -145,7 +149,7 @@ namespace scree
     /// Whether menisci pull at the grains.
     bool has_menisci() const
     {
-      return surface.has_menisci();
+      return !variational && surface.has_menisci();
     }
 
     /// What menisci add to the pressure at the vertices of a cell, and to its change over the step, Pa: the grains bear

@@ -45,6 +45,9 @@ namespace scree
     /// @param pressure Pa, with ghosts
     void add_force(const VertexVector &pressure, FlowField<dim> &forces) const;
 
+    /// Adds to the force on the discharge that of a pressure which acts on this alone, N: - int phi_i grad t.
+    void add_suction(const VertexVector &pressure, FlowField<dim> &forces) const;
+
   private:
     template <int n>
     void add_divergence_of_cells(const FlowField<dim> &flow, VertexVector &sums) const;

@@ -97,7 +97,9 @@ namespace scree
 
     /// Sets impulses of a pressure, N s, at the owned nodes: of u, then of q beside it. Collective.
     /// @param pressure at all vertices, with ghosts
-    const FlowField<dim> &impulses(const VertexVector &pressure, const double time_step);
+    /// @param suction the same, of the discharge alone; may be null
+    const FlowField<dim> &
+    impulses(const VertexVector &pressure, const double time_step, const VertexVector *suction = nullptr);
 
   private:
     /// Adds `factor` H p.
