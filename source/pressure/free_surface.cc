@@ -11,6 +11,10 @@ namespace scree
 
   namespace
   {
+    /// Of an unknown vertex of the variational step, cells: no depth that rows of a lattice of points give, which would
+    /// make a vertex unknown in one step and not in the next.
+    constexpr double least_depth_by_flux = 0.15;
+
     double distance_from_fill(const double fill)
     {
       return fill < 0.5 ? std::sqrt(2. * fill) - 1. : 1. - std::sqrt(2. * std::max(1. - fill, 0.));
@@ -258,7 +262,8 @@ namespace scree
           value = walls.pressure(vertices.faces(vertex));
         }
       else if (sums[water] > 0. &&
-               (distances[vertex] >= closures::least_vertex_depth - 1e-9 || (menisci.exist() && !by_flux && keeps_water(vertex))))
+               (distances[vertex] >= (by_flux ? least_depth_by_flux : closures::least_vertex_depth) - 1e-9 ||
+                (menisci.exist() && !by_flux && keeps_water(vertex))))
         {
           kind  = PressureDofType::unknown;
           value = pressure_of_points(vertex);
