@@ -86,8 +86,8 @@ namespace scree
       return distances[vertex];
     }
 
-    /// What dry soil behind the surface adds to the pressure of extend(), Pa, for the discharge alone; with ghosts. Null:
-    /// nothing.
+    /// What dry soil behind the surface adds to the pressure of extend(), Pa, for the discharge alone; with ghosts.
+    /// Null: nothing.
     const VertexVector *suction_behind() const
     {
       return menisci.exist() ? &suction : nullptr;
@@ -316,7 +316,7 @@ namespace scree
     NodeValues<dim, 6> filling;        // Filling
     NodeValues<dim, 1> soil;           // grains and pores under a vertex's linear function, m^3
     NodeValues<dim, 4> neighbours;     // Neighbours
-    const double air_entry; // Pa
+    const double air_entry;            // Pa
     Menisci<dim> menisci;
     NodeValues<dim, 2 * dim> sides; // number of neighbours that press, on each side along each axis
     std::vector<PressureDofType> kinds;
