@@ -9,30 +9,11 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  void Menisci<dim>::find_soil(const Mixture<dim> &mixture)
-  {
-    soil->clear();
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0. || cell.grain_volume > 0.)
-        {
-          soil->activate_cell(cell.cell);
-          if (!(cell.grain_volume > 0.))
-            continue;
-          const double bulk = 1. + cell.pore_volume / cell.grain_volume;
-          for (unsigned int v = 0; v < cell.n_vertices; ++v)
-            (*soil)[vertices.nodes(cell.cell)[v]][0] += bulk * cell.grains_at_vertex[v];
-        }
-    soil->add_contributions();
-    soil->update_ghosts();
-  }
-
-
-  template <int dim>
-  void Menisci<dim>::find_behind(const unsigned int vertex, const double distance, const double volume)
+  void Menisci<dim>::find_behind(const unsigned int vertex, const double distance, const double of_soil)
   {
     using closures::least_dry_soil, closures::surely_dry_soil;
     const double fill = distance < 0. ? 0.5 * std::pow(1. + distance, 2) : 1. - 0.5 * std::pow(1. - distance, 2);
-    const double dry  = (*soil)[vertex][0] / volume - fill;
+    const double dry  = of_soil - fill;
     behind[vertex]    = std::clamp((dry - least_dry_soil) / (surely_dry_soil - least_dry_soil), 0., 1.);
     closed[vertex]    = false;
   }

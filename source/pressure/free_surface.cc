@@ -40,7 +40,7 @@ namespace scree
       , soil(vertices)
       , neighbours(vertices)
       , air_entry(air_entry)
-      , menisci(vertices, air_entry)
+      , menisci(air_entry)
       , sides(vertices)
   {
     reinit();
@@ -212,19 +212,28 @@ namespace scree
 
 
   template <int dim>
-  void FreeSurface<dim>::find_soil_depths(Mixture<dim> &mixture)
+  void FreeSurface<dim>::sum_soil(const Mixture<dim> &mixture)
   {
     soil.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.grain_volume > 0.)
+      if (cell.water_volume > 0. || cell.grain_volume > 0.)
         {
           soil.activate_cell(cell.cell);
+          if (!(cell.grain_volume > 0.))
+            continue;
           const double bulk = 1. + cell.pore_volume / cell.grain_volume;
           for (unsigned int v = 0; v < cell.n_vertices; ++v)
             soil[vertices.nodes(cell.cell)[v]][0] += bulk * cell.grains_at_vertex[v];
         }
     soil.add_contributions();
     soil.update_ghosts();
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::find_soil_depths(Mixture<dim> &mixture)
+  {
+    sum_soil(mixture);
     for (MixtureCell<dim> &cell : mixture.cells())
       if (cell.grain_volume > 0.)
         for (unsigned int v = 0; v < cell.n_vertices; ++v)
@@ -245,7 +254,7 @@ namespace scree
       }
     sum_filling(mixture);
     if (menisci.exist())
-      menisci.find_soil(mixture);
+      sum_soil(mixture);
     const auto classify = [&](const unsigned int vertex) {
       const double *sums = filling[vertex];
       // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
@@ -255,7 +264,7 @@ namespace scree
       kind                  = PressureDofType::dry;
       double value          = 0.;
       if (menisci.exist())
-        menisci.find_behind(vertex, distances[vertex], volume_under(vertex));
+        menisci.find_behind(vertex, distances[vertex], soil[vertex][0] / volume_under(vertex));
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(vertices.faces(vertex)))
         {
           kind  = PressureDofType::prescribed;

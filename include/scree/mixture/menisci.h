@@ -2,10 +2,7 @@
 #ifndef scree_mixture_menisci_h
 #define scree_mixture_menisci_h
 
-#include <scree/mesh/node_values.h>
-#include <scree/mixture/mixture.h>
 
-#include <memory>
 #include <vector>
 
 namespace scree
@@ -20,9 +17,8 @@ namespace scree
   {
   public:
     /// @param air_entry pressure, Pa; 0: there are none
-    Menisci(const NodeNumbering<dim> &vertices, const double air_entry)
-        : vertices(vertices)
-        , air_entry(air_entry)
+    explicit Menisci(const double air_entry)
+        : air_entry(air_entry)
     {
     }
 
@@ -37,21 +33,15 @@ namespace scree
     {
       if (!exist())
         return;
-      if (!soil)
-        soil = std::make_unique<NodeValues<dim, 2>>(vertices);
-      soil->reinit();
       behind.assign(n_vertices, 0.);
       held.assign(n_vertices, 0.);
       closed.assign(n_vertices, false);
     }
 
-    /// Finds the soil about the vertices. Collective.
-    void find_soil(const Mixture<dim> &mixture);
-
     /// Finds for a vertex of this rank's wet cells whether dry soil lies behind the surface beside it.
     /// @param distance of the surface, cells
-    /// @param volume of the vertex's surroundings, m^3
-    void find_behind(const unsigned int vertex, const double distance, const double volume);
+    /// @param of_soil what soil fills of the vertex's surroundings
+    void find_behind(const unsigned int vertex, const double distance, const double of_soil);
 
     /// Part of what lies behind the surface at a vertex that is dry soil.
     double dry_soil_behind(const unsigned int vertex) const
@@ -83,11 +73,9 @@ namespace scree
     }
 
   private:
-    const NodeNumbering<dim> &vertices;
-    const double air_entry;                   // Pa
-    std::unique_ptr<NodeValues<dim, 2>> soil; // [0]: grains and pores under a vertex's linear function, m^3; or null
-    std::vector<double> behind,               // part of what lies behind the surface that is dry soil
-        held;                                 // part of the surface beside a vertex whose pressure follows that inside
+    const double air_entry;     // Pa
+    std::vector<double> behind, // part of what lies behind the surface that is dry soil
+        held;                   // part of the surface beside a vertex whose pressure follows that inside
     std::vector<char> closed;
   };
 } // namespace scree

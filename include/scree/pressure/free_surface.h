@@ -90,13 +90,13 @@ namespace scree
     /// Null: nothing.
     const VertexVector *suction_behind() const
     {
-      return menisci.exist() ? &suction : nullptr;
+      return by_flux && menisci.exist() ? &suction : nullptr;
     }
 
-    /// Whether menisci in the pores make the pressure at the surface differ from 0.
+    /// Whether menisci in the pores make the pressure at the surface differ from 0, in extrapolate_with_menisci().
     bool has_menisci() const
     {
-      return menisci.exist();
+      return !by_flux && menisci.exist();
     }
 
     /// As extrapolate(), with the pressure of menisci at the surface.
@@ -166,7 +166,7 @@ namespace scree
     /// Whether it prescribes one other than 0.
     bool presses(const unsigned int face) const
     {
-      return walls.is_drained(face) && walls.pressure(1u << face) != 0.;
+      return is_drained(face) && walls.pressure(1u << face) != 0.;
     }
 
     /// Whether the pressure keeps the water of a cell of this rank out of the ground.
@@ -274,6 +274,8 @@ namespace scree
       return filling[vertex][weighted_pressure] / filling[vertex][water];
     }
 
+    /// Sums what the soil of a mixture fills under the vertices' linear functions. Collective.
+    void sum_soil(const Mixture<dim> &mixture);
     void find_suction();
 
     /// Makes the vertices in gaps unknown. Collective.

@@ -134,7 +134,7 @@ namespace scree
     AtVertices pressure_of(const unsigned int cell) const
     {
       AtVertices result = at_vertices(pressure, cell);
-      if (const VertexVector *suction = variational ? surface.suction_behind() : nullptr)
+      if (const VertexVector *suction = surface.suction_behind())
         for (unsigned int v = 0; v < result.size(); ++v)
           result[v] += suction->local_element(vertices.nodes(cell)[v]);
       return result;
@@ -149,7 +149,7 @@ namespace scree
     /// Whether menisci pull at the grains.
     bool has_menisci() const
     {
-      return !variational && surface.has_menisci();
+      return surface.has_menisci();
     }
 
     /// What menisci add to the pressure at the vertices of a cell, and to its change over the step, Pa: the grains bear
