@@ -125,6 +125,26 @@ namespace scree
 
 
   template <int dim>
+  double TwoPhaseMomentum<dim>::least_mass(const PorePressure<dim> &pressure, const unsigned int node) const
+  {
+    return closures::least_inertia * water_density * pressure.filled_volume(node);
+  }
+
+
+  template <int dim>
+  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes,
+                                                         const PorePressure<dim> &pressure,
+                                                         const unsigned int node) const
+  {
+    DragBlock<dim> pair = drag_block_at(nodes, node);
+    for (double *mass : { &pair.soil_mass, &pair.water_mass })
+      if (*mass > 0.)
+        *mass = std::max(*mass, least_mass(pressure, node));
+    return pair;
+  }
+
+
+  template <int dim>
   SoilAndWater<dim> TwoPhaseMomentum<dim>::velocity_of_walls(const unsigned int node) const
   {
     const NodeConstraints<dim> *walls = constraints.at(node);
@@ -136,10 +156,17 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::assign_rigid_mass(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  bool TwoPhaseMomentum<dim>::is_rigid(const unsigned int node) const
   {
     const NodeConstraints<dim> *walls = constraints.at(node);
-    if (walls != nullptr && walls->is_rigid && nodes.soil[node][Field<dim>::mass] <= 0.)
+    return walls != nullptr && walls->is_rigid;
+  }
+
+
+  template <int dim>
+  void TwoPhaseMomentum<dim>::assign_rigid_mass(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  {
+    if (is_rigid(node) && nodes.soil[node][Field<dim>::mass] <= 0.)
       nodes.soil[node][Field<dim>::mass] = nodes.water[node][Field<dim>::mass];
   }
 
@@ -198,20 +225,19 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::find_pressed_nodes(const MixtureNodes<dim> &nodes, PressedNodes<dim> &pressed) const
+  void TwoPhaseMomentum<dim>::find_pressed_nodes(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure) const
   {
+    PressedNodes<dim> &pressed = pressure.pressed_nodes;
     pressed.all.clear();
     pressed.held.clear();
     for (const unsigned int node : nodes.pores.active_nodes())
       {
         if (is_empty(nodes, node))
           continue;
-        const double soil = nodes.soil[node][Field<dim>::mass], water = nodes.water[node][Field<dim>::mass];
-        const double *pore        = nodes.pores[node];
-        const DragBlock<dim> pair = drag_block_at(nodes, node);
+        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
         pressed.all.push_back({ node,
-                                1. - pore[PoreField<dim>::grain_fraction],
-                                drag_mobility(soil, water, pore[PoreField<dim>::drag]),
+                                1. - nodes.pores[node][PoreField<dim>::grain_fraction],
+                                drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
                                 PressedNode<dim>::free });
         if (!pair.is_held())
           continue;
@@ -223,17 +249,22 @@ namespace scree
 
   template <int dim>
   void TwoPhaseMomentum<dim>::add_pressure_forces(const MixtureNodes<dim> &nodes,
-                                                  const FlowField<dim> &impulses,
+                                                  PorePressure<dim> &pressure,
                                                   const double time_step) const
   {
+    const FlowField<dim> &impulses = pressure.impulses(time_step);
     for (const unsigned int node : nodes.pores.active_nodes())
       {
         if (is_empty(nodes, node))
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        add_to(nodes.soil[node] + Field<dim>::force, of_phases.soil / time_step);
-        add_to(nodes.water[node] + Field<dim>::force, of_phases.water / time_step);
+        const auto add = [&](double *values, const Tensor<1, dim> &impulse) { // as on no less than the least mass
+          if (const double mass = values[Field<dim>::mass]; mass > 0.)
+            add_to(values + Field<dim>::force, mass / std::max(mass, least_mass(pressure, node)) / time_step * impulse);
+        };
+        add(nodes.soil[node], of_phases.soil);
+        add(nodes.water[node], of_phases.water);
       }
   }
 
@@ -321,7 +352,10 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::predict(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance)
+  void TwoPhaseMomentum<dim>::predict(const MixtureNodes<dim> &nodes,
+                                      const double time_step,
+                                      const double kept,
+                                      Budget<dim> &balance)
   {
     const TimedPart part(timer, TimerSection::nodes);
     friction.clear();
@@ -341,7 +375,12 @@ namespace scree
             inertia.soil_mass  = nodes.soil[node][Field<dim>::mass];
             inertia.water_mass = nodes.water[node][Field<dim>::mass];
             inertia.drag       = coupling;
-            before             = inertia.solve({ inertia.soil_mass * before.soil, inertia.water_mass * before.water });
+            const SoilAndWater<dim> momentum{ inertia.soil_mass * before.soil, inertia.water_mass * before.water };
+            if (is_rigid(node))
+              inertia.held_soil.hold_all();
+            before = inertia.solve(momentum);
+            if (is_rigid(node)) // The water's points keep what its nodes do not take of their momentum.
+              balance.wall_impulse += kept * (momentum.soil + momentum.water - inertia.water_mass * before.water);
           }
         SoilAndWater<dim> impulses    = impulses_at(nodes, node, time_step, balance);
         const SoilAndWater<dim> after = stop_at_walls(nodes, node, impulses, before, balance);
@@ -440,14 +479,16 @@ namespace scree
         double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
         const SoilAndWater<dim> impulses{ vector_of<dim>(pressure_impulses[node]),
                                           vector_of<dim>(pressure_impulses[node] + dim) };
-        balance.pressure_impulse += impulses.soil + impulses.water;
-        const DragBlock<dim> pair = drag_block_at(nodes, node);
+        const DragBlock<dim> pair = by_flux ? pressed_block_at(nodes, pressure, node) : drag_block_at(nodes, node);
         SoilAndWater<dim> change  = pair.solve(impulses);
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);
         const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;
         if (pair.is_held())
           correct_at_walls(node, pair, impulses, before, soil_predicted, change, balance);
+        balance.pressure_impulse += impulses.soil + impulses.water -
+                                    (pair.soil_mass - of_soil[Field<dim>::mass]) * change.soil -
+                                    (pair.water_mass - of_water[Field<dim>::mass]) * change.water;
         pair.follow(change);
         add_to_velocities(change, of_soil, of_water);
         const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;

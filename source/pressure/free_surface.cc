@@ -143,6 +143,13 @@ namespace scree
 
 
   template <int dim>
+  bool FreeSurface<dim>::has_room(const unsigned int vertex) const
+  {
+    return closed_volume.empty() || closed_volume[vertex] < (1. - closures::least_open_fraction) * whole_volume(vertex);
+  }
+
+
+  template <int dim>
   double FreeSurface<dim>::volume_in_cell(const unsigned int cell, const unsigned int v) const
   {
     const CutCell<dim> *cut = cut_cells ? cut_cells->find(cell) : nullptr;
@@ -271,7 +278,8 @@ namespace scree
           value = walls.pressure(vertices.faces(vertex));
         }
       else if (sums[water] > 0. &&
-               (distances[vertex] >= (by_flux ? least_depth_by_flux : closures::least_vertex_depth) - 1e-9 ||
+               ((distances[vertex] >= (by_flux ? least_depth_by_flux : closures::least_vertex_depth) - 1e-9 &&
+                 (!by_flux || has_room(vertex))) ||
                 (menisci.exist() && !by_flux && keeps_water(vertex))))
         {
           kind  = PressureDofType::unknown;

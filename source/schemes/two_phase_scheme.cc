@@ -249,7 +249,7 @@ namespace scree
     };
     pressure.find_pair(mixture, volume_of_water, holds, time_step);
     momentum.find_flux_inertia(nodes, excess, time_step);
-    momentum.add_pressure_forces(nodes, pressure.impulses(time_step), time_step);
+    momentum.add_pressure_forces(nodes, pressure, time_step);
   }
 
 
@@ -261,12 +261,12 @@ namespace scree
     sum_at_nodes(time_step);
     if (drainage == Drainage::drained)
       return solve_drained(nodes, time_step, budget);
-    momentum.predict(nodes, time_step, budget); // A v* = m v + dt (f + m g - G p^n)
+    momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g - G p^n)
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
     contact.predict(nodes, mixture, momentum, time_step, budget);
     if (pressure.is_variational())
-      momentum.find_pressed_nodes(nodes, pressure.pressed_nodes);
+      momentum.find_pressed_nodes(nodes, pressure);
     pressure.solve(mixture, nodes, time_step, shear_modulus, budget); // L dp = -div u**
     momentum.correct(nodes, mixture, pressure, time_step, budget);    // v = v** - dt A^-1 G dp
     contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);
@@ -278,7 +278,7 @@ namespace scree
   void TwoPhaseScheme<dim>::solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
   {
     load_soil_with_water();
-    momentum.predict(nodes, time_step, budget);
+    momentum.predict(nodes, time_step, transfer.kept(time_step), budget);
     contact.begin_step(mixture, pressure.free_surface());
     contact.predict(nodes, mixture, momentum, time_step, budget);
   }

@@ -62,6 +62,13 @@ namespace scree
 
 
   template <int dim>
+  double WaterTransfer<dim>::kept(const double time_step) const
+  {
+    return kept_velocity(method, pic_rate, time_step);
+  }
+
+
+  template <int dim>
   template <int n>
   void WaterTransfer<dim>::add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const
   {
@@ -208,7 +215,7 @@ namespace scree
                                         const ForgottenOfCell<dim> &vertex_forgotten,
                                         const double time_step) const
   {
-    const double keep = kept_velocity(method, pic_rate, time_step);
+    const double keep = kept(time_step);
     LargestSquare largest;
     CellCosts &costs = water.points().costs();
     costs.start_pass();

@@ -35,6 +35,11 @@ namespace scree
     constexpr double full_cell_in_divergence = 0.95, ///< a fuller cell enters as a whole
         partly_full_cell_in_divergence       = 0.85; ///< of an emptier cell the filled part enters
 
+    /// Inertia of a phase that the pressure moves at a node, over that of water that would fill its surroundings as far
+    /// as B integrates. Without it points that lie on a floor leave nodes above them next to no mass, which p drives
+    /// to 1e6 m/s: their gradient is not small.
+    constexpr double least_inertia = 0.01;
+
     /// Open fraction of a cut cell; less counts as so much.
     constexpr double least_open_fraction = 1e-6;
 

@@ -94,6 +94,9 @@ namespace scree
       return density;
     }
 
+    /// Part of the points' velocity that remains over a step beside that of the nodes, see kept_velocity().
+    double kept(const double time_step) const;
+
     /// Adds pores, drag and grains of a body's points to the mixture.
     void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
 
