@@ -125,9 +125,12 @@ namespace scree
 
 
   template <int dim>
-  double TwoPhaseMomentum<dim>::least_mass(const PorePressure<dim> &pressure, const unsigned int node) const
+  double TwoPhaseMomentum<dim>::pressed_mass(const PorePressure<dim> &pressure,
+                                             const unsigned int node,
+                                             const double mass) const
   {
-    return closures::least_inertia * water_density * pressure.filled_volume(node);
+    const double least = closures::least_inertia * water_density * pressure.filled_volume(node);
+    return mass > 0. ? std::max(mass, least) : 0.;
   }
 
 
@@ -137,9 +140,8 @@ namespace scree
                                                          const unsigned int node) const
   {
     DragBlock<dim> pair = drag_block_at(nodes, node);
-    for (double *mass : { &pair.soil_mass, &pair.water_mass })
-      if (*mass > 0.)
-        *mass = std::max(*mass, least_mass(pressure, node));
+    pair.soil_mass      = pressed_mass(pressure, node, pair.soil_mass);
+    pair.water_mass     = pressed_mass(pressure, node, pair.water_mass);
     return pair;
   }
 
@@ -259,9 +261,9 @@ namespace scree
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        const auto add = [&](double *values, const Tensor<1, dim> &impulse) { // as on no less than the least mass
+        const auto add = [&](double *values, const Tensor<1, dim> &impulse) { // the motion is that of the pressed mass
           if (const double mass = values[Field<dim>::mass]; mass > 0.)
-            add_to(values + Field<dim>::force, mass / std::max(mass, least_mass(pressure, node)) / time_step * impulse);
+            add_to(values + Field<dim>::force, mass / pressed_mass(pressure, node, mass) / time_step * impulse);
         };
         add(nodes.soil[node], of_phases.soil);
         add(nodes.water[node], of_phases.water);
@@ -376,10 +378,11 @@ namespace scree
             inertia.water_mass = nodes.water[node][Field<dim>::mass];
             inertia.drag       = coupling;
             const SoilAndWater<dim> momentum{ inertia.soil_mass * before.soil, inertia.water_mass * before.water };
-            if (is_rigid(node))
+            const bool soil_rests = is_rigid(node);
+            if (soil_rests)
               inertia.held_soil.hold_all();
             before = inertia.solve(momentum);
-            if (is_rigid(node)) // The water's points keep what its nodes do not take of their momentum.
+            if (soil_rests) // The water's points keep what its nodes do not take of their momentum.
               balance.wall_impulse += kept * (momentum.soil + momentum.water - inertia.water_mass * before.water);
           }
         SoilAndWater<dim> impulses    = impulses_at(nodes, node, time_step, balance);
@@ -479,7 +482,7 @@ namespace scree
         double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
         const SoilAndWater<dim> impulses{ vector_of<dim>(pressure_impulses[node]),
                                           vector_of<dim>(pressure_impulses[node] + dim) };
-        const DragBlock<dim> pair = by_flux ? pressed_block_at(nodes, pressure, node) : drag_block_at(nodes, node);
+        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
         SoilAndWater<dim> change  = pair.solve(impulses);
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);

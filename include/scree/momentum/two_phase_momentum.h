@@ -66,11 +66,11 @@ namespace scree
     static void add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change);
 
   private:
-    /// Least mass of a phase as the pressure moves it, kg: a part of the water that would fill what B integrates over
-    /// (closures::least_inertia).
-    double least_mass(const PorePressure<dim> &pressure, const unsigned int node) const;
+    /// Mass of a phase as the pressure moves it at an owned node, kg: at least a part of the water that would fill what
+    /// B integrates over (closures::least_inertia); 0 of an absent phase.
+    double pressed_mass(const PorePressure<dim> &pressure, const unsigned int node, const double mass) const;
 
-    /// Soil and water at an owned node, as the pressure moves them where the discharge is an unknown.
+    /// Soil and water at an owned node, as the pressure moves them.
     DragBlock<dim>
     pressed_block_at(const MixtureNodes<dim> &nodes, const PorePressure<dim> &pressure, const unsigned int node) const;
 
