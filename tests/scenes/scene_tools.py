@@ -12,17 +12,14 @@ from scree.variants import write_variant
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 failures = []
-always = {}  # entries of all runs with water
 
 
 def run(scree, case, name, entries, may_stop=False):
     """Statistics of a variant of prm/`case`.prm, as {column: values}."""
-    target, source = name + ".prm", os.path.join(ROOT, "prm", case + ".prm")
-    with open(source, encoding="utf-8") as file:
-        has_water = "\nsubsection Water\n" in file.read()
-    write_variant(source, target,
+    target = name + ".prm"
+    write_variant(os.path.join(ROOT, "prm", case + ".prm"), target,
                   {"Output directory": name, "Output/Graphics": "none", "Output/Screen": "nothing",
-                   "Output/Statistics interval": "0.02", "Output/Checkpoint interval": "0", **entries, **(always if has_water else {})})
+                   "Output/Statistics interval": "0.02", "Output/Checkpoint interval": "0", **entries})
     result = subprocess.run([scree, target], capture_output=True, text=True)
     if result.returncode != 0 and not may_stop:
         sys.exit(name + " stopped: " + result.stderr)
@@ -84,8 +81,6 @@ def check_balances(name, table, gain=0.005):
 
 
 def main(scenes):
-    """Runs the scene that the command line names, out of a module's globals(); `variational` after it: with that pressure step."""
-    if sys.argv[3:4] == ["variational"]:
-        always.update({"Water/Pressure/Step": "variational", "Water/Pressure/Fading": "0", "Water/Pressure/Projection": "0"})
+    """Runs the scene that the command line names, out of a module's globals()."""
     scenes[sys.argv[2]](os.path.abspath(sys.argv[1]))
     sys.exit("failed: " + ", ".join(failures) if failures else 0)
