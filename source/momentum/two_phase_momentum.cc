@@ -123,6 +123,26 @@ namespace scree
 
 
   template <int dim>
+  double TwoPhaseMomentum<dim>::least_mass(const PorePressure<dim> &pressure, const unsigned int node) const
+  {
+    return closures::least_inertia * water_density * pressure.filled_volume(node);
+  }
+
+
+  template <int dim>
+  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes,
+                                                         const PorePressure<dim> &pressure,
+                                                         const unsigned int node) const
+  {
+    DragBlock<dim> pair = drag_block_at(nodes, node);
+    for (double *mass : { &pair.soil_mass, &pair.water_mass })
+      if (*mass > 0.)
+        *mass = std::max(*mass, least_mass(pressure, node));
+    return pair;
+  }
+
+
+  template <int dim>
   SoilAndWater<dim> TwoPhaseMomentum<dim>::velocity_of_walls(const unsigned int node) const
   {
     const NodeConstraints<dim> *walls = constraints.at(node);
@@ -183,20 +203,19 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::find_pressed_nodes(const MixtureNodes<dim> &nodes, PressedNodes<dim> &pressed) const
+  void TwoPhaseMomentum<dim>::find_pressed_nodes(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure) const
   {
+    PressedNodes<dim> &pressed = pressure.pressed_nodes;
     pressed.all.clear();
     pressed.held.clear();
     for (const unsigned int node : nodes.pores.active_nodes())
       {
         if (is_empty(nodes, node))
           continue;
-        const double soil = nodes.soil[node][Field<dim>::mass], water = nodes.water[node][Field<dim>::mass];
-        const double *pore        = nodes.pores[node];
-        const DragBlock<dim> pair = drag_block_at(nodes, node);
+        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
         pressed.all.push_back({ node,
-                                1. - pore[PoreField<dim>::grain_fraction],
-                                drag_mobility(soil, water, pore[PoreField<dim>::drag]),
+                                1. - nodes.pores[node][PoreField<dim>::grain_fraction],
+                                drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
                                 PressedNode<dim>::free });
         if (!pair.is_held())
           continue;
@@ -208,17 +227,24 @@ namespace scree
 
   template <int dim>
   void TwoPhaseMomentum<dim>::add_pressure_forces(const MixtureNodes<dim> &nodes,
-                                                  const FlowField<dim> &impulses,
+                                                  PorePressure<dim> &pressure,
                                                   const double time_step) const
   {
+    const FlowField<dim> &impulses = pressure.impulses(time_step);
     for (const unsigned int node : nodes.pores.active_nodes())
       {
         if (is_empty(nodes, node))
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        add_to(nodes.soil[node] + Field<dim>::force, of_phases.soil / time_step);
-        add_to(nodes.water[node] + Field<dim>::force, of_phases.water / time_step);
+        const auto add = [&](double *values, const Tensor<1, dim> &impulse) { // as if on no less than the least inertia
+          const double mass = values[Field<dim>::mass];
+          if (mass > 0.)
+            add_to(values + Field<dim>::force,
+                   mass / std::max(mass, least_mass(pressure, node)) / time_step * impulse);
+        };
+        add(nodes.soil[node], of_phases.soil);
+        add(nodes.water[node], of_phases.water);
       }
   }
 
@@ -406,9 +432,11 @@ namespace scree
         double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
         const SoilAndWater<dim> impulses{ vector_of<dim>(pressure_impulses[node]),
                                           vector_of<dim>(pressure_impulses[node] + dim) };
-        balance.pressure_impulse += impulses.soil + impulses.water;
-        const DragBlock<dim> pair = drag_block_at(nodes, node);
+        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
         SoilAndWater<dim> change  = pair.solve(impulses);
+        balance.pressure_impulse += impulses.soil + impulses.water -
+                                    (pair.soil_mass - of_soil[Field<dim>::mass]) * change.soil -
+                                    (pair.water_mass - of_water[Field<dim>::mass]) * change.water;
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);
         const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;

@@ -108,6 +108,14 @@ namespace scree
 
 
   template <int dim>
+  bool FreeSurface<dim>::has_room(const unsigned int vertex) const
+  {
+    return closed_volume.empty() ||
+           closed_volume[vertex] < (1. - closures::least_open_fraction) * whole_volume(vertex);
+  }
+
+
+  template <int dim>
   double FreeSurface<dim>::volume_in_cell(const unsigned int cell, const unsigned int v) const
   {
     const CutCell<dim> *cut = cut_cells ? cut_cells->find(cell) : nullptr;
@@ -216,7 +224,7 @@ namespace scree
           kind  = PressureDofType::prescribed;
           value = walls.pressure(vertices.faces(vertex));
         }
-      else if (sums[water] > 0. && distances[vertex] >= least_depth - 1e-9)
+      else if (sums[water] > 0. && distances[vertex] >= least_depth - 1e-9 && has_room(vertex))
         {
           kind  = PressureDofType::unknown;
           value = pressure_of_points(vertex);

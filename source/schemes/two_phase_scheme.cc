@@ -180,7 +180,7 @@ namespace scree
     };
     pressure.find_pair(mixture, volume_of_water, holds, time_step);
     momentum.find_flux_inertia(nodes, excess, time_step);
-    momentum.add_pressure_forces(nodes, pressure.impulses(time_step), time_step);
+    momentum.add_pressure_forces(nodes, pressure, time_step);
   }
 
 
@@ -196,7 +196,7 @@ namespace scree
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
     contact.predict(nodes, mixture, momentum, time_step, budget);
-    momentum.find_pressed_nodes(nodes, pressure.pressed_nodes);
+    momentum.find_pressed_nodes(nodes, pressure);
     pressure.solve(mixture, nodes, time_step, budget);             // S dp = -(B u** - c)
     momentum.correct(nodes, mixture, pressure, time_step, budget); // v = v** + dt A^-1 B^T dp
     contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);

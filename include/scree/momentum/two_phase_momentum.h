@@ -33,10 +33,10 @@ namespace scree
 
     /// Adds the force of the old pressure to the sums of soil and water.
     void
-    add_pressure_forces(const MixtureNodes<dim> &nodes, const FlowField<dim> &impulses, const double time_step) const;
+    add_pressure_forces(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure, const double time_step) const;
 
     /// The nodes as the pressure sees them, after predict().
-    void find_pressed_nodes(const MixtureNodes<dim> &nodes, PressedNodes<dim> &pressed) const;
+    void find_pressed_nodes(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure) const;
 
     /// A v* = m v + dt f, where A holds masses and drag, and f the force of the old pressure. `nodes` hold the sums of
     /// all ranks before, and velocities and their change afterwards; the pores then hold drag times step, and the
@@ -65,6 +65,14 @@ namespace scree
     static void add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change);
 
   private:
+    /// Least mass of a phase as the pressure moves it, kg: a part of the water that would fill what B integrates over
+    /// (closures::least_inertia).
+    double least_mass(const PorePressure<dim> &pressure, const unsigned int node) const;
+
+    /// Soil and water at an owned node, as the pressure moves them.
+    DragBlock<dim>
+    pressed_block_at(const MixtureNodes<dim> &nodes, const PorePressure<dim> &pressure, const unsigned int node) const;
+
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;
 

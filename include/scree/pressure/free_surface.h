@@ -189,6 +189,9 @@ namespace scree
     /// Integral of a vertex's linear function over the box, m^3.
     double whole_volume(const unsigned int vertex) const;
 
+    /// Whether rigid ground leaves more than rounding of a vertex's surroundings: else no flow determines its pressure.
+    bool has_room(const unsigned int vertex) const;
+
     /// Cells around a vertex.
     unsigned int cells_in_box(const unsigned int vertex) const;
 

@@ -83,6 +83,12 @@ namespace scree
       return schur.impulses(potential, time_step);
     }
 
+    /// What the water of find_pair() fills under the function of an owned node, m^3.
+    double filled_volume(const unsigned int node) const
+    {
+      return pair.filled_volume(node);
+    }
+
     /// The nodes of a step, to be set before solve().
     PressedNodes<dim> pressed_nodes;
 

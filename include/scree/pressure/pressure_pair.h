@@ -38,6 +38,12 @@ namespace scree
     /// @param volume sum V_p phi_i/n_p of the water at an owned node, m^3
     void find_moments(const std::function<double(unsigned int node)> &volume);
 
+    /// int phi_i over the parts, of an owned node, m^3, after find_moments().
+    double filled_volume(const unsigned int node) const
+    {
+      return defects[node][volume];
+    }
+
     /// Adds B of a flow whose ghosts hold values to `sums`, m^3/s; owned vertices hold this rank's part.
     void add_divergence(const FlowField<dim> &flow, VertexVector &sums) const;
 
