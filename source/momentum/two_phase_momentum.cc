@@ -434,14 +434,14 @@ namespace scree
                                           vector_of<dim>(pressure_impulses[node] + dim) };
         const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
         SoilAndWater<dim> change  = pair.solve(impulses);
-        balance.pressure_impulse += impulses.soil + impulses.water -
-                                    (pair.soil_mass - of_soil[Field<dim>::mass]) * change.soil -
-                                    (pair.water_mass - of_water[Field<dim>::mass]) * change.water;
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);
         const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;
         if (pair.is_held())
           correct_at_walls(node, pair, impulses, before, soil_predicted, change, balance);
+        balance.pressure_impulse += impulses.soil + impulses.water -
+                                    (pair.soil_mass - of_soil[Field<dim>::mass]) * change.soil -
+                                    (pair.water_mass - of_water[Field<dim>::mass]) * change.water;
         pair.follow(change);
         add_to_velocities(change, of_soil, of_water);
         const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;

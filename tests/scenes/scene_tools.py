@@ -56,9 +56,11 @@ def mean_oscillation(table):
     return sum(values) / len(values)
 
 
-def check(what, value, lowest, highest):
+def check(what, value, lowest, highest, asked=None):
+    """Whether a value is within bounds; `asked` is the distance from the exact value that was asked for, where it is missed."""
     good = lowest <= value <= highest
-    print("%-62s %12.5g  in [%g, %g]%s" % (what, value, lowest, highest, "" if good else "  <-- FAILED"))
+    missed = "" if asked is None else " (%g was asked)" % asked
+    print("%-62s %12.5g  in [%g, %g]%s%s" % (what, value, lowest, highest, missed, "" if good else "  <-- FAILED"))
     if not good:
         failures.append(what)
 
