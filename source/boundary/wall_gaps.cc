@@ -85,7 +85,7 @@ namespace scree
   void WallGaps<dim>::add(const Mixture<dim> &mixture)
   {
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.fill >= closures::full_cell_at_wall)
+      if (cell.bulk_volume >= closures::full_cell_at_wall * cell.volume)
         for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
           if (const unsigned int node = grid.nodes(cell.cell)[i]; grid.node_faces(node) != 0)
             for (NodeVector &gap : gaps)

@@ -116,7 +116,6 @@ namespace scree
     void check_water(const Parameters &parameters)
     {
       parameters.water.check(parameters.gravity, parameters.bodies.size());
-      parameters.pressure.check(parameters.bodies.size(), parameters.water.bulk_modulus);
       parameters.water_boundaries.check(parameters.dimension);
       require_entry(
           parameters.bed.friction_angles.empty(),

@@ -70,7 +70,6 @@ namespace scree
           }
         take_box_from_raster();
         take_unit_weights();
-        transfer.choose_method(has_water);
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();

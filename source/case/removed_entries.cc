@@ -12,8 +12,7 @@ namespace scree
       return " (measurements: doc/developer/development_log.md#" + section + ").";
     };
     const std::string pressure = measured("choices-for-the-pressure-that-failed");
-    const std::string transfer = measured("removed-transfers"), affine = "Remove the line, or write affine, which is "
-                                                                         "the default, or average";
+    const std::string transfer = measured("removed-transfers"), step = measured("variational-pressure-step");
     // Entries, or values of entries that are still there.
     const std::map<std::string, std::string> remedies{
       { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\". Remove the line" + pressure },
@@ -21,10 +20,13 @@ namespace scree
         "The surface is always found inside the cells, as with \"distance\". Remove the line" + pressure },
       { "Water/Pressure/Splitting",
         "Pressure and drag are always solved together, as with \"drag in correction\". Remove the line" + pressure },
-      { "Water/Pressure/Previous pressure = grid", affine + pressure },
-      { "Water/Pressure/Previous pressure = dropped", affine + pressure },
+      { "Water/Pressure/Previous pressure",
+        "The result does not depend on the previous pressure. Remove the line" + step },
+      { "Water/Pressure/Fading", "The pressure makes no energy that had to fade. Remove the line" + step },
+      { "Water/Pressure/Projection", "The pressure needs no projection. Remove the line" + step },
       { "Settling/Damping rate", "Settling stops all where the kinetic energy is largest. Remove the line." },
       { "Settling/Kinetic energy", "Settling ends by \"Unbalanced force\". Remove the line, or write that entry." },
+      { "Transfer/Method = auto", "Remove the line, or write AFLIP, which is the default" + transfer },
       { "Transfer/Method = PIC", "Write FLIP, which with \"PIC rate = 1e9\" is the same" + transfer },
       { "Transfer/Stress update",
         "The strain is always that of \"USL\". Remove the line, and a \"Courant number\" above 0.6" + transfer },

@@ -11,7 +11,6 @@ namespace scree
   Mixture<dim>::Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points, const CutCells<dim> *cut_cells)
       : grid(grid)
       , soil_points(soil_points)
-      , moments_per_cell(Utilities::pow(grid.n_nodes_1d(), dim - 1) * n_moments)
       , cell_volume(Utilities::fixed_power<dim>(grid.cell_size()))
       , cut_cells(cut_cells)
   {
@@ -33,8 +32,6 @@ namespace scree
     for (const MixtureCell<dim> &cell : records)
       record_of_cell[cell.cell] = numbers::invalid_unsigned_int;
     records.clear();
-    grains.clear();
-    water.clear();
     porosities.clear();
     entering_water.clear();
   }
@@ -48,20 +45,8 @@ namespace scree
       {
         record = records.size();
         records.emplace_back(cell, cell_volume * (cut_cells ? cut_cells->open_fraction(cell) : 1.));
-        grains.resize(grains.size() + moments_per_cell, NodeRow{});
-        water.resize(water.size() + moments_per_cell, NodeRow{});
       }
     return record;
-  }
-
-
-  template <int dim>
-  void Mixture<dim>::find_porosities(const unsigned int record, const bool by_flux)
-  {
-    MixtureCell<dim> &cell = records[record];
-    cell.find_fill();
-    porosities[record].find((by_flux ? 1. : std::min(cell.fill, 1.)) * cell.volume,
-                            by_flux ? &cell.soil_depths : nullptr);
   }
 
 
@@ -75,14 +60,6 @@ namespace scree
     for (unsigned int v = 0; v < entering.at_vertex.size(); ++v)
       entering.at_vertex[v] = volume * GeometryInfo<dim>::d_linear_shape_function(place, v);
     entering_water.push_back(entering);
-  }
-
-
-  template <int dim>
-  void Mixture<dim>::finish()
-  {
-    for (MixtureCell<dim> &cell : records)
-      cell.find_fill();
   }
 
   template class Mixture<2>;

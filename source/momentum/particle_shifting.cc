@@ -76,7 +76,7 @@ namespace scree
         }
     if (source.linfty_norm() == 0.)
       return false;
-    pressure.solve_potential(mixture, source, potential, balance);
+    pressure.solve_potential(source, potential, balance);
     return true;
   }
 
@@ -88,38 +88,18 @@ namespace scree
                                           const double time_step)
   {
     shifts->clear();
-    if (pressure.is_variational())
-      {
-        for (const MixtureCell<dim> &cell : mixture.cells())
-          shifts->activate_cell(cell.cell);
-        const FlowField<dim> &of_flow = pressure.impulses_of(potential, time_step);
-        for (const unsigned int node : shifts->active_nodes())
-          for (unsigned int c = 0; c < dim; ++c)
-            (*shifts)[node][dim + c] = time_step * (of_flow[node][c] + of_flow[node][dim + c]);
-      }
-    else
-      for (unsigned int record = 0; record < mixture.cells().size(); ++record)
-        if (const MixtureCell<dim> &cell = mixture.cells()[record]; cell.water_volume > 0)
-          {
-            shifts->activate_cell(cell.cell);
-            mixture.add_pressure_gradient(record,
-                                          multilinear_of<dim>(pressure.at_vertices(potential, cell.cell)),
-                                          -time_step * time_step,
-                                          *shifts,
-                                          0,
-                                          *shifts,
-                                          dim);
-          }
-    shifts->add_contributions();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      shifts->activate_cell(cell.cell);
+    const FlowField<dim> &of_flow = pressure.impulses(potential, time_step);
     const double most = 0.1 * grid.cell_size();
     for (const unsigned int node : shifts->active_nodes())
       {
         const double mass = water_field[node][NodalField<dim>::mass];
         const bool moves  = mass > 0. && !(pores[node][PoreField<dim>::grain_fraction] > 0.);
-        double *values    = (*shifts)[node] + dim;
+        double *values    = (*shifts)[node];
         Tensor<1, dim> shift;
         for (unsigned int c = 0; c < dim && moves; ++c)
-          shift[c] = std::clamp(values[c] / mass, -most, most);
+          shift[c] = std::clamp(time_step * (of_flow[node][c] + of_flow[node][dim + c]) / mass, -most, most);
         if (const NodeConstraints<dim> *walls = constraints.at(node))
           shift = walls->water_constraint.free_part(shift);
         for (unsigned int c = 0; c < dim; ++c)
@@ -163,7 +143,7 @@ namespace scree
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int c = 0; c < dim; ++c)
-              of_nodes[c][r][i] = (*shifts)[grid.nodes(cell.cell)[r * n + i]][dim + c];
+              of_nodes[c][r][i] = (*shifts)[grid.nodes(cell.cell)[r * n + i]][c];
         for_each_record(cell, [&](const auto &point) {
           const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
           Tensor<1, dim> shift;

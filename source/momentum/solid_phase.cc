@@ -82,12 +82,12 @@ namespace scree
 
 
   template <int dim>
-  void SolidPhase<dim>::to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture)
+  void SolidPhase<dim>::to_points(const double time_step, StepReport<dim> &report)
   {
     for (auto &body : bodies)
       if (moves(body))
         {
-          const MotionReport motion = transfer.to_points(body, field, time_step, mixture);
+          const MotionReport motion = transfer.to_points(body, field, time_step);
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);

@@ -84,15 +84,13 @@ namespace scree
                                           const WallGaps<dim> &wall_gaps,
                                           const BodyForces<dim> &forcing,
                                           const double water_density,
-                                          TimerOutput &timer,
-                                          const bool by_flux)
+                                          TimerOutput &timer)
       : constraints(constraints)
       , wall_gaps(wall_gaps)
       , forcing(forcing)
       , grid(grid)
       , water_density(forcing.mass_scaling() * water_density)
       , timer(timer)
-      , by_flux(by_flux)
       , friction(constraints)
       , pressure_impulses(grid.numbering())
   {
@@ -174,25 +172,6 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::compute_porosity_and_drag(const MixtureNodes<dim> &nodes,
-                                                        const unsigned int node,
-                                                        const double time_step) const
-  {
-    double *pore            = nodes.pores[node];
-    const double soil_mass  = nodes.soil[node][Field<dim>::mass];
-    const double water_mass = nodes.water[node][Field<dim>::mass];
-    const double volume     = water_mass / water_density;
-    const double grains     = pore[PoreField<dim>::grain_volume];
-    const double fraction   = grain_fraction_of(grains, volume, pore[PoreField<dim>::wet_pores]);
-    const double porosity   = soil_mass <= 0. || water_mass <= 0. ? 0. : 1. - fraction;
-    pore[PoreField<dim>::drag] *= time_step * porosity;
-    pore[PoreField<dim>::inertial_drag] *= time_step * porosity * porosity;
-    pore[PoreField<dim>::grain_fraction] = fraction;
-    pore[PoreField<dim>::soil_share]     = soil_share(grains, pore[PoreField<dim>::local_solid_volume]);
-  }
-
-
-  template <int dim>
   void TwoPhaseMomentum<dim>::find_flux_inertia(const MixtureNodes<dim> &nodes,
                                                 const NodalField<dim> &excess,
                                                 const double time_step)
@@ -210,7 +189,6 @@ namespace scree
         const double square  = inverse * inverse;
         pore[PoreField<dim>::grain_fraction] = mass > 0. ? 1. - 1. / inverse : 1.;
         pore[PoreField<dim>::coupling]       = has_both ? std::max(inertia / square - mass, 0.) : 0.;
-        pore[PoreField<dim>::soil_share]     = 1.;
         pore[PoreField<dim>::drag] =
             pore[PoreField<dim>::coupling] + (has_both ? time_step * pore[PoreField<dim>::drag] / square : 0.);
         pore[PoreField<dim>::inertial_drag] *= has_both ? time_step / (square * inverse) : 0.;
@@ -365,13 +343,8 @@ namespace scree
       {
         if (is_empty(nodes, node))
           continue;
-        if (!by_flux)
-          {
-            assign_rigid_mass(nodes, node);
-            compute_porosity_and_drag(nodes, node, time_step);
-          }
         SoilAndWater<dim> before{ velocity_of_sums<dim>(nodes.soil[node]), velocity_of_sums<dim>(nodes.water[node]) };
-        if (const double coupling = nodes.pores[node][PoreField<dim>::coupling]; by_flux && coupling > 0.)
+        if (const double coupling = nodes.pores[node][PoreField<dim>::coupling]; coupling > 0.)
           {
             DragBlock<dim> inertia;
             inertia.soil_mass  = nodes.soil[node][Field<dim>::mass];
@@ -406,38 +379,15 @@ namespace scree
                                                     const double time_step)
   {
     pressure_impulses.clear();
-    if (by_flux)
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      pressure_impulses.activate_cell(cell.cell);
+    const FlowField<dim> &of_flow = pressure.impulses_of_change(time_step);
+    for (const PressedNode<dim> &node : pressure.pressed_nodes.all)
       {
-        for (const MixtureCell<dim> &cell : mixture.cells())
-          pressure_impulses.activate_cell(cell.cell);
-        const FlowField<dim> &of_flow = pressure.impulses_of_change(time_step);
-        for (const PressedNode<dim> &node : pressure.pressed_nodes.all)
-          {
-            const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(node, of_flow[node.node]);
-            add_to(pressure_impulses[node.node], of_phases.soil);
-            add_to(pressure_impulses[node.node] + dim, of_phases.water);
-          }
-        return;
+        const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(node, of_flow[node.node]);
+        add_to(pressure_impulses[node.node], of_phases.soil);
+        add_to(pressure_impulses[node.node] + dim, of_phases.water);
       }
-    const bool has_menisci = pressure.has_menisci();
-    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
-      {
-        const MixtureCell<dim> &cell = mixture.cells()[record];
-        pressure_impulses.activate_cell(cell.cell);
-        if (cell.water_volume <= 0)
-          continue;
-        mixture.add_pressure_gradient(record,
-                                      multilinear_of<dim>(pressure.change_of(cell.cell)),
-                                      -time_step,
-                                      pressure_impulses,
-                                      0,
-                                      pressure_impulses,
-                                      dim);
-        if (has_menisci)
-          mixture.add_soil_gradient(
-              record, multilinear_of<dim>(pressure.change_of_pull(cell.cell)), time_step, pressure_impulses, 0);
-      }
-    pressure_impulses.add_contributions();
   }
 
 
@@ -496,7 +446,7 @@ namespace scree
         add_to_velocities(change, of_soil, of_water);
         const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;
         // The work of an impulse, as at walls.
-        const double drag = pair.drag - (by_flux ? nodes.pores[node][PoreField<dim>::coupling] : 0.);
+        const double drag = pair.drag - nodes.pores[node][PoreField<dim>::coupling];
         balance.drag_dissipation += 0.5 * drag * slip * (before.water - before.soil + slip);
       }
     nodes.update_velocity_ghosts();

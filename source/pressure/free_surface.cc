@@ -11,13 +11,24 @@ namespace scree
 
   namespace
   {
-    /// Of an unknown vertex of the variational step, cells: no depth that rows of a lattice of points give, which would
-    /// make a vertex unknown in one step and not in the next.
-    constexpr double least_depth_by_flux = 0.15;
+    /// Least depth of an unknown vertex, cells.
+    constexpr double least_depth = 0.15;
+
+    /// Least part of the surroundings of an unknown vertex that rigid ground leaves open.
+    constexpr double least_room = 1e-3;
+
+    /// Dry soil about a vertex beside the water's surface, over the volume there: up to the first by the scatter of
+    /// points, from the second on the surface lies in soil.
+    constexpr double least_dry_soil = 0.1, surely_dry_soil = 0.25;
 
     double distance_from_fill(const double fill)
     {
       return fill < 0.5 ? std::sqrt(2. * fill) - 1. : 1. - std::sqrt(2. * std::max(1. - fill, 0.));
+    }
+
+    double fill_from_distance(const double distance)
+    {
+      return distance < 0. ? 0.5 * std::pow(1. + distance, 2) : 1. - 0.5 * std::pow(1. - distance, 2);
     }
   } // namespace
 
@@ -26,22 +37,16 @@ namespace scree
   FreeSurface<dim>::FreeSurface(const BackgroundGrid<dim> &grid,
                                 const NodeNumbering<dim> &vertices,
                                 const WaterBoundaryConditions<dim> &walls,
-                                const Tensor<1, dim> &gravity,
                                 const CutCells<dim> *cut_cells,
-                                const double air_entry,
-                                const bool by_flux)
+                                const double air_entry)
       : grid(grid)
       , vertices(vertices)
       , walls(walls)
-      , by_flux(by_flux)
-      , down(gravity.norm() > 0. ? gravity / gravity.norm() : gravity)
       , cut_cells(cut_cells)
       , filling(vertices)
       , soil(vertices)
       , neighbours(vertices)
       , air_entry(air_entry)
-      , menisci(air_entry)
-      , sides(vertices)
   {
     reinit();
   }
@@ -53,13 +58,11 @@ namespace scree
     filling.reinit();
     soil.reinit();
     neighbours.reinit();
-    sides.reinit();
     const auto &nodes = *vertices.partitioner();
     kinds.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), PressureDofType::dry);
     distances.assign(kinds.size(), -1.);
-    menisci.reinit(kinds.size());
     scratch.reinit(vertices.partitioner());
-    if (menisci.exist())
+    if (has_suction())
       suction.reinit(vertices.partitioner());
     if (cut_cells)
       find_closed();
@@ -87,41 +90,6 @@ namespace scree
     };
     take(volume, closed_volume);
     take(cells, closed_cells);
-
-    std::array<std::vector<double>, dim> areas; // of the ground, m^(dim-1), along its outer normal
-    for (unsigned int a = 0; a < dim; ++a)
-      {
-        VertexVector area(vertices.partitioner());
-        for (const CutFacet<dim> &segment : cut_cells->segments())
-          for (unsigned int v = 0; v < CutCell<dim>::n_vertices; ++v)
-            area.local_element(vertices.nodes(segment.cell)[v]) +=
-                segment.vertex_weights[v] * segment.area * segment.normal[a];
-        take(area, areas[a]);
-      }
-    // Level water that ends at the vertex has (pi - 2 a)/(pi - a) of the ground below it, which falls by an angle a:
-    // near the square of its cosine.
-    full_ground.assign(kinds.size(), 0.);
-    for (unsigned int vertex = 0; vertex < full_ground.size(); ++vertex)
-      {
-        Tensor<1, dim> area;
-        for (unsigned int a = 0; a < dim; ++a)
-          area[a] = areas[a][vertex];
-        if (const double below = area * down; below > 0.)
-          full_ground[vertex] = (1. - volume_under(vertex) / whole_volume(vertex)) * below * below / area.norm_square();
-      }
-  }
-
-
-  template <int dim>
-  double FreeSurface<dim>::fill_with_ground(const unsigned int vertex, const double fill) const
-  {
-    const double *sums = filling[vertex];
-    if (full_ground.empty() || full_ground[vertex] == 0. || sums[filled] <= 0.)
-      return fill;
-    // Soil that collapses would run too far.
-    using closures::least_fill_above_ground, closures::least_solid_fraction;
-    const double free = std::max(1. - (sums[filled] - sums[water]) / (least_solid_fraction * sums[filled]), 0.);
-    return 1. - (1. - fill) * (1. - full_ground[vertex] * free * std::min(fill / least_fill_above_ground, 1.));
   }
 
 
@@ -145,7 +113,7 @@ namespace scree
   template <int dim>
   bool FreeSurface<dim>::has_room(const unsigned int vertex) const
   {
-    return closed_volume.empty() || closed_volume[vertex] < (1. - closures::least_open_fraction) * whole_volume(vertex);
+    return closed_volume.empty() || closed_volume[vertex] < (1. - least_room) * whole_volume(vertex);
   }
 
 
@@ -176,13 +144,6 @@ namespace scree
 
 
   template <int dim>
-  bool FreeSurface<dim>::is_among_wet_cells(const unsigned int vertex) const
-  {
-    return filling[vertex][wet_cells] > (1. - 0.5 / (1 << dim)) * open_cells_around(vertex);
-  }
-
-
-  template <int dim>
   void FreeSurface<dim>::sum_filling(const Mixture<dim> &mixture)
   {
     filling.clear();
@@ -197,12 +158,8 @@ namespace scree
             {
               double *node = filling[nodes[v]];
               node[water] += cell.water_at_vertex[v];
-              node[filled] += by_flux ? cell.bulk_at_vertex[v]
-                                      : cell.water_at_vertex[v] + cell.effective_saturation * cell.grains_at_vertex[v];
-              if (cell.pore_volume > 0. && !by_flux)
-                node[by_scatter] += cell.effective_saturation * cell.grains_at_vertex[v] - cell.wet_grains_at(v);
+              node[filled] += cell.bulk_at_vertex[v];
               node[weighted_pressure] += cell.pressure_at_vertex[v];
-              node[weighted_forgotten] += cell.forgotten_at_vertex[v];
               node[wet_cells] += open;
             }
         }
@@ -210,10 +167,6 @@ namespace scree
       for (unsigned int v = 0; v < entering.at_vertex.size(); ++v)
         filling[vertices.nodes(entering.cell)[v]][filled] += entering.at_vertex[v];
     filling.add_contributions();
-    // Where water comes to an end, as at a wetting front, what cells lack is no scatter.
-    for (const unsigned int vertex : filling.active_nodes())
-      if (!is_among_wet_cells(vertex))
-        filling[vertex][filled] -= filling[vertex][by_scatter];
     filling.update_ghosts();
   }
 
@@ -260,27 +213,20 @@ namespace scree
         pressure.local_element(vertex) = 0.;
       }
     sum_filling(mixture);
-    if (menisci.exist())
-      sum_soil(mixture);
     const auto classify = [&](const unsigned int vertex) {
       const double *sums = filling[vertex];
       // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
       const double fill = std::min(sums[filled] / volume_under(vertex), sums[wet_cells] / open_cells_around(vertex));
       PressureDofType &kind = kinds[vertex];
-      distances[vertex]     = distance_from_fill(by_flux ? fill : fill_with_ground(vertex, fill));
+      distances[vertex]     = distance_from_fill(fill);
       kind                  = PressureDofType::dry;
       double value          = 0.;
-      if (menisci.exist())
-        menisci.find_behind(vertex, distances[vertex], soil[vertex][0] / volume_under(vertex));
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(vertices.faces(vertex)))
         {
           kind  = PressureDofType::prescribed;
           value = walls.pressure(vertices.faces(vertex));
         }
-      else if (sums[water] > 0. &&
-               ((distances[vertex] >= (by_flux ? least_depth_by_flux : closures::least_vertex_depth) - 1e-9 &&
-                 (!by_flux || has_room(vertex))) ||
-                (menisci.exist() && !by_flux && keeps_water(vertex))))
+      else if (sums[water] > 0. && distances[vertex] >= least_depth - 1e-9 && has_room(vertex))
         {
           kind  = PressureDofType::unknown;
           value = pressure_of_points(vertex);
@@ -288,8 +234,6 @@ namespace scree
       pressure.local_element(vertex) = value;
     };
     for_all_wet_vertices(mixture, classify);
-    if (!by_flux)
-      close_gaps(mixture, pressure);
 
     // Kinds beside the surface: those with unknown neighbours, then those that have only those.
     neighbours.clear();
@@ -299,7 +243,7 @@ namespace scree
     const auto spread = [&](const PressureDofType source, const PressureDofType target) {
       for_pairs(mixture, PressureDofType::dry, source, [&](const unsigned int vertex, const unsigned int neighbour) {
         neighbours[vertex][number] += 1.;
-        neighbours[vertex][sum_of_distances] += depth(neighbour, vertex);
+        neighbours[vertex][sum_of_distances] += distances[neighbour];
       });
       neighbours.add_contributions();
       neighbours.update_ghosts();
@@ -311,8 +255,6 @@ namespace scree
     spread(PressureDofType::unknown, PressureDofType::surface);
     neighbours.clear_ghosts();
     spread(PressureDofType::surface, PressureDofType::beyond);
-    if (!by_flux)
-      return;
     followers[0].followed = PressureDofType::unknown;
     followers[1].followed = PressureDofType::surface;
     for (Followers &group : followers)
@@ -329,7 +271,7 @@ namespace scree
           group.pairs.emplace_back(vertex, neighbour);
         });
       }
-    if (menisci.exist())
+    if (has_suction())
       find_suction();
   }
 
@@ -346,7 +288,9 @@ namespace scree
         double &value        = suction.local_element(vertex);
         const bool is_beside = kinds[vertex] == PressureDofType::surface || kinds[vertex] == PressureDofType::beyond ||
                                kinds[vertex] == PressureDofType::dry;
-        value = is_beside ? -air_entry * menisci.dry_soil_behind(vertex) * (1. - value) : 0.;
+        const double dry    = soil[vertex][0] / volume_under(vertex) - fill_from_distance(distances[vertex]);
+        const double behind = std::clamp((dry - least_dry_soil) / (surely_dry_soil - least_dry_soil), 0., 1.);
+        value               = is_beside ? -air_entry * behind * (1. - value) : 0.;
       }
   }
 
@@ -400,60 +344,6 @@ namespace scree
 
 
   template <int dim>
-  bool FreeSurface<dim>::keeps_water(const unsigned int vertex)
-  {
-    if (distances[vertex] < 1e-9 || !menisci.end_soil(vertex) || !is_in_soil(vertex) ||
-        pressure_of_points(vertex) >= 0.)
-      return false;
-    menisci.close(vertex);
-    distances[vertex] = closures::least_vertex_depth;
-    return true;
-  }
-
-
-  template <int dim>
-  void FreeSurface<dim>::close_gaps(const Mixture<dim> &mixture, VertexVector &pressure)
-  {
-    const auto may_be_in_gap = [&](const unsigned int vertex) {
-      const double *sums = filling[vertex];
-      return kinds[vertex] == PressureDofType::dry && distances[vertex] >= -1e-9 && sums[water] > 0. &&
-             is_in_soil(vertex);
-    };
-    const auto presses = [&](const unsigned int vertex) { // Across a gap nothing pulls.
-      return kinds[vertex] == PressureDofType::unknown && pressure_of_points(vertex) >= 0.;
-    };
-    sides.clear();
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0)
-        {
-          const unsigned int *nodes = vertices.nodes(cell.cell);
-          if (std::none_of(nodes, nodes + cell.n_vertices, may_be_in_gap))
-            continue;
-          sides.activate_cell(cell.cell);
-          for (unsigned int v = 0; v < cell.n_vertices; ++v)
-            if (may_be_in_gap(nodes[v]))
-              for (unsigned int a = 0; a < dim; ++a)
-                if (presses(nodes[v ^ (1u << a)]))
-                  sides[nodes[v]][2 * a + (v >> a & 1u)] += 1.;
-        }
-    sides.add_contributions();
-    sides.update_ghosts();
-    for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
-      if (!may_be_in_gap(vertex))
-        return;
-      const double *of_vertex = sides[vertex];
-      for (unsigned int a = 0; a < dim; ++a)
-        if (of_vertex[2 * a] > 0. && of_vertex[2 * a + 1] > 0.)
-          {
-            kinds[vertex]                  = PressureDofType::unknown;
-            distances[vertex]              = closures::least_vertex_depth;
-            pressure.local_element(vertex) = pressure_of_points(vertex);
-          }
-    });
-  }
-
-
-  template <int dim>
   template <typename Function>
   void FreeSurface<dim>::for_pairs(const Mixture<dim> &mixture,
                                    const PressureDofType kind,
@@ -473,64 +363,6 @@ namespace scree
         }
   }
 
-
-  template <int dim>
-  void FreeSurface<dim>::extrapolate(const Mixture<dim> &mixture, VertexVector &pressure)
-  {
-    const auto spread = [&](const PressureDofType source, const PressureDofType target) {
-      neighbours.clear_ghosts();
-      for (const unsigned int vertex : neighbours.active_nodes())
-        neighbours[vertex][sum_of_pressures] = 0.;
-      for_pairs(mixture, target, source, [&](const unsigned int vertex, const unsigned int neighbour) {
-        neighbours[vertex][sum_of_pressures] += pressure.local_element(neighbour);
-      });
-      neighbours.add_contributions();
-      neighbours.update_ghosts();
-      for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
-        if (kinds[vertex] != target)
-          return;
-        const double *sums             = neighbours[vertex];
-        pressure.local_element(vertex) = distances[vertex] * sums[sum_of_pressures] / sums[sum_of_distances];
-      });
-    };
-    spread(PressureDofType::unknown, PressureDofType::surface);
-    spread(PressureDofType::surface, PressureDofType::beyond);
-  }
-
-
-  template <int dim>
-  void FreeSurface<dim>::extrapolate_with_menisci(const Mixture<dim> &mixture,
-                                                  const bool is_start,
-                                                  VertexVector &pressure,
-                                                  VertexVector &pull)
-  {
-    const auto spread = [&](const PressureDofType source, const PressureDofType target) {
-      neighbours.clear_ghosts();
-      for (const unsigned int vertex : neighbours.active_nodes())
-        neighbours[vertex][sum_of_pressures] = neighbours[vertex][sum_of_pulls] = 0.;
-      for_pairs(mixture, target, source, [&](const unsigned int vertex, const unsigned int neighbour) {
-        neighbours[vertex][sum_of_pressures] += pressure.local_element(neighbour);
-        neighbours[vertex][sum_of_pulls] += pull.local_element(neighbour);
-      });
-      neighbours.add_contributions();
-      neighbours.update_ghosts();
-      for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
-        if (kinds[vertex] != target)
-          return;
-        const double *sums = neighbours[vertex];
-        const double slope = distances[vertex] / sums[sum_of_distances];
-        const double mean  = sums[sum_of_pressures] / sums[number];
-        const double face =
-            is_start ? menisci.start_pressure(vertex, mean, is_in_soil(vertex)) : menisci.change(vertex, mean);
-        const double own_pull          = face * (1. - slope * sums[number]) + slope * sums[sum_of_pulls];
-        pressure.local_element(vertex) = slope * (sums[sum_of_pressures] - sums[sum_of_pulls]) + own_pull;
-        pull.local_element(vertex)     = own_pull;
-      });
-    };
-    for_all_wet_vertices(mixture, [&](const unsigned int vertex) { pull.local_element(vertex) = 0.; });
-    spread(PressureDofType::unknown, PressureDofType::surface);
-    spread(PressureDofType::surface, PressureDofType::beyond);
-  }
 
   template class FreeSurface<2>;
   template class FreeSurface<3>;

@@ -19,7 +19,7 @@ namespace scree
     for (unsigned int v = 0; v < n_vertices; ++v)
       for (unsigned int w = 0; w < n_vertices; ++w)
         {
-          double sum = 0, mass = 1;
+          double sum = 0;
           for (unsigned int a = 0; a < dim; ++a)
             {
               double product = 1;
@@ -29,10 +29,8 @@ namespace scree
                   product *= b == a ? (same ? 1. : -1.) : (same ? 1. / 3. : 1. / 6.);
                 }
               sum += product;
-              mass *= ((v ^ w) >> a & 1) == 0 ? 1. / 3. : 1. / 6.;
             }
-          laplacian[v][w]   = sum;
-          fluctuation[v][w] = mass - 1. / (n_vertices * n_vertices);
+          laplacian[v][w] = sum;
         }
   }
 
@@ -49,8 +47,7 @@ namespace scree
   void PressureOperator<dim>::assemble(const Mixture<dim> &mixture,
                                        const FreeSurface<dim> &surface,
                                        const double time_step,
-                                       const std::function<double(unsigned int vertex)> &storage,
-                                       const double projection)
+                                       const std::function<double(unsigned int vertex)> &storage)
   {
     unknown.assign(numbering.n_local(), false);
     diagonal.assign(numbering.partitioner()->locally_owned_size(), 0.);
@@ -75,7 +72,6 @@ namespace scree
           Cell &cell              = wet_cells.back();
           cell.mobility           = scale * mixed.mobility;
           largest_mobility        = std::max(largest_mobility, cell.mobility);
-          cell.projection         = projection * mixed.volume * std::min(mixed.fill, 1.);
           const CellMatrix own    = matrix(cell);
           const unsigned int *all = vertices.nodes(mixed.cell);
           for (unsigned int v = 0; v < n_vertices; ++v)
@@ -106,35 +102,6 @@ namespace scree
                 ExcMessage("Water fills the box, and all its walls are closed: nothing sets the level of its pressure. "
                            "Remedies: a drained wall in subsection Boundaries/Water, a 'Bulk modulus' in subsection "
                            "Water, or a box that is higher than the water."));
-  }
-
-
-  template <int dim>
-  void PressureOperator<dim>::vmult(VertexVector &target, const VertexVector &source) const
-  {
-    target = 0.;
-    source.update_ghost_values();
-    for (const Cell &cell : wet_cells)
-      {
-        std::array<double, n_vertices> values;
-        for (unsigned int v = 0; v < n_vertices; ++v)
-          values[v] = unknown[cell.numbers[v]] ? source.local_element(cell.numbers[v]) : 0.;
-        for (unsigned int v = 0; v < n_vertices; ++v)
-          if (unknown[cell.numbers[v]])
-            {
-              double flux = 0, projected = 0;
-              for (unsigned int w = 0; w < n_vertices; ++w)
-                flux += laplacian[v][w] * values[w];
-              if (cell.projection > 0)
-                for (unsigned int w = 0; w < n_vertices; ++w)
-                  projected += fluctuation[v][w] * values[w];
-              target.local_element(cell.numbers[v]) += cell.mobility * flux + cell.projection * projected;
-            }
-      }
-    target.compress(VectorOperation::add);
-    source.zero_out_ghost_values();
-    for (unsigned int i = 0; i < diagonal.size(); ++i)
-      target.local_element(i) += diagonal[i] * source.local_element(i);
   }
 
 

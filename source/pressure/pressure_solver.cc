@@ -28,12 +28,14 @@ namespace scree
   template <int dim>
   PressureSolver<dim>::PressureSolver(const BackgroundGrid<dim> &grid,
                                       const NodeNumbering<dim> &vertices,
+                                      SchurOperator<dim> &schur,
                                       const PressureParameters &parameters)
       : grid(grid)
       , vertices(vertices)
       , numbering(grid, vertices)
       , system(grid, vertices, numbering)
       , maximum_iterations(parameters.maximum_iterations)
+      , schur(schur)
   {
     reinit();
   }
@@ -54,8 +56,7 @@ namespace scree
   void PressureSolver<dim>::assemble(const Mixture<dim> &mixture,
                                      const FreeSurface<dim> &surface,
                                      const double time_step,
-                                     const std::function<double(unsigned int vertex)> &storage,
-                                     const double projection)
+                                     const std::function<double(unsigned int vertex)> &storage)
   {
     if (numbering.update(mixture))
       {
@@ -65,9 +66,7 @@ namespace scree
           vector->reinit(numbering.partitioner());
         is_worn = true;
       }
-    system.assemble(mixture, surface, time_step, storage, projection);
-    if (schur == nullptr)
-      return;
+    system.assemble(mixture, surface, time_step, storage);
     storage_of_number.resize(system.n_owned());
     for (unsigned int i = 0; i < storage_of_number.size(); ++i)
       storage_of_number[i] = system.is_unknown(i) ? storage(numbering.vertex(i)) : 0.;
@@ -77,11 +76,9 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::vmult(VertexVector &target, const VertexVector &source)
   {
-    if (schur == nullptr)
-      return system.vmult(target, source);
     for (unsigned int i = 0; i < system.n_owned(); ++i)
       of_schur.local_element(numbering.vertex(i)) = system.is_unknown(i) ? source.local_element(i) : 0.;
-    schur->vmult(times_schur, of_schur);
+    schur.vmult(times_schur, of_schur);
     for (unsigned int i = 0; i < system.n_owned(); ++i)
       target.local_element(i) = system.is_unknown(i) ? times_schur.local_element(numbering.vertex(i)) +
                                                            storage_of_number[i] * source.local_element(i)
@@ -194,13 +191,10 @@ namespace scree
     vmult(scratch, solution);
     take(rhs, source);
     take(change, solution);
-    constexpr double rounding = 1e-12;
     const std::vector<double> squares{ local_square(scratch), local_square(source) };
     std::vector<double> of_ranks(2);
     Utilities::MPI::sum(squares, grid.triangulation().get_communicator(), of_ranks);
-    // With the matrix itself each step finds the whole pressure: what is left is no sum over steps.
-    const double of_whole = schur ? relative_tolerance : rounding;
-    tolerance             = std::max(of_whole * std::sqrt(of_ranks[0]), relative_tolerance * std::sqrt(of_ranks[1]));
+    tolerance = relative_tolerance * std::sqrt(std::max(of_ranks[0], of_ranks[1]));
     SolveReport report;
     converge(report);
     for (unsigned int i = 0; i < system.n_owned(); ++i)
@@ -240,7 +234,7 @@ namespace scree
 
   template <int dim>
   std::pair<SolveReport, unsigned int>
-  PressureSolver<dim>::enforce_least_pressure(const std::function<double(unsigned int vertex)> &least,
+  PressureSolver<dim>::enforce_least_pressure(const double least,
                                               const VertexVector &pressure,
                                               VertexVector &change)
   {
@@ -250,8 +244,7 @@ namespace scree
     std::vector<char> is_held(system.n_owned(), false);
     VertexVector residual;
     const auto bound = [&](const unsigned int i) {
-      const unsigned int vertex = numbering.vertex(i);
-      return least(vertex) - pressure.local_element(vertex);
+      return least - pressure.local_element(numbering.vertex(i));
     };
     for (unsigned int sweep = 0;; ++sweep)
       {

@@ -25,22 +25,12 @@ namespace scree
       , forces(model.forces)
       , fluidisation_porosity(model.water_parameters.fluidisation_porosity)
       , water(model.water)
-      // Without gravity nothing falls; where water is compressible, closing is strain; what soil gains would be water
-      // if its points carry that.
-      , limits_volumetric_strain(
-            !model.pressure_parameters.is_variational() && model.stabilisation.f_bar_kind() != FBar::none &&
-            forces.gravity().norm() > 0. && model.water_parameters.bulk_modulus == 0. &&
-            std::all_of(water.begin(), water.end(), [](const auto &one) { return one.carrier() == nullptr; }))
       , faces_closed_to_soil(model.constraints[0]->faces_closed_to_soil())
       , faces_closed_to_water(model.water_walls->closed_faces())
       , inflows(model.inflows)
       , timer(timer)
       , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads)
-      , transfer(grid,
-                 model.transfer,
-                 with_inertia(model.water_parameters, forces.mass_scaling()),
-                 model.pressure_parameters.uses_pressure_gradient() ? 1. : 0.,
-                 model.pressure_parameters.is_variational())
+      , transfer(grid, model.transfer, with_inertia(model.water_parameters, forces.mass_scaling()))
       , mixture(grid, model.soil_points, model.cut_cells)
       , pores(grid)
       , water_field(grid)
@@ -50,19 +40,12 @@ namespace scree
                  *model.water_walls,
                  model.pressure_parameters,
                  with_inertia(model.water_parameters, forces.mass_scaling()),
-                 forces.fall(),
                  model.cut_cells,
                  ground_gaps,
                  timer)
       , wall_gaps(grid, *model.constraints[0])
       , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
-      , momentum(grid,
-                 *model.constraints[0],
-                 wall_gaps,
-                 forces,
-                 model.water_parameters.density,
-                 timer,
-                 pressure.is_variational())
+      , momentum(grid, *model.constraints[0], wall_gaps, forces, model.water_parameters.density, timer)
       , viscosity(grid, model.water_parameters, model.bodies, water, timer)
       , contact(grid,
                 model.ground,
@@ -74,8 +57,6 @@ namespace scree
       , shifting(grid, *model.constraints[0], pressure, forces.gravity(), model.water_parameters.volume_correction_rate)
   {
     wall_gaps.add({ &soil.field, &water_field });
-    for (const auto &body : model.bodies)
-      shear_modulus = std::max(shear_modulus, body.material->shear_modulus());
   }
 
 
@@ -113,73 +94,26 @@ namespace scree
     excess.clear();
     for (const auto &body : soil.all_bodies())
       transfer.soil_to_grid(body, mixture);
-    if (pressure.is_variational())
-      pressure.find_soil_depths(mixture);
+    pressure.find_soil_depths(mixture);
     for (const auto &part : water)
       transfer.to_grid(part, mixture, water_field, excess, pores);
     for (const Inflow<dim> &inflow : inflows)
       if (inflow.water_share > 0.)
         inflow.add_to(mixture);
     mixture.scale_inertia(forces.mass_scaling());
-    mixture.finish();
   }
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::complete_pores()
+  void TwoPhaseScheme<dim>::activate_nodes()
   {
-    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
+    for (const MixtureCell<dim> &cell : mixture.cells())
       {
-        const MixtureCell<dim> &cell = mixture.cells()[record];
-        // An absent phase takes the other's velocity.
         soil.field.activate_cell(cell.cell);
-        pores.activate_cell(cell.cell);
         water_field.activate_cell(cell.cell);
-        if (pressure.is_variational())
-          {
-            excess.activate_cell(cell.cell);
-            continue;
-          }
-        if (cell.effective_saturation == 0 || cell.grain_volume == 0)
-          continue;
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        const unsigned int n = grid.n_nodes_1d(), n_rows = grid.n_nodes_per_cell() / n;
-        const double drag      = cell.drag_share * cell.drag / cell.water_volume;
-        const double inertial  = cell.drag_share * cell.inertial / cell.water_volume;
-        const double wet_pores = cell.effective_saturation * cell.pore_volume / cell.grain_volume;
-        for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              const double grains = mixture.grain_volumes(record, r)[i];
-              const double water  = mixture.water_volumes(record, r)[i];
-              double *pore        = pores[nodes[r * n + i]];
-              pore[PoreField<dim>::grain_volume] += cell.effective_saturation * grains;
-              pore[PoreField<dim>::drag] += drag * water;
-              pore[PoreField<dim>::inertial_drag] += inertial * water;
-              pore[PoreField<dim>::wet_pores] += wet_pores * grains;
-            }
+        excess.activate_cell(cell.cell);
+        pores.activate_cell(cell.cell);
       }
-  }
-
-
-  template <int dim>
-  void TwoPhaseScheme<dim>::add_pressure_forces()
-  {
-    const bool has_menisci = pressure.has_menisci();
-    for (unsigned int record = 0; record < mixture.cells().size(); ++record)
-      if (const unsigned int cell = mixture.cells()[record].cell; mixture.cells()[record].water_volume > 0)
-        {
-          mixture.add_pressure_gradient(record,
-                                        multilinear_of<dim>(pressure.pressure_of(cell)),
-                                        -1.,
-                                        soil.field,
-                                        NodalField<dim>::force,
-                                        water_field,
-                                        NodalField<dim>::force);
-          if (has_menisci)
-            mixture.add_soil_gradient(
-                record, multilinear_of<dim>(pressure.pull_of(cell)), 1., soil.field, NodalField<dim>::force);
-        }
   }
 
 
@@ -187,7 +121,7 @@ namespace scree
   void TwoPhaseScheme<dim>::read_points()
   {
     gather();
-    complete_pores();
+    activate_nodes();
     pressure.locate(mixture);
     soil.field.clear();
     water_field.clear(); // sums, not velocities
@@ -218,10 +152,8 @@ namespace scree
   void TwoPhaseScheme<dim>::sum_at_nodes(const double time_step)
   {
     const TimedPart part(timer, TimerSection::nodes);
-    complete_pores();
+    activate_nodes();
     pressure.locate(mixture);
-    if (!pressure.is_variational())
-      add_pressure_forces();
     soil.add_loads(time_step); // Pressure is implicit, so the load is that of the step's end.
     soil.field.add_contributions();
     water_field.add_contributions();
@@ -229,8 +161,7 @@ namespace scree
     soil.field.scale_inertia(forces.mass_scaling());
     water_field.scale_inertia(forces.mass_scaling());
     wall_gaps.release(forces, time_step);
-    if (pressure.is_variational())
-      find_pair(time_step);
+    find_pair(time_step);
   }
 
 
@@ -261,14 +192,13 @@ namespace scree
     sum_at_nodes(time_step);
     if (drainage == Drainage::drained)
       return solve_drained(nodes, time_step, budget);
-    momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g - G p^n)
+    momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g + B^T p^n)
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
     contact.predict(nodes, mixture, momentum, time_step, budget);
-    if (pressure.is_variational())
-      momentum.find_pressed_nodes(nodes, pressure);
-    pressure.solve(mixture, nodes, time_step, shear_modulus, budget); // L dp = -div u**
-    momentum.correct(nodes, mixture, pressure, time_step, budget);    // v = v** - dt A^-1 G dp
+    momentum.find_pressed_nodes(nodes, pressure);
+    pressure.solve(mixture, nodes, time_step, budget);             // S dp = -(B u** - c)
+    momentum.correct(nodes, mixture, pressure, time_step, budget); // v = v** + dt A^-1 B^T dp
     contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);
     end_step(nodes, time_step, budget);
   }
@@ -312,9 +242,7 @@ namespace scree
     {
       const TimedPart part(timer, TimerSection::nodes);
       viscosity.count_dissipation(nodes, budget);
-      pressure.accept_change(mixture, soil.field, water_field, pores);
-      if (limits_volumetric_strain)
-        pressure.find_volume_factors(mixture, soil.field, water_field, pores, time_step);
+      pressure.accept_change();
       // The predictor has counted the load among the forces.
       budget.load_impulse += soil.load_impulse(time_step);
       budget.pressure_impulse -= soil.load_impulse(time_step);
@@ -348,7 +276,7 @@ namespace scree
   {
     {
       const TimedPart part(timer, TimerSection::stress);
-      soil.to_points(time_step, report, &mixture);
+      soil.to_points(time_step, report);
       fluidise();
     }
     if (drainage == Drainage::undrained)
@@ -368,8 +296,6 @@ namespace scree
             { soil.field, water_field, pores },
             mixture,
             [this](const unsigned int cell) { return pressure.pressure_of(cell); },
-            pressure.fades() ? [this](const unsigned int cell) { return pressure.forgotten_of(cell); }
-                             : ForgottenOfCell<dim>(),
             time_step));
         shifting.apply(one, mixture, water_field, pores, time_step, report.balance);
         if (const PointSet<dim> *own = one.own_points())

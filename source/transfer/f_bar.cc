@@ -39,7 +39,6 @@ namespace scree
   void apply_f_bar(const FBar kind,
                    const unsigned int first,
                    const MaterialPoints<dim> &points,
-                   const double volume_factor,
                    BlockMotion<dim> &motion)
   {
     if (kind == FBar::none)
@@ -64,17 +63,18 @@ namespace scree
       const auto is_averaged = simd::first_lanes(n) & (ratio > 0.);
       const Batch change     = simd::select<Batch>(simd::first_lanes(n), load(changes + p), one);
       const Batch averaged   = simd::select<Batch>(is_averaged, mean / ratio, change);
-      const Batch scale      = simd::cube_root<Batch>(volume_factor * averaged / change);
+      const Batch scale      = simd::cube_root<Batch>(averaged / change);
       for (unsigned int c = 0; c < dim * dim; ++c)
         {
           double *component = &motion.deformation_increment[c * motion.pitch + first + p];
           store(scale * load(component), component);
         }
       store(scale, &motion.out_of_plane_stretch[first + p]);
-      store(volume_factor * (is_modified ? averaged : change), changes + p);
+      if (is_modified)
+        store(averaged, changes + p);
     });
   }
 
-  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<2> &, const double, BlockMotion<2> &);
-  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<3> &, const double, BlockMotion<3> &);
+  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<2> &, BlockMotion<2> &);
+  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<3> &, BlockMotion<3> &);
 } // namespace scree

@@ -128,8 +128,7 @@ namespace scree
   template <int n, TransferMethod method>
   MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
                                           const NodalField<dim> &field,
-                                          const double time_step,
-                                          const Mixture<dim> *mixture)
+                                          const double time_step)
   {
     const auto &cells = body.points.cells();
     const double keep = kept_velocity(method, pic_rate, time_step);
@@ -147,8 +146,7 @@ namespace scree
         for (auto cell = begin; cell != end; first += (cell++)->n_points)
           {
             move_cell<n, method>(body, *cell, field, time_step, keep, first, largest);
-            const double volume_factor = mixture ? mixture->volume_factor(cell->cell) : 1.;
-            apply_f_bar(f_bar, first, body.material_points(*cell), volume_factor, motion);
+            apply_f_bar(f_bar, first, body.material_points(*cell), motion);
           }
         update_state(body, *begin, n_points, time_step, report.material);
         costs.finish_cells(begin, end, n_points);
@@ -190,20 +188,19 @@ namespace scree
   template <int dim>
   MotionReport Transfer<dim>::to_points(SoilBody<dim> &body,
                                         const NodalField<dim> &field,
-                                        const double time_step,
-                                        const Mixture<dim> *mixture)
+                                        const double time_step)
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::flip:
-          return move_points<n, TransferMethod::flip>(body, field, time_step, mixture);
+          return move_points<n, TransferMethod::flip>(body, field, time_step);
         case TransferMethod::apic:
-          return move_points<n, TransferMethod::apic>(body, field, time_step, mixture);
+          return move_points<n, TransferMethod::apic>(body, field, time_step);
         case TransferMethod::aflip:
-          return move_points<n, TransferMethod::aflip>(body, field, time_step, mixture);
+          return move_points<n, TransferMethod::aflip>(body, field, time_step);
         default:
-          return move_points<n, TransferMethod::tpic>(body, field, time_step, mixture);
+          return move_points<n, TransferMethod::tpic>(body, field, time_step);
         }
     };
     if (grid.n_nodes_1d() == 2)

@@ -15,9 +15,8 @@ namespace scree
     prm.add_parameter(
         "Method",
         method,
-        "Transfer of velocity between points and nodes: FLIP, APIC, TPIC or AFLIP. auto: AFLIP; TPIC with "
-        "water.",
-        Patterns::Selection("auto|FLIP|APIC|TPIC|AFLIP"));
+        "Transfer of velocity between points and nodes: FLIP, APIC, TPIC or AFLIP.",
+        Patterns::Selection("FLIP|APIC|TPIC|AFLIP"));
     prm.add_parameter(
         "PIC rate",
         rate,
@@ -25,13 +24,6 @@ namespace scree
         "remains per time step. auto: 1 1/s for FLIP; 5 sqrt(g/h) for AFLIP, without gravity c/h.",
         Patterns::Anything());
     prm.leave_subsection();
-  }
-
-
-  void TransferParameters::choose_method(const bool has_water)
-  {
-    if (method == "auto")
-      method = has_water ? "TPIC" : "AFLIP";
   }
 
 
@@ -75,8 +67,7 @@ namespace scree
 
   TransferMethod TransferParameters::transfer_method() const
   {
-    static const std::map<std::string, TransferMethod> table{ { "auto", TransferMethod::aflip },
-                                                              { "FLIP", TransferMethod::flip },
+    static const std::map<std::string, TransferMethod> table{ { "FLIP", TransferMethod::flip },
                                                               { "APIC", TransferMethod::apic },
                                                               { "TPIC", TransferMethod::tpic },
                                                               { "AFLIP", TransferMethod::aflip } };

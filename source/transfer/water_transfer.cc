@@ -14,30 +14,25 @@ namespace scree
 
   namespace
   {
-    /// Value, Pa, and gradient, Pa/m, of a cell's pressure at places in it, and, if anything, what the next step
-    /// forgets of it: 1 or 2 + dim batches.
+    /// Value, Pa, and gradient, Pa/m, of a cell's pressure at places in it: 1 + dim batches.
     template <int dim>
-    void
-    find_pressure(const CellPressure<dim> &pressure, const std::array<Batch, dim> &x, const double width, Batch *result)
+    void find_pressure(const Multilinear<dim> &pressure,
+                       const std::array<Batch, dim> &x,
+                       const double width,
+                       Batch *result)
     {
-      const auto powers   = monomials<dim, Batch>(x);
-      const auto value_of = [&](const Multilinear<dim> &function) {
-        Batch value = simd::broadcast<Batch>(function.back());
-        for (unsigned int a = 0; a < dim; ++a)
-          value *= x[a];
-        for (unsigned int m = 0; m < powers.size(); ++m)
-          value += function[m] * powers[m];
-        return value;
-      };
-      result[0] = value_of(pressure.value);
-      if (pressure.forgotten)
-        result[1 + dim] = value_of(*pressure.forgotten);
+      const auto powers = monomials<dim, Batch>(x);
+      result[0]         = simd::broadcast<Batch>(pressure.back());
+      for (unsigned int a = 0; a < dim; ++a)
+        result[0] *= x[a];
+      for (unsigned int m = 0; m < powers.size(); ++m)
+        result[0] += pressure[m] * powers[m];
       for (unsigned int a = 0; a < dim; ++a)
         {
           Batch slope{};
           for (unsigned int m = 0; m < powers.size(); ++m)
             if (!((m >> a) & 1))
-              slope += pressure.value[m | (1 << a)] * powers[m];
+              slope += pressure[m | (1 << a)] * powers[m];
           result[1 + a] = slope / width;
         }
     }
@@ -47,16 +42,12 @@ namespace scree
   template <int dim>
   WaterTransfer<dim>::WaterTransfer(const BackgroundGrid<dim> &grid,
                                     const TransferParameters &transfer,
-                                    const WaterParameters &water,
-                                    const double pressure_slope,
-                                    const bool by_flux)
+                                    const WaterParameters &water)
       : grid(grid)
       , method(transfer.transfer_method())
       , pic_rate(transfer.pic_rate)
-      , pressure_slope(pressure_slope)
       , point_sets(water.point_sets_kind())
       , density(water.density)
-      , by_flux(by_flux)
   {
   }
 
@@ -78,7 +69,6 @@ namespace scree
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
-        MomentSums<dim, n> moments;
         MixtureCell<dim> sums = mixture.cells()[record];
         auto *parts           = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
 
@@ -90,20 +80,17 @@ namespace scree
               const double grains         = mass / soil.grain_density;
               const double porosity       = std::max(1. - grains / volume, smallest_porosity);
               const double pores_of_point = porosity * volume;
-              const double linear = law.linear(porosity), inertial = law.inertial(porosity);
-              const double per_flux = by_flux ? 1. / porosity : 0.;
-
-              moments.add(shape, grains);
               if (parts != nullptr)
-                parts->add_soil(shape.x, grains, volume, volume * linear * per_flux, grains * inertial * per_flux);
+                parts->add_soil(shape.x,
+                                grains,
+                                volume,
+                                volume * law.linear(porosity) / porosity,
+                                grains * law.inertial(porosity) / porosity);
               add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
               sums.soil_mass += mass;
               sums.grain_volume += grains;
               sums.pore_volume += pores_of_point;
-              sums.drag += volume * linear;
-              sums.inertial += grains * inertial;
             });
-        moments.add_to(mixture.grain_moments(record));
         sums.is_rigid           = sums.is_rigid || soil.is_rigid;
         mixture.cells()[record] = sums;
       }
@@ -127,23 +114,18 @@ namespace scree
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
-        MomentSums<dim, n> moments;
-        for_each_point(
-            cell, [&](const auto &point) { mixture.cells()[record].water_volume += point.properties[layout.volume]; });
         const PorosityOfParts<dim> *porosity = mixture.porosity_of_parts(cell.cell);
         if (porosity != nullptr)
-          mixture.find_porosities(record, by_flux);
+          mixture.find_porosities(record);
         MixtureCell<dim> totals = mixture.cells()[record];
         CellSums<dim, n> sums(width);
-        std::optional<CellSums<dim, n>> excess_sums;
-        if (by_flux)
-          excess_sums.emplace(width);
+        CellSums<dim, n> excess_sums(width);
         NodeRow grains_about[n_rows] = {}, inertia[n_rows] = {}, drag[n_rows] = {}, inertial[n_rows] = {};
-        const bool has_pores = porosity != nullptr || (by_flux && carrier != nullptr);
+        const bool has_pores = porosity != nullptr || carrier != nullptr;
         const auto pores_at  = [&](const auto &point, const Point<dim> &x) {
           if (porosity != nullptr)
             return porosity->at(x);
-          if (carrier == nullptr || !by_flux)
+          if (carrier == nullptr)
             return Pores{ 1., 0., 0. };
           const double porous = std::max(carrier->porosity(point.properties), smallest_porosity);
           return Pores{ 1. / porous,
@@ -155,36 +137,30 @@ namespace scree
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
-          moments.add(shape, volume);
           const Pores about = pores_at(point, shape.x);
           const double more = about.inverse_porosity - 1.;
+          const double bulk = about.inverse_porosity * volume;
+          add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
+          totals.bulk_volume += bulk;
+          totals.mass_of_flux += about.inverse_porosity * mass;
+          totals.inertia_of_flux += about.inverse_porosity * about.inverse_porosity * mass;
+          totals.drag_of_flux += bulk * about.resistance;
           if (has_pores)
-            add_row_sums(shape, volume * more, grains_about);
-          if (by_flux)
             {
-              const double bulk = about.inverse_porosity * volume;
-              add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
-              totals.bulk_volume += bulk;
-              totals.mass_of_flux += about.inverse_porosity * mass;
-              totals.inertia_of_flux += about.inverse_porosity * about.inverse_porosity * mass;
-              totals.drag_of_flux += bulk * about.resistance;
-              if (has_pores)
-                {
-                  add_row_sums(shape, volume * more * (2. + more), inertia);
-                  add_row_sums(shape, bulk * about.resistance, drag);
-                  add_row_sums(shape, bulk * about.inertial, inertial);
-                  excess_sums->template add_momentum<method>(shape, mass * more, properties + layout.velocity, affine);
-                }
+              add_row_sums(shape, volume * more, grains_about);
+              add_row_sums(shape, volume * more * (2. + more), inertia);
+              add_row_sums(shape, bulk * about.resistance, drag);
+              add_row_sums(shape, bulk * about.inertial, inertial);
+              excess_sums.template add_momentum<method>(shape, mass * more, properties + layout.velocity, affine);
             }
 
           std::array<double, dim> rise;
           for (unsigned int a = 0; a < dim; ++a)
-            rise[a] = pressure_slope * width * properties[layout.pressure_gradient + a];
-          add_to_vertices<dim>(
-              shape.x, volume, properties[layout.pressure], rise, properties[layout.forgotten], totals);
+            rise[a] = width * properties[layout.pressure_gradient + a];
+          add_to_vertices<dim>(shape.x, volume, properties[layout.pressure], rise, totals);
+          totals.water_volume += volume;
           totals.water_mass += mass;
         });
-        moments.add_to(mixture.water_moments(record));
         mixture.cells()[record] = totals;
 
         field.activate_cell(cell.cell);
@@ -194,10 +170,8 @@ namespace scree
             const unsigned int *nodes = grid.nodes(cell.cell);
             pores.activate_cell(cell.cell);
             scatter<dim, n>(grains_about, nodes, PoreField<dim>::local_solid_volume, pores);
-            if (!by_flux)
-              continue;
             excess.activate_cell(cell.cell);
-            excess_sums->scatter(nodes, excess);
+            excess_sums.scatter(nodes, excess);
             scatter<dim, n>(inertia, nodes, PoreField<dim>::flux_inertia, pores);
             scatter<dim, n>(drag, nodes, PoreField<dim>::drag, pores);
             scatter<dim, n>(inertial, nodes, PoreField<dim>::inertial_drag, pores);
@@ -212,7 +186,6 @@ namespace scree
                                         const MixtureNodes<dim> &nodes,
                                         const Mixture<dim> &mixture,
                                         const PressureOfCell<dim> &vertex_pressure,
-                                        const ForgottenOfCell<dim> &vertex_forgotten,
                                         const double time_step) const
   {
     const double keep = kept(time_step);
@@ -221,9 +194,7 @@ namespace scree
     costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
-        CellPressure<dim> pressure{ multilinear_of<dim>(vertex_pressure(cell.cell)), {} };
-        if (vertex_forgotten)
-          pressure.forgotten = multilinear_of<dim>(vertex_forgotten(cell.cell));
+        const Multilinear<dim> pressure = multilinear_of<dim>(vertex_pressure(cell.cell));
         move_cell<n, method>(
             water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step, keep, largest);
         if (const SoilBody<dim> *soil = water.carrier())
@@ -244,7 +215,7 @@ namespace scree
                                      const CellPoints<dim> &cell,
                                      const MixtureNodes<dim> &nodes,
                                      const PorosityOfParts<dim> *porosity,
-                                     const CellPressure<dim> &pressure,
+                                     const Multilinear<dim> &pressure,
                                      const double time_step,
                                      const double keep,
                                      LargestSquare &largest) const
@@ -257,7 +228,7 @@ namespace scree
     const CellVelocity<dim, n> velocity(ids, nodes.water, width);
     std::optional<PoreVelocity<dim, n>> by_place;
     if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes.pores))
-      by_place.emplace(ids, velocity, nodes, density, width);
+      by_place.emplace(ids, velocity, nodes, width);
 
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
       const BatchPointers<dim> points(cell, indices);
@@ -269,7 +240,7 @@ namespace scree
                          shape, porosity ? porosity->inverse_at(shape.x) : simd::broadcast<Batch>(1.))
                    : velocity.template at<method, false>(shape);
 
-      Batch own[dim], affine[dim * dim], pressure_there[2 + dim];
+      Batch own[dim], affine[dim * dim], pressure_there[1 + dim];
       const auto own_slots = points.slots_at(layout.velocity);
       simd::load_records<dim>(as_constant(own_slots), own);
       largest.include(at_points.template update<method>(own, affine, keep, time_step), n_used);
@@ -284,12 +255,9 @@ namespace scree
             location[c] += time_step * at_points.velocity[c];
           simd::store_records<dim>(location, points.locations);
         }
-      // The slots of the gradient and of what is forgotten are behind the pressure.
+      // The slots of the gradient are behind the pressure.
       find_pressure<dim>(pressure, shape.x, width, pressure_there);
-      if (pressure.forgotten)
-        simd::store_records<2 + dim>(pressure_there, points.slots_at(layout.pressure));
-      else
-        simd::store_records<1 + dim>(pressure_there, points.slots_at(layout.pressure));
+      simd::store_records<1 + dim>(pressure_there, points.slots_at(layout.pressure));
     });
   }
 
@@ -335,20 +303,19 @@ namespace scree
                                        const MixtureNodes<dim> &nodes,
                                        const Mixture<dim> &mixture,
                                        const PressureOfCell<dim> &pressure,
-                                       const ForgottenOfCell<dim> &forgotten,
                                        const double time_step) const
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::flip:
-          return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, forgotten, time_step);
+          return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, time_step);
         case TransferMethod::apic:
-          return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, forgotten, time_step);
+          return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, time_step);
         case TransferMethod::aflip:
-          return move_water<n, TransferMethod::aflip>(water, nodes, mixture, pressure, forgotten, time_step);
+          return move_water<n, TransferMethod::aflip>(water, nodes, mixture, pressure, time_step);
         default:
-          return move_water<n, TransferMethod::tpic>(water, nodes, mixture, pressure, forgotten, time_step);
+          return move_water<n, TransferMethod::tpic>(water, nodes, mixture, pressure, time_step);
         }
     };
     if (grid.n_nodes_1d() == 2)

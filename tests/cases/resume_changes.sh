@@ -99,8 +99,8 @@ goes_on "$(in_subsection Transfer 'PIC rate = 2')" \
   'Changed from here on: subsection Transfer, entry "PIC rate" = 2, before 5.'
 base water_short
 refused "$(in_subsection Water 'Density = 1020')" 'subsection Water, entry "Density" = 1020'
-goes_on "$(in_subsection Transfer 'Method = AFLIP')" \
-  'Changed from here on: subsection Transfer, entry "Method" = AFLIP, before TPIC.'
+goes_on "$(in_subsection Transfer 'Method = TPIC')" \
+  'Changed from here on: subsection Transfer, entry "Method" = TPIC, before AFLIP.'
 goes_on "subsection Water
 $(in_subsection Pressure 'Relative tolerance = 1e-9')
 end" 'Changed from here on: subsection Water/Pressure, entry "Relative tolerance" = 1e-9, before 1e-12.'

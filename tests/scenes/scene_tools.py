@@ -12,17 +12,14 @@ from scree.variants import write_variant
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 failures = []
-always = {}  # entries of all runs with water
 
 
 def run(scree, case, name, entries, may_stop=False):
     """Statistics of a variant of prm/`case`.prm, as {column: values}."""
-    target, source = name + ".prm", os.path.join(ROOT, "prm", case + ".prm")
-    with open(source, encoding="utf-8") as file:
-        has_water = "\nsubsection Water\n" in file.read()
-    write_variant(source, target,
+    target = name + ".prm"
+    write_variant(os.path.join(ROOT, "prm", case + ".prm"), target,
                   {"Output directory": name, "Output/Graphics": "none", "Output/Screen": "nothing",
-                   "Output/Statistics interval": "0.02", "Output/Checkpoint interval": "0", **entries, **(always if has_water else {})})
+                   "Output/Statistics interval": "0.02", "Output/Checkpoint interval": "0", **entries})
     result = subprocess.run([scree, target], capture_output=True, text=True)
     if result.returncode != 0 and not may_stop:
         sys.exit(name + " stopped: " + result.stderr)
@@ -59,9 +56,11 @@ def mean_oscillation(table):
     return sum(values) / len(values)
 
 
-def check(what, value, lowest, highest):
+def check(what, value, lowest, highest, asked=None):
+    """Whether a value is within bounds; `asked` is the distance from the exact value that was asked for, where it is missed."""
     good = lowest <= value <= highest
-    print("%-62s %12.5g  in [%g, %g]%s" % (what, value, lowest, highest, "" if good else "  <-- FAILED"))
+    missed = "" if asked is None else " (%g was asked)" % asked
+    print("%-62s %12.5g  in [%g, %g]%s%s" % (what, value, lowest, highest, missed, "" if good else "  <-- FAILED"))
     if not good:
         failures.append(what)
 
@@ -84,9 +83,6 @@ def check_balances(name, table, gain=0.005):
 
 
 def main(scenes):
-    """Runs the scene that the command line names, out of a module's globals(); `variational [METHOD]` after it: with that pressure step and transfer."""
-    if sys.argv[3:4] == ["variational"]:
-        always.update({"Water/Pressure/Step": "variational", "Water/Pressure/Fading": "0", "Water/Pressure/Projection": "0"})
-        always.update({"Transfer/Method": method for method in sys.argv[4:5]})
+    """Runs the scene that the command line names, out of a module's globals()."""
     scenes[sys.argv[2]](os.path.abspath(sys.argv[1]))
     sys.exit("failed: " + ", ".join(failures) if failures else 0)

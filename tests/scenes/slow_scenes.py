@@ -45,7 +45,7 @@ def mass_scaling(scree):
     """The scaled motion is the plain one, slower: dry, on a bed, with a load, and with water."""
     similar(scree, "columns/mohr_coulomb_collapse", "collapse", 0.3, {}, {"Transfer/PIC rate": "0.05"})
     similar(scree, "bed/settled_layer", "on_bed", 0.1, {"Settling/Maximum time": "0"})
-    similar(scree, "consolidation/large_strain_consolidation", "mud", 5., {}, {"Water/Hydraulic conductivity": "1e-4"})
+    similar(scree, "consolidation/large_strain_consolidation", "mud", 5., {"Water/Pressure/Relative tolerance": "1e-11"}, {"Water/Hydraulic conductivity": "1e-4"})
     similar(scree, "consolidation/terzaghi", "load", 0.8829, {}, {"Water/Hydraulic conductivity": "1e-5"})
 
 

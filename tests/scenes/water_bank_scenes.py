@@ -39,7 +39,7 @@ def scene_of(seed):
         "Mesh/Upper corner": "1.5, 1.6", "Mesh/Cell size": "%g" % cell, "End time": "0.5", "Output/Statistics interval": "0.005",
         "Time step/Maximum time step": "auto", "Time step/Courant number": "%.2f" % rng.uniform(0.2, 0.7),
         "Water/Region": water, "Water/Points per cell": "%d" % points, "Water/Jitter": "%.2f" % rng.choice((0., 0.15, 0.3)),
-        "Water/Initial pressure": "none", "Water/Pressure/Step": "variational", "Water/Initial velocity": velocity}
+        "Water/Initial pressure": "none", "Water/Initial velocity": velocity}
     if has_soil:
         conductivity = 10 ** rng.uniform(-5, -1)
         entries.update({"Soil/Region": soil, "Soil/Points per cell": "%d" % points, "Soil/Jitter": entries["Water/Jitter"],

@@ -17,7 +17,6 @@ namespace scree
     unsigned int volume;            ///< of the water itself, m^3 (2D: per m)
     unsigned int pressure;          ///< Pa, compression positive
     unsigned int pressure_gradient; ///< Pa/m, dim
-    unsigned int forgotten;         ///< part of the pressure that the next step does not start from, 0 to 1
     unsigned int affine;            ///< dim x dim, row-major
     unsigned int end;               ///< past the last one
 
@@ -29,8 +28,7 @@ namespace scree
         , volume(mass + 1)
         , pressure(volume + 1)
         , pressure_gradient(pressure + 1)
-        , forgotten(pressure_gradient + dim)
-        , affine(forgotten + 1)
+        , affine(pressure_gradient + dim)
         , end(affine + (with_affine ? dim * dim : 0))
     {
     }

@@ -50,35 +50,33 @@ namespace scree
     /// water, but for parts inside the soil: these hold more or fewer of its points by chance, and have its porosity,
     /// or that of the cell where there is none.
     ///
-    /// @param filled volume of the cell that soil and water share, m^3
-    /// @param depths signed distances of the vertices from the surface of the soil, positive inside; null: no part is
-    ///        inside
-    void find(const double filled, const std::array<double, (1 << dim)> *depths = nullptr)
+    /// @param volume of the cell that is open, m^3
+    /// @param depths signed distances of the vertices from the surface of the soil, positive inside
+    void find(const double volume, const std::array<double, (1 << dim)> &depths)
     {
       Part cell;
-      if (depths != nullptr)
-        for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
-          {
-            cell.grains += parts[p].grains;
-            cell.volume += parts[p].volume;
-            cell.resistance += parts[p].resistance;
-            cell.inertial += parts[p].inertial;
-          }
+      for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
+        {
+          cell.grains += parts[p].grains;
+          cell.volume += parts[p].volume;
+          cell.resistance += parts[p].resistance;
+          cell.inertial += parts[p].inertial;
+        }
       // Less than `whole` is no scatter of points: to take it for that lends water at a face the grains of its
       // neighbourhood, and consolidating mud blows up.
-      const double whole = filled / dealii::Utilities::fixed_power<dim>(n_1d);
+      const double whole = volume / dealii::Utilities::fixed_power<dim>(n_1d);
       for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
         {
           Part &part           = parts[p];
-          const bool is_inside = depths != nullptr && depth_of(p, *depths) > 0.;
+          const bool is_inside = depth_of(p, depths) > 0.;
           if (is_inside && part.volume <= 0.)
             part = cell;
           if (part.volume > 0.)
             {
-              const double volume   = is_inside ? part.volume : std::max(part.volume, whole);
-              part.inverse_porosity = 1. / std::max(closures::least_porosity, 1. - part.grains / volume);
-              part.resistance /= volume;
-              part.inertial /= volume;
+              const double of_part  = is_inside ? part.volume : std::max(part.volume, whole);
+              part.inverse_porosity = 1. / std::max(closures::least_porosity, 1. - part.grains / of_part);
+              part.resistance /= of_part;
+              part.inertial /= of_part;
             }
         }
     }

@@ -58,7 +58,7 @@ namespace scree
     const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s
     VertexVector volume_inside, source, potential;
-    std::optional<NodeValues<dim, 2 * dim>> shifts; // of soil, not used, and of water, m
+    std::optional<NodeValues<dim, dim>> shifts; // of water, m
   };
 } // namespace scree
 

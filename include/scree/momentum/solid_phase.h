@@ -47,8 +47,7 @@ namespace scree
     }
 
     /// Moves bodies and loads after the solve of a step, and updates stress and state.
-    /// @param mixture of which the soil is a part, after its solve; null: dry
-    void to_points(const double time_step, StepReport<dim> &report, const Mixture<dim> *mixture = nullptr);
+    void to_points(const double time_step, StepReport<dim> &report);
 
     /// Appends the points of all bodies, then the markers of the loads.
     void append_point_sets(std::vector<PointSet<dim> *> &sets);

@@ -9,27 +9,24 @@
 
 namespace scree
 {
-  /// Soil and water at the nodes, tied by drag and stopped by walls: the predictor and the corrector of a fractional
-  /// step (@source{kularathna2021}; @source{yuan2023}).
+  /// Soil and water at the nodes, tied by drag and stopped by walls: the predictor and the corrector of a step.
   template <int dim>
   class TwoPhaseMomentum
   {
   public:
     /// Keeps references to all but the density.
     /// @param water_density kg/m^3
-    /// @param by_flux whether the discharge is an unknown
     TwoPhaseMomentum(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
                      const WallGaps<dim> &wall_gaps,
                      const BodyForces<dim> &forcing,
                      const double water_density,
-                     dealii::TimerOutput &timer,
-                     const bool by_flux = false);
+                     dealii::TimerOutput &timer);
 
     /// Fits what lives on the nodes to the grid's current partition. Collective.
     void reinit();
 
-    /// Where the discharge is an unknown, before predict(): finds n_i, coupling and drag of the step at the pores, and
+    /// Before predict(): finds n_i, coupling and drag of the step at the pores, and
     /// the momentum of soil and water from those of the mixture and of the discharge.
     /// @param excess see WaterTransfer::to_grid(), summed over ranks as `nodes`
     void find_flux_inertia(const MixtureNodes<dim> &nodes, const NodalField<dim> &excess, const double time_step);
@@ -74,18 +71,14 @@ namespace scree
     DragBlock<dim>
     pressed_block_at(const MixtureNodes<dim> &nodes, const PorePressure<dim> &pressure, const unsigned int node) const;
 
-    /// Whether rigid soil stands at an owned node.
-    bool is_rigid(const unsigned int node) const;
-
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;
 
+    /// Whether rigid soil stands at an owned node.
+    bool is_rigid(const unsigned int node) const;
+
     /// Gives rigid soil a dummy mass, so that the drag block is defined; its velocity is prescribed.
     void assign_rigid_mass(const MixtureNodes<dim> &nodes, const unsigned int node) const;
-
-    /// Turns the sums at a node's pores into drag times step and the fraction of grains.
-    void
-    compute_porosity_and_drag(const MixtureNodes<dim> &nodes, const unsigned int node, const double time_step) const;
 
     /// Momentum, forces and accelerations over the step, N s.
     SoilAndWater<dim> impulses_at(const MixtureNodes<dim> &nodes,
@@ -123,7 +116,6 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const double water_density;
     dealii::TimerOutput &timer;
-    const bool by_flux;
     WallFriction<dim> friction;
     NodeValues<dim, 2 * dim> pressure_impulses; // of the change of pressure on soil and water, N s
   };

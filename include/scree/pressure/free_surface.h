@@ -3,8 +3,6 @@
 #define scree_pressure_free_surface_h
 
 #include <scree/boundary/water_walls.h>
-#include <scree/mixture/menisci.h>
-#include <scree/bodies/pressure_parameters.h>
 #include <scree/mixture/closures.h>
 #include <scree/mixture/mixture.h>
 
@@ -21,35 +19,29 @@ namespace scree
     dry,        ///< 0
     unknown,    ///< a degree of freedom
     surface,    ///< extrapolated from unknown neighbours, so that it vanishes at the surface beside the vertex
-    beyond,     ///< extrapolated from those of kind surface that are inside the water
+    beyond,     ///< the same from those of kind surface that are inside the water
     prescribed, ///< by a drained wall
   };
 
   /// Where the water ends: kinds of the vertices, and the pressure at those beside the surface.
   ///
-  /// The fill F of a vertex (volume of water and wet grains under its linear function) gives its signed distance d from
-  /// a surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. What gently inclined ground
-  /// takes of the surroundings of free water counts as full, as it lies below its surface. Unknown are the vertices at
-  /// least a quarter of a cell inside. Those beside them hold p = d sum p_j / sum d_j of their unknown neighbours: p
-  /// is linear and vanishes at the surface, wherever that is in the cell. At the face of soil, vertices no less than
-  /// half full between two unknown ones where p is not negative are unknown, too: what closes there, a gap between two
-  /// bodies, has the pressure of both.
+  /// The fill F of a vertex (volume of water and the grains about it, under the linear function) gives its signed
+  /// distance d from a surface along the cells: F = (1 + d)^2/2 outside the water, 1 - (1 - d)^2/2 inside. Unknown are
+  /// the vertices at least .15 of a cell inside: no depth that rows of a lattice of points give, which would make a
+  /// vertex unknown in one step and not in the next. Those beside them hold p = d sum p_j / sum d_j of their unknown
+  /// neighbours: p is linear and vanishes at the surface, wherever that is in the cell.
   template <int dim>
   class FreeSurface
   {
   public:
     /// @param vertices the numbering of linear functions on the grid
-    /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
     /// @param air_entry pressure of the soil, Pa; 0: its water has no suction at the surface
-    /// @param by_flux whether the fill is that of the water's points with the grains about them
     FreeSurface(const BackgroundGrid<dim> &grid,
                 const NodeNumbering<dim> &vertices,
                 const WaterBoundaryConditions<dim> &walls,
-                const dealii::Tensor<1, dim> &gravity,
                 const CutCells<dim> *cut_cells,
-                const double air_entry = 0.,
-                const bool by_flux     = false);
+                const double air_entry = 0.);
 
     /// Fits the surface to the grid's current vertices. Collective.
     void reinit();
@@ -66,9 +58,6 @@ namespace scree
     /// Finds the surface, and fills `pressure` at the unknown vertices from the mixture's points (0 elsewhere but at
     /// drained walls). Collective.
     void locate(const Mixture<dim> &mixture, VertexVector &pressure);
-
-    /// Sets a pressure (or its change) at the vertices beside the surface. Collective; ghosts hold values afterwards.
-    void extrapolate(const Mixture<dim> &mixture, VertexVector &pressure);
 
     /// Sets a pressure at the vertices beside the surface from the unknown ones, whose ghosts hold values: p <- T p.
     /// Collective; ghosts hold values afterwards.
@@ -90,29 +79,7 @@ namespace scree
     /// Null: nothing.
     const VertexVector *suction_behind() const
     {
-      return by_flux && menisci.exist() ? &suction : nullptr;
-    }
-
-    /// Whether menisci in the pores make the pressure at the surface differ from 0, in extrapolate_with_menisci().
-    bool has_menisci() const
-    {
-      return !by_flux && menisci.exist();
-    }
-
-    /// As extrapolate(), with the pressure of menisci at the surface.
-    /// @param is_start whether `pressure` is that of the start of a step, or its change
-    /// @param pull becomes what they add at each vertex: the grains bear a force of its gradient, the
-    ///        reaction of the menisci. Its ghosts hold values afterwards
-    void extrapolate_with_menisci(const Mixture<dim> &mixture,
-                                  const bool is_start,
-                                  VertexVector &pressure,
-                                  VertexVector &pull);
-
-    /// The least pressure that an unknown vertex can have, Pa.
-    /// @param cavitation pressure, Pa
-    double least_pressure(const unsigned int vertex, const double cavitation) const
-    {
-      return menisci.least_pressure(vertex, cavitation);
+      return has_suction() ? &suction : nullptr;
     }
 
     /// Type of a vertex of this rank's cells, ghosts included, as locate() has found it.
@@ -121,22 +88,16 @@ namespace scree
       return kinds[vertex];
     }
 
-    /// Pressure at `surface_vertex` over that at an unknown vertex of the same cell, as the matrix sees it.
+    /// Pressure at `surface_vertex` over that at an unknown vertex of the same cell, as the preconditioner sees it.
     double ratio(const unsigned int surface_vertex, const unsigned int unknown_vertex) const
     {
-      return distances[surface_vertex] / depth(unknown_vertex, surface_vertex);
+      return distances[surface_vertex] / distances[unknown_vertex];
     }
 
     /// Volume of water under the linear function of an owned vertex, m^3.
     double water_volume(const unsigned int vertex) const
     {
       return filling[vertex][Filling::water];
-    }
-
-    /// What the water's points forget of the pressure under the linear function of an owned vertex, 0 to 1.
-    double forgotten(const unsigned int vertex) const
-    {
-      return filling[vertex][Filling::weighted_forgotten] / water_volume(vertex);
     }
 
     /// Whether no grains are under the linear function of an owned vertex.
@@ -169,12 +130,6 @@ namespace scree
       return is_drained(face) && walls.pressure(1u << face) != 0.;
     }
 
-    /// Whether the pressure keeps the water of a cell of this rank out of the ground.
-    bool keeps_from_ground(const unsigned int cell) const
-    {
-      return by_flux && has_unknown(cell);
-    }
-
     /// Whether a cell of this rank has an unknown vertex.
     bool has_unknown(const unsigned int cell) const
     {
@@ -204,31 +159,23 @@ namespace scree
     /// open.
     enum Filling : unsigned int
     {
-      water,              // m^3
-      filled,             // by water and wet grains, m^3
-      weighted_pressure,  // Pa m^3
-      weighted_forgotten, // m^3
-      wet_cells,
-      by_scatter // of `filled`: grains that are wet because the scatter of points explains what water lacks, m^3
+      water,             // m^3
+      filled,            // by water and the grains about it, m^3
+      weighted_pressure, // Pa m^3
+      wet_cells
     };
 
     /// Of the neighbours inside the water of a vertex beside the surface.
     enum Neighbours : unsigned int
     {
       number,
-      sum_of_distances, // cells
-      sum_of_pressures, // Pa
-      sum_of_pulls      // Pa
+      sum_of_distances // cells
     };
 
-    /// Distance of a vertex from the surface that is beside its neighbour, cells. Fills near 1 tell it badly, and not
-    /// at all beyond one cell: a vertex deeper than its neighbour in the water is taken to be a cell deeper.
-    double depth(const unsigned int vertex, const unsigned int neighbour) const
+    /// Whether dry soil behind the surface pulls at the water.
+    bool has_suction() const
     {
-      const double own = distances[vertex], from_neighbour = 1. + distances[neighbour];
-      if (by_flux || distances[neighbour] <= 0. || own < 0.5)
-        return own;
-      return own + std::min(4. * (own - 0.5), 1.) * std::max(from_neighbour - own, 0.);
+      return air_entry > 0.;
     }
 
     /// Calls `act(vertex, neighbour)` for the vertices of a kind and those of another kind (inside the water, if they
@@ -254,22 +201,7 @@ namespace scree
     /// Finds what rigid ground takes from the vertices' surroundings. Collective.
     void find_closed();
 
-    /// The fill of a vertex's linear function with what ground below free water takes of it, from that of the open
-    /// part.
-    double fill_with_ground(const unsigned int vertex, const double fill) const;
-    /// Whether all cells around a vertex hold water.
-    bool is_among_wet_cells(const unsigned int vertex) const;
     void sum_filling(const Mixture<dim> &mixture);
-
-    /// Whether grains take a part of what fills a vertex's linear function that is no scatter.
-    bool is_in_soil(const unsigned int vertex) const
-    {
-      const double *sums = filling[vertex];
-      return sums[filled] - sums[water] >= closures::least_solid_fraction * sums[filled] && sums[filled] > 0.;
-    }
-
-    /// Whether menisci keep water with a suction at a vertex beside the surface.
-    bool keeps_water(const unsigned int vertex);
 
     /// The pressure of a vertex's points, Pa.
     double pressure_of_points(const unsigned int vertex) const
@@ -279,10 +211,8 @@ namespace scree
 
     /// Sums what the soil of a mixture fills under the vertices' linear functions. Collective.
     void sum_soil(const Mixture<dim> &mixture);
+    /// Finds suction_behind(). Collective.
     void find_suction();
-
-    /// Makes the vertices in gaps unknown. Collective.
-    void close_gaps(const Mixture<dim> &mixture, VertexVector &pressure);
 
     /// Calls `act(vertex)` for the owned vertices that any rank's water may touch, and for the ghosts that this rank's
     /// water touches: for these more than once.
@@ -315,15 +245,11 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
     const WaterBoundaryConditions<dim> &walls;
-    const bool by_flux;
-    const dealii::Tensor<1, dim> down; // unit, or 0
     const CutCells<dim> *cut_cells;    // may be null
-    NodeValues<dim, 6> filling;        // Filling
+    NodeValues<dim, 4> filling;        // Filling
     NodeValues<dim, 1> soil;           // grains and pores under a vertex's linear function, m^3
-    NodeValues<dim, 4> neighbours;     // Neighbours
+    NodeValues<dim, 2> neighbours;     // Neighbours
     const double air_entry;            // Pa
-    Menisci<dim> menisci;
-    NodeValues<dim, 2 * dim> sides; // number of neighbours that press, on each side along each axis
     std::vector<PressureDofType> kinds;
     std::vector<double> distances; // cells; positive in the water
     std::array<Followers, 2> followers;
@@ -333,7 +259,6 @@ namespace scree
     // Without ground they are empty.
     std::vector<double> closed_volume; // under a vertex's linear function, m^3
     std::vector<double> closed_cells;  // around a vertex, each as far as it is closed
-    std::vector<double> full_ground;   // part of a vertex's linear function that lies in ground below level water
   };
 } // namespace scree
 

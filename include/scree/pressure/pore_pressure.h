@@ -3,8 +3,6 @@
 #define scree_pressure_pore_pressure_h
 
 #include <scree/pressure/free_surface.h>
-#include <scree/pressure/divergence.h>
-#include <scree/pressure/pressure_memory.h>
 #include <scree/pressure/pressure_solver.h>
 #include <scree/step/budget.h>
 #include <scree/step/timer_section.h>
@@ -12,21 +10,18 @@
 namespace scree
 {
   /// The pore pressure p at the vertices of the cells: where the water ends, p at the start of a step, and the system
-  /// for its change dp, L dp = -div[(1-n) v_s* + n v_w*] (@source{kularathna2021}; @source{yuan2023}), with the drag in
-  /// L.
+  /// for its change dp, S dp = -T^T (B u* - c - H p) (SchurOperator), with the drag in S.
   template <int dim>
   class PorePressure
   {
   public:
     using AtVertices = std::array<double, (1 << dim)>; ///< a number a vertex of a cell, in deal.II's order
 
-    /// @param gravity m/s^2
     /// @param cut_cells what rigid ground leaves of the cells; null: all
     PorePressure(const BackgroundGrid<dim> &grid,
                  const WaterBoundaryConditions<dim> &walls,
                  const PressureParameters &parameters,
                  const WaterParameters &water,
-                 const dealii::Tensor<1, dim> &gravity,
                  const CutCells<dim> *cut_cells,
                  const GroundGaps<dim> &ground_gaps,
                  dealii::TimerOutput &timer);
@@ -45,19 +40,11 @@ namespace scree
 
     /// Solves for the change of the pressure over a step from the predicted velocities, whose ghosts hold values.
     /// Collective.
-    /// @param mixture gets the drag of the predicted flow and the mobilities of its cells
-    /// @param shear_modulus of the soil, Pa: scales the pressure projection
+    /// @param mixture gets the mobilities of its cells
     void solve(Mixture<dim> &mixture,
                const MixtureNodes<dim> &nodes,
                const double time_step,
-               const double shear_modulus,
                Budget<dim> &balance);
-
-    /// Whether SchurOperator is the matrix.
-    bool is_variational() const
-    {
-      return variational;
-    }
 
     /// See FreeSurface.
     void find_soil_depths(Mixture<dim> &mixture)
@@ -91,7 +78,7 @@ namespace scree
     }
 
     /// The same of a potential as of a pressure.
-    const FlowField<dim> &impulses_of(const VertexVector &potential, const double time_step)
+    const FlowField<dim> &impulses(const VertexVector &potential, const double time_step)
     {
       return schur.impulses(potential, time_step);
     }
@@ -106,35 +93,13 @@ namespace scree
     PressedNodes<dim> pressed_nodes;
 
     /// Adds the change to the pressure, which is that of the end of the step from here on. Collective.
-    /// @param soil velocity and its change over the step, as `water`, at nodes whose ghosts hold values
-    void accept_change(const Mixture<dim> &mixture,
-                       const NodalField<dim> &soil,
-                       const NodalField<dim> &water,
-                       const PoreField<dim> &pores);
-
-    /// See MixtureDivergence.
-    void find_volume_factors(Mixture<dim> &mixture,
-                             const NodalField<dim> &soil,
-                             const NodalField<dim> &water,
-                             const PoreField<dim> &pores,
-                             const double time_step)
-    {
-      gaps.find(mixture);
-      divergence.find_volume_factors(mixture, soil, water, pores, gaps, time_step);
-    }
+    void accept_change();
 
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
     /// @param potential what it holds is the first guess; its ghosts hold values afterwards
-    void solve_potential(const Mixture<dim> &mixture,
-                         const VertexVector &source,
+    void solve_potential(const VertexVector &source,
                          VertexVector &potential,
                          Budget<dim> &balance);
-
-    /// Whether the next step forgets anything of the pressure.
-    bool fades() const
-    {
-      return memory.is_on();
-    }
 
     /// Pressure at the vertices of a cell with points, Pa, in deal.II's order.
     AtVertices pressure_of(const unsigned int cell) const
@@ -144,37 +109,6 @@ namespace scree
         for (unsigned int v = 0; v < result.size(); ++v)
           result[v] += suction->local_element(vertices.nodes(cell)[v]);
       return result;
-    }
-
-    /// Change of the pressure over the step at the vertices of a cell, Pa.
-    AtVertices change_of(const unsigned int cell) const
-    {
-      return at_vertices(change, cell);
-    }
-
-    /// Whether menisci pull at the grains.
-    bool has_menisci() const
-    {
-      return surface.has_menisci();
-    }
-
-    /// What menisci add to the pressure at the vertices of a cell, and to its change over the step, Pa: the grains bear
-    /// a force of its gradient, the reaction of the menisci. To be asked for only if there are any.
-    AtVertices pull_of(const unsigned int cell) const
-    {
-      return at_vertices(pull, cell);
-    }
-
-    /// See pull_of().
-    AtVertices change_of_pull(const unsigned int cell) const
-    {
-      return at_vertices(pull_change, cell);
-    }
-
-    /// Part of the pressure at the vertices of a cell that the next step does not start from, 0 to 1.
-    AtVertices forgotten_of(const unsigned int cell) const
-    {
-      return memory.forgotten_at(vertices_of(cell));
     }
 
     /// Values of a vector at the vertices of a cell.
@@ -202,24 +136,14 @@ namespace scree
     static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
     void reinit_vectors();
 
-    /// Sets the pressure, or its change, at the vertices beside the surface. Collective.
-    void extrapolate(const Mixture<dim> &mixture, const bool is_start, VertexVector &values);
-
-    void compute_pressure_coefficients(Mixture<dim> &mixture,
-                                       const NodalField<dim> &soil,
-                                       const NodalField<dim> &water,
-                                       const double time_step) const;
-
-    /// The same where the discharge is an unknown.
+    /// What a pressure gradient does to the flow in the cells.
     void find_mobilities(Mixture<dim> &mixture, const double time_step) const;
-    void assemble(const Mixture<dim> &mixture, const double time_step, const double shear_modulus);
 
     /// Adds a solve to the counts of the run.
     void count(const SolveReport &report, Budget<dim> &balance) const;
 
     const BackgroundGrid<dim> &grid;
-    const double relative_tolerance, projection, bulk_modulus, cavitation_pressure;
-    const bool variational;
+    const double relative_tolerance, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
     NodeNumbering<dim> vertices;
@@ -227,12 +151,8 @@ namespace scree
     FilledPart<dim> part;
     PressurePair<dim> pair;
     SchurOperator<dim> schur;
-    SoilGaps<dim> gaps;
-    MixtureDivergence<dim> divergence;
     PressureSolver<dim> solver;
-    PressureMemory<dim> memory;
     VertexVector pressure, change, source;
-    VertexVector pull, pull_change; // of menisci; empty without these
   };
 } // namespace scree
 

@@ -9,7 +9,7 @@
 
 namespace scree
 {
-  /// The matrix L of the pressure's system, applied cell by cell and never stored.
+  /// The matrix L that preconditions the pressure's system: cells that hold water, and which vertices are unknown.
   ///
   /// L = dt sum kappa K with the Laplacian K of one cell and the mobility kappa of the mixture's cells; vertices beside
   /// the surface enter through the unknown ones. Vectors are by local number of a PressureNumbering.
@@ -25,7 +25,6 @@ namespace scree
     {
       std::array<unsigned int, n_vertices> numbers; ///< local numbers of its vertices
       double mobility;                              ///< dt kappa h^(dim-2), m^3/(Pa s)
-      double projection;                            ///< tau of the pressure projection times volume, m^3/(Pa s)
     };
 
     /// Keeps references to all of them.
@@ -40,11 +39,7 @@ namespace scree
     void assemble(const Mixture<dim> &mixture,
                   const FreeSurface<dim> &surface,
                   const double time_step,
-                  const std::function<double(unsigned int vertex)> &storage,
-                  const double projection);
-
-    /// Sets `target` to L `source` at the owned numbers. Collective.
-    void vmult(VertexVector &target, const VertexVector &source) const;
+                  const std::function<double(unsigned int vertex)> &storage);
 
     /// Takes the owned numbers that are held out of the unknown ones, like those of a drained wall. Collective.
     void hold(const std::vector<char> &is_held);
@@ -88,7 +83,7 @@ namespace scree
       CellMatrix own;
       for (unsigned int v = 0; v < n_vertices; ++v)
         for (unsigned int w = 0; w < n_vertices; ++w)
-          own[v][w] = cell.mobility * laplacian[v][w] + cell.projection * fluctuation[v][w];
+          own[v][w] = cell.mobility * laplacian[v][w];
       return own;
     }
 
@@ -108,7 +103,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
     const PressureNumbering<dim> &numbering;
-    CellMatrix laplacian, fluctuation; // of the unit cell
+    CellMatrix laplacian; // of the unit cell
 
     std::vector<Cell> wet_cells;
     std::vector<char> unknown, all_unknown; // by number; the second: before hold()

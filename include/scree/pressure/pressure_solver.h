@@ -3,6 +3,7 @@
 #define scree_pressure_pressure_solver_h
 
 #include <scree/pressure/pressure_operator.h>
+#include <scree/bodies/pressure_parameters.h>
 #include <scree/pressure/schur_operator.h>
 
 #include <functional>
@@ -21,52 +22,45 @@ namespace scree
     bool made_preconditioner  = false; ///< whether the preconditioner was set up anew
   };
 
-  /// The system for the change of the pressure, L dp = b, on the vertices of the cells that hold water.
+  /// The system for the change of the pressure, S dp = b, on the vertices of the cells that hold water.
   ///
-  /// The matrix (PressureOperator) is applied cell by cell and never stored, but for the algebraic multigrid
-  /// preconditioner of the conjugate gradients, which is kept over steps and made anew when it gets worse. The
+  /// The matrix (SchurOperator) is applied cell by cell and never stored. The algebraic multigrid preconditioner of the
+  /// conjugate gradients is that of L (PressureOperator); it is kept over steps and made anew when it gets worse. The
   /// numbering of the unknowns, too, serves many steps.
   template <int dim>
   class PressureSolver
   {
   public:
-    /// Keeps references to grid and vertices.
+    /// Keeps references to grid, vertices and matrix.
     PressureSolver(const BackgroundGrid<dim> &grid,
                    const NodeNumbering<dim> &vertices,
+                   SchurOperator<dim> &schur,
                    const PressureParameters &parameters);
     ~PressureSolver();
-
-    /// The matrix is this one from here on, and L its preconditioner.
-    void set_matrix(SchurOperator<dim> &matrix)
-    {
-      schur = &matrix;
-    }
 
     /// Forgets what belongs to another partition of the mesh.
     void reinit();
 
-    /// Sets the matrix. Collective.
+    /// Sets the diagonal of the matrix and its preconditioner. Collective.
     /// @param storage what the diagonal of a vertex gains: of compressible water, m^3/(Pa s)
-    /// @param projection tau of the pressure projection over the step, 1/(Pa s); 0: none
     void assemble(const Mixture<dim> &mixture,
                   const FreeSurface<dim> &surface,
                   const double time_step,
-                  const std::function<double(unsigned int vertex)> &storage,
-                  const double projection);
+                  const std::function<double(unsigned int vertex)> &storage);
 
     /// Solves for the change of the pressure, Pa, at the unknown vertices (0 at the others); `rhs`, m^3/s, is read at
     /// owned unknown vertices. Starts from what `change` holds, and ends when the residual is below this part of the
-    /// right-hand side. What `pressure` drives sets the size below which a
-    /// residual is rounding. Collective; throws if the solver does not converge.
+    /// right-hand side or of S times `pressure`: each step finds the whole pressure, so that what is left does not add
+    /// up over steps. Collective; throws if the solver does not converge.
     SolveReport
     solve(const VertexVector &rhs, const VertexVector &pressure, const double relative_tolerance, VertexVector &change);
 
-    /// Keeps the pressure of a vertex from falling below `least(vertex)`, Pa: where the solution of solve(), in
+    /// Keeps the pressure of a vertex from falling below `least`, Pa: where the solution of solve(), in
     /// `change`, would take it there, it is prescribed, and the mixture opens; it is set free again where the mixture
-    /// would close, L dp < b. A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is
+    /// would close, S dp < b. A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is
     /// below. To be called right after solve(). Collective; throws as solve().
     /// @return what the solves took; the owned vertices that are held at `least`
-    std::pair<SolveReport, unsigned int> enforce_least_pressure(const std::function<double(unsigned int vertex)> &least,
+    std::pair<SolveReport, unsigned int> enforce_least_pressure(const double least,
                                                                 const VertexVector &pressure,
                                                                 VertexVector &change);
 
@@ -95,7 +89,7 @@ namespace scree
     /// Solves the system from what `solution` holds; adds to the report.
     void converge(SolveReport &report);
 
-    /// Solves with `solution` prescribed where `is_held`, by owned number; `residual` is L dp - b then, at all.
+    /// Solves with `solution` prescribed where `is_held`, by owned number; `residual` is S dp - b then, at all.
     void solve_held(const std::vector<char> &is_held, VertexVector &residual, SolveReport &report);
 
     const BackgroundGrid<dim> &grid;
@@ -103,12 +97,12 @@ namespace scree
     PressureNumbering<dim> numbering;
     PressureOperator<dim> system;
     const unsigned int maximum_iterations;
-    SchurOperator<dim> *schur = nullptr;   // null: L
+    SchurOperator<dim> &schur;
     VertexVector of_schur, times_schur;    // by vertex
-    std::vector<double> storage_of_number; // with it: on the diagonal, of owned numbers
+    std::vector<double> storage_of_number; // on the diagonal, of owned numbers
 
     VertexVector source, solution, scratch; // by number
-    // Of iterate(): what is left of the source, that preconditioned, that times L; the step's direction, that times L.
+    // Of iterate(): what is left of the source, that preconditioned, that times S; the step's direction, that times S.
     VertexVector remainder, preconditioned, product, direction, direction_product;
     double tolerance = 0; // of the last solve's residual, m^3/s
 

@@ -13,13 +13,13 @@
 
 namespace scree
 {
-  /// Soil and water: explicit soil, implicit drag, and pressure by an incremental fractional step
-  /// (@source{kularathna2021}; @source{yuan2023}; two sets of points: @source{xie2024}).
+  /// Soil and water: explicit soil, implicit drag, and a pressure whose force is the transpose of the divergence
+  /// (doc/theory/two_phases.md; two sets of points: @source{xie2024}).
   ///
-  /// 1. Predictor with the old pressure: A v* = m v + dt (f - G p^n), where A holds masses and drag (TwoPhaseMomentum).
-  ///    Then the viscosity: (A + dt K) v** = A v* (ViscousStep).
-  /// 2. Pressure: L dp = -div[(1-n) v_s* + n v_w*], with the drag in L (PorePressure).
-  /// 3. Corrector: v = v* - dt A^-1 G dp (TwoPhaseMomentum).
+  /// 1. Predictor with the old pressure: A v* = m v + dt (f + B^T p^n), where A holds masses and drag
+  ///    (TwoPhaseMomentum). Then the viscosity: (A + dt K) v** = A v* (ViscousStep).
+  /// 2. Pressure: S dp = -(B u** - c), with u = v_s + n (v_w - v_s) and the drag in S (PorePressure).
+  /// 3. Corrector: v = v** + dt A^-1 B^T dp (TwoPhaseMomentum).
   ///    Soil is stopped at the ground after the predictor, soil and water after the corrector (CutCellContact).
   /// 4. Points of free water leave where they crowd (ParticleShifting).
   ///
@@ -48,14 +48,10 @@ namespace scree
     /// Sums of the water's points and of the soil's pores.
     void gather();
 
-    /// Grains in water, at the nodes; makes all fields active where any is.
-    void complete_pores();
+    /// Makes all fields active where any is.
+    void activate_nodes();
 
-    /// The force of the old pressure on soil and water.
-    void add_pressure_forces();
-
-    /// Where the discharge is an unknown: what the nodes' sums over ranks say of it, and the force of the old pressure.
-    /// Collective.
+    /// What the nodes' sums over ranks say of the discharge, and the force of the old pressure. Collective.
     void find_pair(const double time_step);
 
     /// What the predictor starts from at the nodes: sums of all ranks, forces of loads and of the old pressure, walls
@@ -72,7 +68,7 @@ namespace scree
     /// The water's part of to_points().
     void move_water(const double time_step, StepReport<dim> &report);
 
-    /// Books what is known at the end of a step only, and fits the pressure to it. Collective.
+    /// Books what is known at the end of a step only. Collective.
     void end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
 
     /// Takes points back that have left through the box or the ground.
@@ -84,10 +80,8 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const BodyForces<dim> &forces;
     const double fluidisation_porosity;
-    Drainage drainage    = Drainage::undrained;
-    double shear_modulus = 0; // largest of the bodies, Pa
+    Drainage drainage = Drainage::undrained;
     std::list<WaterPhase<dim>> &water;
-    const bool limits_volumetric_strain;                            // that soil loses where a solve leaves it closing
     const std::uint8_t faces_closed_to_soil, faces_closed_to_water; // of the box
     const std::list<Inflow<dim>> &inflows;
     dealii::TimerOutput &timer;

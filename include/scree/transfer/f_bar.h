@@ -62,12 +62,10 @@ namespace scree
   /// averaging").
   ///
   /// @param first of the cell's points in the block
-  /// @param volume_factor what the mean of dJ, and the change of the points' volume, are multiplied by
   template <int dim>
   void apply_f_bar(const FBar kind,
                    const unsigned int first,
                    const MaterialPoints<dim> &points,
-                   const double volume_factor,
                    BlockMotion<dim> &motion);
 } // namespace scree
 

@@ -48,11 +48,11 @@ namespace scree
     std::memcpy(sums.data(), &sum, sizeof(sum));
   }
 
-  /// The monomials x^m of places of a cell, bit a of m standing for x_a.
+  /// The monomials x^m of places of a cell but that of all axes, bit a of m standing for x_a.
   template <int dim, typename Number, typename Place>
-  std::array<Number, Mixture<dim>::n_moments> monomials(const Place &x)
+  std::array<Number, (1 << dim) - 1> monomials(const Place &x)
   {
-    std::array<Number, Mixture<dim>::n_moments> values;
+    std::array<Number, (1 << dim) - 1> values;
     values[0] = simd::broadcast<Number>(1.);
     for (unsigned int a = 0; a < dim; ++a)
       for (unsigned int m = 0; m < (1u << a); ++m)
@@ -60,41 +60,6 @@ namespace scree
           values[with] = values[m] * x[a];
     return values;
   }
-
-  /// Moments of volumes of a cell's points at rows of nodes, m^3. Not those of the mixture, so that they may stay in
-  /// registers from point to point.
-  template <int dim, int n>
-  class MomentSums
-  {
-  public:
-    /// Adds the moments of a point's volume.
-    template <typename Shape>
-    DEAL_II_ALWAYS_INLINE inline void add(const Shape &shape, const double volume)
-    {
-      const NodeRow volume_x = shape.value_x * volume;
-      const auto powers      = monomials<dim, double>(shape.x);
-      for (unsigned int r = 0; r < n_rows; ++r)
-        {
-          const NodeRow volume_of_row = volume_x * shape.rows.value[r];
-          for (unsigned int m = 0; m < n_moments; ++m)
-            sums[r][m] += volume_of_row * powers[m];
-        }
-    }
-
-    /// Adds the sums to rows of the mixture.
-    void add_to(NodeRow *moments) const
-    {
-      for (unsigned int r = 0; r < n_rows; ++r)
-        for (unsigned int m = 0; m < n_moments; ++m)
-          moments[r * n_moments + m] += sums[r][m];
-    }
-
-  private:
-    static constexpr unsigned int n_rows    = RowFactors<dim, n>::n_rows;
-    static constexpr unsigned int n_moments = Mixture<dim>::n_moments;
-
-    NodeRow sums[n_rows][n_moments] = {};
-  };
 
   /// Adds a point's number, shared by the shape functions, to rows of nodes.
   template <typename Shape, unsigned long n_rows>
@@ -117,14 +82,12 @@ namespace scree
 
   /// Adds volume and pressure of a point of water to the corners of its cell.
   ///
-  /// @param forgotten part of the pressure that the step does not start from
   /// @param rise of the pressure along each axis over the cell's width, Pa
   template <int dim>
   DEAL_II_ALWAYS_INLINE inline void add_to_vertices(const dealii::Point<dim> &x,
                                                     const double volume,
                                                     const double pressure,
                                                     const std::array<double, dim> &rise,
-                                                    const double forgotten,
                                                     MixtureCell<dim> &sums)
   {
     double pressure_at_lower = pressure;
@@ -136,7 +99,6 @@ namespace scree
     const VertexRow<dim> volume_at_vertex = volume * vertex_values(x);
     add_row<dim>(volume_at_vertex, sums.water_at_vertex);
     add_row<dim>(volume_at_vertex * pressure_at_vertex, sums.pressure_at_vertex);
-    add_row<dim>(volume_at_vertex * forgotten, sums.forgotten_at_vertex);
   }
 } // namespace scree
 

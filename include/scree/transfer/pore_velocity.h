@@ -7,13 +7,10 @@
 
 namespace scree
 {
-  /// Velocity of a cell's nodes as points of water take it: v_g + (n_i/n_p) (v_w - v_g), n_p the porosity about the
-  /// point, 1/n_i the mean of 1/n_p over the water of a node. A flux U that does not change where soil begins moves the
-  /// points by U/n_p on either side, instead of by the mean over the node's surroundings; and since
-  /// sum m_p phi_i n_i/n_p is the node's mass, their momentum is that of the nodes, whatever n_p and v_g are.
-  ///
-  /// v_g = v_w + s_i (v_s - v_w) is the velocity of the grains that the water passes, s_i of soil_share(): the soil's,
-  /// but where the node has next to nothing of the grains that n_p tells of.
+  /// Velocity of a cell's nodes as points of water take it: v_s + (n_i/n_p) (v_w - v_s), n_p the porosity about the
+  /// point, 1/n_i the mean of 1/n_p over the water of a node. A discharge that does not change where soil begins moves
+  /// the points by q/n_p on either side, instead of by the mean over the node's surroundings; and since
+  /// sum m_p phi_i n_i/n_p is the node's mass, their momentum is that of the nodes, whatever n_p and v_s are.
   template <int dim, int n>
   class PoreVelocity
   {
@@ -23,21 +20,19 @@ namespace scree
     {
       bool any = false;
       for (unsigned int i = 0; i < n_nodes; ++i)
-        any |= pores[nodes[i]][PoreField<dim>::local_solid_volume] > 0.;
+        any |= pores[nodes[i]][PoreField<dim>::grain_fraction] > 0.;
       return any;
     }
 
     /// @param ids of the cell's nodes
     /// @param water its velocity at them
-    /// @param water_density kg/m^3
     /// @param width of the cell, m
     PoreVelocity(const unsigned int *ids,
                  const CellVelocity<dim, n> &water,
                  const MixtureNodes<dim> &nodes,
-                 const double water_density,
                  const double width)
-        : grains(water.moved(shares(ids, nodes.pores), CellVelocity<dim, n>(ids, nodes.soil, width)))
-        , flux(water.weighted_difference(porosities(ids, nodes, water_density), grains))
+        : grains(ids, nodes.soil, width)
+        , flux(water.weighted_difference(porosities(ids, nodes.pores), grains))
     {
     }
 
@@ -54,30 +49,16 @@ namespace scree
     static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
 
     /// n_i
-    static std::array<double, n_nodes>
-    porosities(const unsigned int *ids, const MixtureNodes<dim> &nodes, const double water_density)
+    static std::array<double, n_nodes> porosities(const unsigned int *ids, const PoreField<dim> &pores)
     {
       std::array<double, n_nodes> result;
       for (unsigned int i = 0; i < n_nodes; ++i)
-        {
-          const double mass   = nodes.water[ids[i]][NodalField<dim>::mass];
-          const double grains = nodes.pores[ids[i]][PoreField<dim>::local_solid_volume];
-          result[i]           = grains > 0. ? mass / (mass + water_density * grains) : 1.;
-        }
+        result[i] = 1. - pores[ids[i]][PoreField<dim>::grain_fraction];
       return result;
     }
 
-    /// s_i
-    static std::array<double, n_nodes> shares(const unsigned int *ids, const PoreField<dim> &pores)
-    {
-      std::array<double, n_nodes> result;
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        result[i] = pores[ids[i]][PoreField<dim>::soil_share];
-      return result;
-    }
-
-    const CellVelocity<dim, n> grains; // v_g
-    const CellVelocity<dim, n> flux;   // n_i (v_w - v_g)
+    const CellVelocity<dim, n> grains; // v_s
+    const CellVelocity<dim, n> flux;   // n_i (v_w - v_s)
   };
 } // namespace scree
 

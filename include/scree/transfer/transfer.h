@@ -6,7 +6,6 @@
 #include <scree/bodies/soil_body.h>
 #include <scree/particles/batch_pointers.h>
 #include <scree/transfer/f_bar.h>
-#include <scree/mixture/mixture.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <vector>
@@ -37,12 +36,9 @@ namespace scree
 
     /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
     /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
-    ///
-    /// @param mixture whose cells know factors of the soil's volume; null: none do
     MotionReport to_points(SoilBody<dim> &body,
                            const NodalField<dim> &field,
-                           const double time_step,
-                           const Mixture<dim> *mixture = nullptr);
+                           const double time_step);
 
   private:
     template <int n, TransferMethod method>
@@ -51,7 +47,7 @@ namespace scree
     /// to_points() for cells of n nodes along each axis.
     template <int n, TransferMethod method>
     MotionReport
-    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step, const Mixture<dim> *mixture);
+    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     ///

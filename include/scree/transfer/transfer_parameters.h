@@ -46,15 +46,12 @@ namespace scree
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method = "auto"; ///< FLIP | APIC | TPIC | AFLIP; auto until choose_method()
-    std::string rate   = "auto"; ///< entry "PIC rate": a number in 1/s, or auto
-    double pic_rate    = 1;      ///< 1/s, what choose_rate() has made of the entry
+    std::string method = "AFLIP"; ///< FLIP | APIC | TPIC | AFLIP
+    std::string rate   = "auto";  ///< entry "PIC rate": a number in 1/s, or auto
+    double pic_rate    = 1;       ///< 1/s, what choose_rate() has made of the entry
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
-
-    /// Sets a method of `auto`: AFLIP, with water TPIC.
-    void choose_method(const bool has_water);
 
     /// Throws EntryError at a rate that is none, or that the method does not read.
     void check() const;
@@ -69,7 +66,7 @@ namespace scree
     /// The method, and its rate if it has one, as the log tells it.
     std::string text() const;
 
-    /// Entry `Method` as an enum; AFLIP of `auto`.
+    /// Entry `Method` as an enum.
     TransferMethod transfer_method() const;
 
     /// Whether points carry an affine velocity field, see carries_affine().

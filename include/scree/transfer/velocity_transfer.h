@@ -127,16 +127,6 @@ namespace scree
       return difference;
     }
 
-    /// This velocity, moved towards another one by a share of their difference, of each node.
-    CellVelocity moved(const std::array<double, n_nodes> &share, const CellVelocity &towards) const
-    {
-      CellVelocity between(width);
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        for (unsigned int c = 0; c < pitch; ++c)
-          between.values[i * pitch + c] =
-              (1. - share[i]) * values[i * pitch + c] + share[i] * towards.values[i * pitch + c];
-      return between;
-    }
 
     /// What points take by a method, and the gradient if that or the caller reads it.
     template <TransferMethod method, bool with_gradient>

@@ -7,49 +7,32 @@
 #include <scree/mixture/mixture.h>
 #include <scree/transfer/transfer.h>
 
-#include <algorithm>
-#include <optional>
-
 namespace scree
 {
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
   template <int dim>
-  class PoreField : public NodeValues<dim, 6>
+  class PoreField : public NodeValues<dim, 4>
   {
   public:
-    static constexpr unsigned int drag           = 0; ///< of slow flow over q, N s/m; then C of the step, kg
-    static constexpr unsigned int inertial_drag  = 1; ///< the same over q^2, N s^2/m^2; then over the slip, kg s/m
-    static constexpr unsigned int grain_volume   = 2; ///< sum S V_grains phi_i, m^3
-    static constexpr unsigned int grain_fraction = 2; ///< then: volume of grains over that of grains and water
+    static constexpr unsigned int drag          = 0; ///< of slow flow over q, N s/m; then C + e of the step, kg
+    static constexpr unsigned int inertial_drag = 1; ///< the same over q^2, N s^2/m^2; then over the slip, kg s/m
 
     /// sum V_w (1/n_p - 1) phi_i, n_p the porosity about a point of water, m^3
-    static constexpr unsigned int local_solid_volume = 3;
+    static constexpr unsigned int local_solid_volume = 2;
+    /// Then: 1 - n_i with the harmonic mean n_i of n_p, -
+    static constexpr unsigned int grain_fraction = 2;
 
-    static constexpr unsigned int wet_pores  = 4; ///< sum S n V phi_i of the soil in cells with water, m^3
-    static constexpr unsigned int soil_share = 4; ///< then: soil_share(), -
-
-    static constexpr unsigned int flux_inertia = 5; ///< sum V_w (1/n_p^2 - 1) phi_i, m^3
-    /// Then: inertia that water has beside its mass, as it passes through pores of different width; of that of the slip
-    /// between soil and water, sum m_p phi_i (n_i/n_p)^2 - m_i with n_i the harmonic mean of n_p, kg.
-    static constexpr unsigned int coupling = 5;
+    static constexpr unsigned int flux_inertia = 3; ///< sum V_w (1/n_p^2 - 1) phi_i, m^3
+    /// Then e: inertia that water has beside its mass, as it passes through pores of different width; of that of the
+    /// slip between soil and water, sum m_p phi_i (n_i/n_p)^2 - m_i, kg
+    static constexpr unsigned int coupling = 3;
 
     /// Makes room on the nodes of the grid, which must live on.
     explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 6>(grid.numbering())
+        : NodeValues<dim, 4>(grid.numbering())
     {
     }
   };
-
-  /// Share of the soil's velocity in that of the grains that water passes at a node (PoreVelocity), -: 1, but where the
-  /// node has less than a quarter of the grains that are about its water, more than crowded water explains. Points that
-  /// have just entered a cell tell the water of their part of it, and not the nodes beyond; there a stress moves soil
-  /// of next to no mass at any speed.
-  ///
-  /// @param grains of the node, as PoreField has them, m^3
-  inline double soil_share(const double grains, const double local_solid_volume)
-  {
-    return local_solid_volume > 0. ? std::min(1., 4. * grains / local_solid_volume) : 1.;
-  }
 
   /// Soil, water and pores at the nodes of the velocity, of one step.
   template <int dim>
@@ -67,26 +50,14 @@ namespace scree
     }
   };
 
-  /// The pressure in a cell, Pa, and the part of it that the next step does not start from.
-  template <int dim>
-  struct CellPressure
-  {
-    Multilinear<dim> value;                    ///< Pa
-    std::optional<Multilinear<dim>> forgotten; ///< none: nothing
-  };
-
   /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
   template <int dim>
   class WaterTransfer
   {
   public:
-    /// @param pressure_slope 1: the points' pressure travels with its gradient, 0: without
-    /// @param by_flux whether the discharge q = n (v_w - v_s) is the unknown beside v_s, or v_w
     WaterTransfer(const BackgroundGrid<dim> &grid,
                   const TransferParameters &transfer,
-                  const WaterParameters &water,
-                  const double pressure_slope,
-                  const bool by_flux = false);
+                  const WaterParameters &water);
 
     /// Density of the water at the nodes, kg/m^3.
     double water_density() const
@@ -109,9 +80,9 @@ namespace scree
                  NodalField<dim> &excess,
                  PoreField<dim> &pores) const;
 
-    /// One pass over the water's points at the end of a step: velocity, pressure with its gradient and what the next
-    /// step forgets of it, and place, if they are the water's own; else the volume of the pores. Points of the water's
-    /// own take the velocity of PoreVelocity. Returns the largest speed, m/s; not a number if any point's is not.
+    /// One pass over the water's points at the end of a step: velocity, pressure with its gradient, and place, if they
+    /// are the water's own; else the volume of the pores. Points of the water's own take the velocity of PoreVelocity.
+    /// Returns the largest speed, m/s; not a number if any point's is not.
     ///
     /// @param nodes velocities of both phases; masses and pores as to_grid() has left them, summed over ranks
     /// @param mixture as to_grid() has left it
@@ -119,7 +90,6 @@ namespace scree
                      const MixtureNodes<dim> &nodes,
                      const Mixture<dim> &mixture,
                      const PressureOfCell<dim> &pressure,
-                     const ForgottenOfCell<dim> &forgotten,
                      const double time_step) const;
 
   private:
@@ -138,7 +108,6 @@ namespace scree
                       const MixtureNodes<dim> &nodes,
                       const Mixture<dim> &mixture,
                       const PressureOfCell<dim> &pressure,
-                      const ForgottenOfCell<dim> &forgotten,
                       const double time_step) const;
 
     /// Velocity, pressure and, if the points are the water's own, place of a cell's points.
@@ -150,7 +119,7 @@ namespace scree
                    const CellPoints<dim> &cell,
                    const MixtureNodes<dim> &nodes,
                    const PorosityOfParts<dim> *porosity,
-                   const CellPressure<dim> &pressure,
+                   const Multilinear<dim> &pressure,
                    const double time_step,
                    const double keep,
                    LargestSquare &largest) const;
@@ -158,10 +127,8 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
     const double pic_rate;
-    const double pressure_slope;
     const PointSets point_sets;
     const double density; // of the water at the nodes, kg/m^3
-    const bool by_flux;
   };
 } // namespace scree
 

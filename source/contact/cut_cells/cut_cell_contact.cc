@@ -279,7 +279,7 @@ namespace scree
           add_contact(
               segment, Phase::soil, !is_fixed(segment), nodes, time_step, known.soil, time_step * known.corrected_soil);
         const bool holds = std::binary_search(holding.begin(), holding.end(), segment);
-        if (cell.water_volume > 0. && (holds || !surface.keeps_from_ground(cell.cell)))
+        if (cell.water_volume > 0. && (holds || !surface.has_unknown(cell.cell)))
           add_contact(segment,
                       Phase::water,
                       !surface.has_unknown(cell.cell),

@@ -182,7 +182,7 @@ def tips():
 
 def impact_pairs(quantity):
     """A quantity of each impact with h = 0.1 and 0.05 m."""
-    default = [row for row in rows("impact") if row["old p"] == "default"]
+    default = [row for row in rows("impact")]
     fine = {(row["k"], row["v"]): row[quantity] for row in default if row["h"] == 0.05}
     return [(row[quantity], fine[row["k"], row["v"]]) for row in default if row["h"] == 0.1]
 
@@ -299,7 +299,7 @@ def methods():
     dense_gain = -released["numerical dissipation (J)"] / released["J released"]
     thrown, n_thrown = stable("single_point", points="double")
     low, n_low = stable("low_stress")
-    air = max(row["air left, cells"] for row in rows("air_gap") if row["old p"] == "default")
+    air = max(row["air left, cells"] for row in rows("air_gap"))
     pond_gain = max(row["gain"] for row in rows("wetting_front") if row["points"] == "2 x 2")
     heap = "by -5.5 % with 10 cells over the height, by +18.5 % with 80"
     undrained = regimes.error(rows("regimes"), next(row for row in rows("regimes") if row["model"] == "single-point"), "undrained")

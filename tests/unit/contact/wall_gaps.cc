@@ -168,12 +168,11 @@ void run()
     seed_water(phase, parameters, {}, box.grid.triangulation(), h);
     TransferParameters flip;
     flip.method = "FLIP"; // The points have no room for a gradient.
-    const WaterTransfer<2> transfer(box.grid, flip, parameters, 1.);
+    const WaterTransfer<2> transfer(box.grid, flip, parameters);
     Mixture<2> mixture(box.grid, 2);
     PoreField<2> pores(box.grid);
     NodalField<2> field(box.grid), excess(box.grid);
     transfer.to_grid(phase, mixture, field, excess, pores);
-    mixture.finish();
     box.add({ middle, middle }, down);
     box.release(dt, &mixture);
     const unsigned int n = box.held().first;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Drag of grains: Ergun's gradient of the pressure at all speeds, the law of a given conductivity, a step of soil and
-// water whose drag grows with the slip, and which water of a cell drag acts on.
+// water whose drag grows with the slip.
 #include <scree/bodies/drag_law.h>
 #include <scree/boundary/drag_block.h>
-#include <scree/mixture/mixture.h>
 
 #include <algorithm>
 #include <cmath>
@@ -83,38 +82,8 @@ void solve_steps()
             << pair.slip_speed({ Tensor<1, 2>(), Tensor<1, 2>({ 0., -1. }) }, 6.) << std::endl;
 }
 
-/// Share of the drag of a cell whose part `soil` is filled with soil of porosity n, but for what scatter takes or adds:
-/// `grains` and `water` times what they were.
-double share(const double n, const double soil, const double grains, const double water)
-{
-  constexpr double volume = 1.7;
-  const double pores = n * soil * volume, outside = (1. - soil) * volume;
-  return drag_share_of(volume, grains * (1. - n) * soil * volume, grains * pores, water * (pores + outside));
-}
-
-void show_shares()
-{
-  double off = 0;
-  for (const double n : { 0.3, 0.4, 0.8 })
-    for (double soil = 0.05; soil < 0.76; soil += 0.05)
-      off = std::max(off, std::abs(share(n, soil, 1., 1.) - 1.));
-  std::cout << "face in a full cell, soil in up to .75 of it: water outside has no part in the drag: "
-            << (off < 1e-14 ? "yes" : "NO") << "; soil in .8, .85, .9, .95 of it: " << share(0.4, 0.8, 1., 1.) << ' '
-            << share(0.4, 0.85, 1., 1.) << ' ' << share(0.4, 0.9, 1., 1.) << ' ' << share(0.4, 0.95, 1., 1.)
-            << std::endl;
-  std::cout << "soil everywhere, water .75, 1.25, 1.5 times: " << share(0.4, 1., 1., 0.75) << ' '
-            << share(0.4, 1., 1., 1.25) << ' ' << share(0.4, 1., 1., 1.5)
-            << "; grains .8, 1.25 times: " << share(0.4, 1., 0.8, 1.) << ' ' << share(0.4, 1., 1.25, 1.)
-            << "; half a cell, no water, no grains: " << share(0.4, 0.5, 1., 0.) << ' ' << drag_share_of(1., 0., 0., 1.)
-            << std::endl;
-  std::cout << "fraction of grains with .6 of grains, .4 of pores and .1, .32, .4, .9 of water: "
-            << grain_fraction_of(0.6, 0.1, 0.4) << ' ' << grain_fraction_of(0.6, 0.32, 0.4) << ' '
-            << grain_fraction_of(0.6, 0.4, 0.4) << ' ' << grain_fraction_of(0.6, 0.9, 0.4) << std::endl;
-}
-
 void run()
 {
-  show_shares();
   for (const double n : { 0.3, 0.4, 0.9 })
     compare_with_ergun(n);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Divergence and force of the variational pressure step, for scattered points of soil and water whose surface lies
+// Divergence and force of the pressure, for scattered points of soil and water whose surface lies
 // inside cells, for every basis, on one rank and on two: they are transposes; uniform flow and motion as a rigid body
 // have no divergence; forces add up to 0; the filled part is a half plane's where the depth is linear; the matrix is
 // symmetric and does not gain: p.(B v) <= 0 after the correction by its solution.
@@ -56,7 +56,7 @@ public:
       , flow(grid.numbering())
       , forces(grid.numbering())
       , walls(grid, WaterBoundaryParameters())
-      , surface(grid, corners, walls, Tensor<1, dim>(), nullptr, 0., true)
+      , surface(grid, corners, walls, nullptr)
       , gaps(grid, nullptr, 0.)
       , part(grid, corners, surface, nullptr, gaps)
       , pair(grid, corners, part)
@@ -81,10 +81,9 @@ public:
     soil.drag.emplace(parameters, 0.4);
     TransferParameters flip;
     flip.method = "FLIP"; // The points have no room for a gradient.
-    const WaterTransfer<dim> transfer(grid, flip, parameters, 1., true);
+    const WaterTransfer<dim> transfer(grid, flip, parameters);
     transfer.soil_to_grid(soil, mixture);
     transfer.to_grid(water, mixture, water_field, excess, pores);
-    mixture.finish();
     for (const MixtureCell<dim> &cell : mixture.cells())
       {
         pores.activate_cell(cell.cell);

@@ -25,9 +25,9 @@ class Topic(NamedTuple):
 TOPICS = {
     "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "run_out_causes", "dry_slope", "transfer_rate", "granular_dam_break")),
     "safety": Topic("Factor of safety", ("strength_reduction",)),
-    "saturated_slopes": Topic("Saturated slopes", ("saturated_run_out_limits", "saturated_slope", "submerged_slope", "pressure_options_slope")),
+    "saturated_slopes": Topic("Saturated slopes", ("saturated_run_out_limits", "saturated_slope", "submerged_slope")),
     "drained_or_coupled": Topic("Drained, coupled or undrained", ("regimes", "point_sets", "single_point")),
-    "consolidation": Topic("Consolidation", ("terzaghi", "large_strain", "pressure_options")),
+    "consolidation": Topic("Consolidation", ("terzaghi", "large_strain")),
     "free_water": Topic("Free water", ("dam_break", "surface_position", "points_jitter")),
     "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
     "infiltration": Topic("Infiltration", ("wetting_front",)),
