@@ -323,14 +323,18 @@ namespace scree
 
 
   template <int dim>
-  void FreeSurface<dim>::restrict_to_unknown(VertexVector &sums)
+  void FreeSurface<dim>::restrict_to_unknown(VertexVector &sums, const Shares shares)
   {
     for (unsigned int g = followers.size(); g-- > 0;)
       {
         const Followers &group = followers[g];
         sums.update_ghost_values();
         for (const auto &pair : group.pairs)
-          scratch.local_element(pair.second) += share(pair.first) * sums.local_element(pair.first);
+          {
+            const double part = share(pair.first);
+            scratch.local_element(pair.second) +=
+                (shares == Shares::squared ? part * part : part) * sums.local_element(pair.first);
+          }
         sums.zero_out_ghost_values();
         scratch.compress(VectorOperation::add);
         for (const unsigned int vertex : filling.active_nodes())

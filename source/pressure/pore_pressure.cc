@@ -137,9 +137,7 @@ namespace scree
 
 
   template <int dim>
-  void PorePressure<dim>::solve_potential(const VertexVector &source,
-                                          VertexVector &potential,
-                                          Budget<dim> &balance)
+  void PorePressure<dim>::solve_potential(const VertexVector &source, VertexVector &potential, Budget<dim> &balance)
   {
     // It moves a part of a surplus only; what this misses is left to the next steps.
     const double tolerance_of_potential = std::min(1e-2, 100. * relative_tolerance);

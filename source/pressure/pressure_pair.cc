@@ -198,6 +198,23 @@ namespace scree
       add_force_of_cells<3>(pressure, forces);
   }
 
+
+  template <int dim>
+  void PressurePair<dim>::add_squares(const FlowField<dim> &mobilities, VertexVector &sums) const
+  {
+    const unsigned int n = grid.n_nodes_1d();
+    for (const auto &cell : part.cells())
+      for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const NodeRow *integrals = part.divergence(cell, c, v);
+            double &of_vertex        = sums.local_element(vertices.nodes(cell.cell)[v]);
+            for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+              of_vertex += std::pow(integrals[i / n][i % n], 2) * mobilities[grid.nodes(cell.cell)[i]][c];
+          }
+  }
+
+
   template <int dim>
   void PressurePair<dim>::add_suction(const VertexVector &pressure, FlowField<dim> &forces) const
   {

@@ -13,6 +13,10 @@ namespace scree
 
   namespace
   {
+    /// Diagonal of S by SchurOperator::find_diagonal() over that of L, of a vertex inside water.
+    template <int dim>
+    constexpr double inside_water = dim == 2 ? 0.079 : 0.055;
+
     /// Of this rank's numbers.
     double local_square(const VertexVector &vector)
     {
@@ -68,8 +72,17 @@ namespace scree
       }
     system.assemble(mixture, surface, time_step, storage);
     storage_of_number.resize(system.n_owned());
+    scale_of_number.resize(system.n_owned());
+    schur.find_diagonal(times_schur);
     for (unsigned int i = 0; i < storage_of_number.size(); ++i)
-      storage_of_number[i] = system.is_unknown(i) ? storage(numbering.vertex(i)) : 0.;
+      if (system.is_unknown(i))
+        {
+          storage_of_number[i]  = storage(numbering.vertex(i));
+          const double diagonal = times_schur.local_element(numbering.vertex(i)) + storage_of_number[i];
+          scale_of_number[i]    = std::sqrt(std::max(inside_water<dim> * system.diagonal_of(i) / diagonal, 1.));
+        }
+      else
+        storage_of_number[i] = scale_of_number[i] = 0.;
   }
 
 
@@ -108,7 +121,11 @@ namespace scree
     double last_projection = 1., last_length = 1.;
     while (result.residual > tolerance && result.n < most)
       {
-        preconditioner->vmult(preconditioned, remainder);
+        for (unsigned int i = 0; i < n_owned; ++i)
+          scratch.local_element(i) = scale_of_number[i] * remainder.local_element(i);
+        preconditioner->vmult(preconditioned, scratch);
+        for (unsigned int i = 0; i < n_owned; ++i)
+          preconditioned.local_element(i) *= scale_of_number[i];
         vmult(product, preconditioned);
         const double *r = remainder.begin(), *z = preconditioned.begin(), *w = product.begin();
         const double *s = direction_product.begin();
@@ -234,18 +251,14 @@ namespace scree
 
   template <int dim>
   std::pair<SolveReport, unsigned int>
-  PressureSolver<dim>::enforce_least_pressure(const double least,
-                                              const VertexVector &pressure,
-                                              VertexVector &change)
+  PressureSolver<dim>::enforce_least_pressure(const double least, const VertexVector &pressure, VertexVector &change)
   {
     constexpr unsigned int most_sweeps = 5; // Vertices below after them are held without another solve.
     const MPI_Comm communicator        = grid.triangulation().get_communicator();
     std::pair<SolveReport, unsigned int> result;
     std::vector<char> is_held(system.n_owned(), false);
     VertexVector residual;
-    const auto bound = [&](const unsigned int i) {
-      return least - pressure.local_element(numbering.vertex(i));
-    };
+    const auto bound = [&](const unsigned int i) { return least - pressure.local_element(numbering.vertex(i)); };
     for (unsigned int sweep = 0;; ++sweep)
       {
         bool has_changed = false;

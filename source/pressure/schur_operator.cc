@@ -9,6 +9,14 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Of H: a pressure that does not change along an axis costs what it costs in 2D.
+    template <int dim>
+    constexpr double same_as_2d = dim == 2 ? 1. : 0.25;
+  } // namespace
+
+
   template <int dim>
   SchurOperator<dim>::SchurOperator(const BackgroundGrid<dim> &grid,
                                     const NodeNumbering<dim> &vertices,
@@ -71,7 +79,6 @@ namespace scree
   void SchurOperator<dim>::add_hourglass(const double factor, const VertexVector &pressure, VertexVector &sums) const
   {
     constexpr unsigned int n_vertices = FilledPart<dim>::n_vertices;
-    constexpr double same_as_2d       = dim == 2 ? 1. : 0.25; // of a pressure that does not change along an axis
     for (unsigned int k = 0; k < part.cells().size(); ++k)
       {
         const unsigned int *corners = vertices.nodes(part.cells()[k].cell);
@@ -91,7 +98,8 @@ namespace scree
           values[v] = pressure.local_element(corners[v]);
         transform();
         for (unsigned int m = 0; m < n_vertices; ++m)
-          values[m] = (m & (m - 1)) == 0 ? 0. : factor * same_as_2d * stiffness[k] * values[m]; // 1 and x_a are linear
+          values[m] =
+              (m & (m - 1)) == 0 ? 0. : factor * same_as_2d<dim> * stiffness[k] * values[m]; // 1 and x_a are linear
         transform();
         for (unsigned int v = 0; v < n_vertices; ++v)
           sums.local_element(corners[v]) += values[v];
@@ -141,6 +149,36 @@ namespace scree
     add_hourglass(1., full, target);
     target.compress(VectorOperation::add);
     surface.restrict_to_unknown(target);
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::find_diagonal(VertexVector &target)
+  {
+    constexpr unsigned int n_vertices = FilledPart<dim>::n_vertices;
+    clear_flow();
+    for (const PressedNode<dim> &node : nodes->all)
+      {
+        std::array<double, dim> mobilities;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            std::array<double, 2 * dim> response{};
+            response[c] = time_step; // a force on u along the axis
+            PressedNodes<dim>::set_flow(
+                node, nodes->solve(node, PressedNodes<dim>::forces(node, response.data())), response.data());
+            mobilities[c] = response[c];
+          }
+        std::copy(mobilities.begin(), mobilities.end(), flow[node.node]);
+      }
+    flow.update_ghosts();
+    surface.clear(target);
+    pair.add_squares(flow, target);
+    for (unsigned int k = 0; k < part.cells().size(); ++k)
+      for (unsigned int v = 0; v < n_vertices; ++v)
+        target.local_element(vertices.nodes(part.cells()[k].cell)[v]) +=
+            same_as_2d<dim> * stiffness[k] * (n_vertices - dim - 1);
+    target.compress(VectorOperation::add);
+    surface.restrict_to_unknown(target, FreeSurface<dim>::Shares::squared);
   }
 
 

@@ -63,8 +63,15 @@ namespace scree
     /// Collective; ghosts hold values afterwards.
     void extend(VertexVector &pressure);
 
-    /// The transpose of extend(): adds to the unknown owned vertices what those beside the surface have. Collective.
-    void restrict_to_unknown(VertexVector &sums);
+    /// How restrict_to_unknown() weights a vertex beside the surface.
+    enum class Shares
+    {
+      as_they_are, ///< the transpose of extend()
+      squared      ///< for the diagonal of a matrix between extend() and its transpose
+    };
+
+    /// Adds to the unknown owned vertices what those beside the surface have. Collective.
+    void restrict_to_unknown(VertexVector &sums, const Shares shares = Shares::as_they_are);
 
     /// Sets the wet vertices to 0, ghosts too.
     void clear(VertexVector &values) const;
@@ -245,11 +252,11 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
     const WaterBoundaryConditions<dim> &walls;
-    const CutCells<dim> *cut_cells;    // may be null
-    NodeValues<dim, 4> filling;        // Filling
-    NodeValues<dim, 1> soil;           // grains and pores under a vertex's linear function, m^3
-    NodeValues<dim, 2> neighbours;     // Neighbours
-    const double air_entry;            // Pa
+    const CutCells<dim> *cut_cells; // may be null
+    NodeValues<dim, 4> filling;     // Filling
+    NodeValues<dim, 1> soil;        // grains and pores under a vertex's linear function, m^3
+    NodeValues<dim, 2> neighbours;  // Neighbours
+    const double air_entry;         // Pa
     std::vector<PressureDofType> kinds;
     std::vector<double> distances; // cells; positive in the water
     std::array<Followers, 2> followers;

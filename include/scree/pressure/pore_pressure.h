@@ -41,10 +41,7 @@ namespace scree
     /// Solves for the change of the pressure over a step from the predicted velocities, whose ghosts hold values.
     /// Collective.
     /// @param mixture gets the mobilities of its cells
-    void solve(Mixture<dim> &mixture,
-               const MixtureNodes<dim> &nodes,
-               const double time_step,
-               Budget<dim> &balance);
+    void solve(Mixture<dim> &mixture, const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
 
     /// See FreeSurface.
     void find_soil_depths(Mixture<dim> &mixture)
@@ -97,9 +94,7 @@ namespace scree
 
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
     /// @param potential what it holds is the first guess; its ghosts hold values afterwards
-    void solve_potential(const VertexVector &source,
-                         VertexVector &potential,
-                         Budget<dim> &balance);
+    void solve_potential(const VertexVector &source, VertexVector &potential, Budget<dim> &balance);
 
     /// Pressure at the vertices of a cell with points, Pa, in deal.II's order.
     AtVertices pressure_of(const unsigned int cell) const

@@ -47,6 +47,9 @@ namespace scree
     /// Adds B of a flow whose ghosts hold values to `sums`, m^3/s; owned vertices hold this rank's part.
     void add_divergence(const FlowField<dim> &flow, VertexVector &sums) const;
 
+    /// Adds the squares of the entries of B in each cell, without its moments, m^4, times mobilities of u at the nodes.
+    void add_squares(const FlowField<dim> &mobilities, VertexVector &sums) const;
+
     /// Adds -B^T p to forces, N: this rank's part.
     /// @param pressure Pa, with ghosts
     void add_force(const VertexVector &pressure, FlowField<dim> &forces) const;

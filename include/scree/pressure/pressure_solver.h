@@ -25,8 +25,9 @@ namespace scree
   /// The system for the change of the pressure, S dp = b, on the vertices of the cells that hold water.
   ///
   /// The matrix (SchurOperator) is applied cell by cell and never stored. The algebraic multigrid preconditioner of the
-  /// conjugate gradients is that of L (PressureOperator); it is kept over steps and made anew when it gets worse. The
-  /// numbering of the unknowns, too, serves many steps.
+  /// conjugate gradients is that of L (PressureOperator), scaled up where the diagonal of S is small beside it: at
+  /// vertices with little water about them. It is kept over steps and made anew when it gets worse. The numbering of
+  /// the unknowns, too, serves many steps.
   template <int dim>
   class PressureSolver
   {
@@ -60,9 +61,8 @@ namespace scree
     /// would close, S dp < b. A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is
     /// below. To be called right after solve(). Collective; throws as solve().
     /// @return what the solves took; the owned vertices that are held at `least`
-    std::pair<SolveReport, unsigned int> enforce_least_pressure(const double least,
-                                                                const VertexVector &pressure,
-                                                                VertexVector &change);
+    std::pair<SolveReport, unsigned int>
+    enforce_least_pressure(const double least, const VertexVector &pressure, VertexVector &change);
 
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void update_preconditioner_age(const SolveReport &report);
@@ -100,6 +100,7 @@ namespace scree
     SchurOperator<dim> &schur;
     VertexVector of_schur, times_schur;    // by vertex
     std::vector<double> storage_of_number; // on the diagonal, of owned numbers
+    std::vector<double> scale_of_number;   // of the preconditioner, at least 1; see assemble()
 
     VertexVector source, solution, scratch; // by number
     // Of iterate(): what is left of the source, that preconditioned, that times S; the step's direction, that times S.

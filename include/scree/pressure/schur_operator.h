@@ -90,6 +90,10 @@ namespace scree
     /// read. Collective.
     void vmult(VertexVector &target, const VertexVector &pressure);
 
+    /// Sets `target` to the diagonal of S at the unknown owned vertices, m^3/(Pa s), nearly: each cell counts by
+    /// itself. To be called after assemble(). Collective.
+    void find_diagonal(VertexVector &target);
+
     /// Sets `target` to T^T (B u - c - H p), m^3/s, with c of the ground that is not yet reached or moves.
     /// Collective.
     /// @param pressure at all vertices, with ghosts
