@@ -79,7 +79,8 @@ namespace scree
         {
           storage_of_number[i]  = storage(numbering.vertex(i));
           const double diagonal = times_schur.local_element(numbering.vertex(i)) + storage_of_number[i];
-          scale_of_number[i]    = std::sqrt(std::max(inside_water<dim> * system.diagonal_of(i) / diagonal, 1.));
+          const double inside   = inside_water<dim> * system.diagonal_of(i);
+          scale_of_number[i]    = diagonal > 0. && diagonal < inside ? std::sqrt(inside / diagonal) : 1.;
         }
       else
         storage_of_number[i] = scale_of_number[i] = 0.;

@@ -55,9 +55,8 @@ namespace scree
   class WaterTransfer
   {
   public:
-    WaterTransfer(const BackgroundGrid<dim> &grid,
-                  const TransferParameters &transfer,
-                  const WaterParameters &water);
+    /// Keeps a reference to the grid.
+    WaterTransfer(const BackgroundGrid<dim> &grid, const TransferParameters &transfer, const WaterParameters &water);
 
     /// Density of the water at the nodes, kg/m^3.
     double water_density() const
