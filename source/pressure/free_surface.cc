@@ -176,11 +176,9 @@ namespace scree
   {
     soil.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0. || cell.grain_volume > 0.)
+      if (cell.grain_volume > 0.)
         {
           soil.activate_cell(cell.cell);
-          if (!(cell.grain_volume > 0.))
-            continue;
           const double bulk = 1. + cell.pore_volume / cell.grain_volume;
           for (unsigned int v = 0; v < cell.n_vertices; ++v)
             soil[vertices.nodes(cell.cell)[v]][0] += bulk * cell.grains_at_vertex[v];
@@ -219,8 +217,10 @@ namespace scree
       const double fill = std::min(sums[filled] / volume_under(vertex), sums[wet_cells] / open_cells_around(vertex));
       PressureDofType &kind = kinds[vertex];
       distances[vertex]     = distance_from_fill(fill);
-      kind                  = PressureDofType::dry;
-      double value          = 0.;
+      if (!has_room(vertex)) // Beside the surface, where p must not be more than that of its neighbours.
+        distances[vertex] = std::min(distances[vertex], least_depth);
+      kind         = PressureDofType::dry;
+      double value = 0.;
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(vertices.faces(vertex)))
         {
           kind  = PressureDofType::prescribed;

@@ -2,8 +2,8 @@
 #ifndef scree_pressure_free_surface_h
 #define scree_pressure_free_surface_h
 
+#include <scree/mesh/node_values.h>
 #include <scree/boundary/water_walls.h>
-#include <scree/mixture/closures.h>
 #include <scree/mixture/mixture.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -142,15 +142,6 @@ namespace scree
     {
       const unsigned int *nodes = vertices.nodes(cell);
       return std::any_of(nodes, nodes + (1 << dim), [this](const unsigned int vertex) {
-        return kinds[vertex] == PressureDofType::unknown;
-      });
-    }
-
-    /// Whether all vertices of a cell of this rank are unknown.
-    bool is_within(const unsigned int cell) const
-    {
-      const unsigned int *nodes = vertices.nodes(cell);
-      return std::all_of(nodes, nodes + (1 << dim), [this](const unsigned int vertex) {
         return kinds[vertex] == PressureDofType::unknown;
       });
     }
