@@ -217,8 +217,6 @@ namespace scree
       const double fill = std::min(sums[filled] / volume_under(vertex), sums[wet_cells] / open_cells_around(vertex));
       PressureDofType &kind = kinds[vertex];
       distances[vertex]     = distance_from_fill(fill);
-      if (!has_room(vertex)) // Beside the surface, where p must not be more than that of its neighbours.
-        distances[vertex] = std::min(distances[vertex], least_depth);
       kind         = PressureDofType::dry;
       double value = 0.;
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(vertices.faces(vertex)))

@@ -8,6 +8,8 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <algorithm>
+
 namespace scree
 {
   /// A number a vertex of the cells, distributed over ranks, with ghosts.
@@ -95,10 +97,11 @@ namespace scree
       return kinds[vertex];
     }
 
-    /// Pressure at `surface_vertex` over that at an unknown vertex of the same cell, as the preconditioner sees it.
+    /// Pressure at `surface_vertex` over that at an unknown vertex of the same cell, as the preconditioner sees it: at
+    /// most 1, also where ground leaves a deep vertex no room, so that its matrix stays positive.
     double ratio(const unsigned int surface_vertex, const unsigned int unknown_vertex) const
     {
-      return distances[surface_vertex] / distances[unknown_vertex];
+      return std::min(distances[surface_vertex] / distances[unknown_vertex], 1.);
     }
 
     /// Volume of water under the linear function of an owned vertex, m^3.
