@@ -141,7 +141,7 @@ def step(soil, water):
     B_u, B_q, filled, centre, volume = pressure_pair(d, corners, w.phi.T@(water.V*n))
     B = np.stack([(n_i < 1)*(B_u - n_i*(B_u + B_q)), n_i*(B_u + B_q)])  # [phase, component, vertex, node]
     # 3. Predictor. Pressure acts on a least mass, and p^n on lighter nodes in proportion (Light nodes).
-    pressed = np.where(mass > 0, np.maximum(mass, 1e-3*WATER_DENSITY*filled[:, None]), 0)
+    pressed = np.where(mass > 0, np.maximum(mass, .01*WATER_DENSITY*filled[:, None]), 0)
     force -= (mass/np.maximum(pressed, 1e-300))[:, None]*np.einsum("kcai,a->ick", B, p)
     v_n = np.einsum("ickl,icl->ick", inverse(mass, excess, np.zeros_like(HELD)), momentum)
     v = np.einsum("ickl,icl->ick", inverse(mass, C, HELD), momentum + dt*force)

@@ -17,7 +17,7 @@ namespace scree
     /// Inertia of a phase that the pressure moves at a node, over that of water that would fill its surroundings as far
     /// as B integrates. Without it points that lie on a floor leave nodes above them next to no mass, which p drives
     /// to 1e6 m/s: their gradient is not small.
-    constexpr double least_inertia = 1e-3;
+    constexpr double least_inertia = 0.01;
 
     /// Open fraction of a cut cell; less counts as so much.
     constexpr double least_open_fraction = 1e-6;
