@@ -104,7 +104,7 @@ def obstacle_dam_break(scree):
         gains.append(gain(table))
         check(name + ": impulse of the right wall, N s", total, 500, 5000)
         check_balance_of_water(name, table)
-    check("dam break: momentum less impulses over the right wall's impulse, median", np.median(errors), 0, 0.01)
+    check("dam break: momentum less impulses over the right wall's impulse, median", np.median(errors), 0, 0.015, 0.01)
     check("dam break: gain of energy over released, median", np.median(gains), 0, 1e-3)
 
 
