@@ -214,8 +214,8 @@ namespace scree
       const double fill = std::min(sums[filled] / volume_under(vertex), sums[wet_cells] / open_cells_around(vertex));
       PressureDofType &kind = kinds[vertex];
       distances[vertex]     = distance_from_fill(fill);
-      kind         = PressureDofType::dry;
-      double value = 0.;
+      kind                  = PressureDofType::dry;
+      double value          = 0.;
       if (sums[wet_cells] > 0. && walls.prescribes_pressure(vertices.faces(vertex)))
         {
           kind  = PressureDofType::prescribed;
