@@ -4,7 +4,7 @@
 Case: a column of water collapses over elastic soil, which is saturated up to a water table. Double-point water, AFLIP, no F-bar.
 Left out: rigid ground, contact, gaps at walls, drained walls, suction, rain, cavitation, viscosity, bulk modulus, volume correction.
 Matrices are dense and S is solved directly. Phases are soil and water, in this order; [node, component] tells what an array runs over.
-`python3 doc/theory/wet_step.py` prints results over time. The test tests/python/wet_step.py compares them with those of the program."""
+`python3 doc/theory/wet_step.py` prints results over time. The scene tests/scenes/reference_scenes.py compares them with those of the program."""
 
 from types import SimpleNamespace
 
@@ -83,7 +83,7 @@ def wet_part(polygon):
 
 
 def quadrature(d, corners):
-    """Shapes and weights of points in Omega (Divergence and force)."""
+    """Shapes and weights of points in Omega (Filled part)."""
     gauss, points = (np.transpose(np.polynomial.legendre.leggauss(4)) + [1, 0])/2, []
     for of_cell in corners:
         p00, p10, p01, p11 = np.column_stack([VERTEX_X[of_cell], d[of_cell]])
@@ -97,7 +97,7 @@ def quadrature(d, corners):
 
 
 def pressure_pair(d, corners, volume_of_water):
-    """B of u, and of q beside it, as [component, vertex, node]; int phi_i; cells of Omega, their volumes (Divergence and force).
+    """B of u, and of q beside it, as [component, vertex, node]; int phi_i; cells of Omega, their volumes (Pair).
 
     Gamma consists of walls that hold u . nu = 0: its integral changes their reactions alone and is left out."""
     at, weight = quadrature(d, corners)

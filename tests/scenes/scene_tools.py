@@ -87,6 +87,7 @@ def main(scenes):
     """Runs the scene that the command line names, out of a module's globals(); `variational [METHOD]` after it: with that pressure step and transfer."""
     if sys.argv[3:4] == ["variational"]:
         always.update({"Water/Pressure/Step": "variational", "Water/Pressure/Fading": "0", "Water/Pressure/Projection": "0"})
-        always.update({"Transfer/Method": method for method in sys.argv[4:5]})
+        if sys.argv[4:]:
+            always["Transfer/Method"] = sys.argv[4]
     scenes[sys.argv[2]](os.path.abspath(sys.argv[1]))
     sys.exit("failed: " + ", ".join(failures) if failures else 0)
