@@ -4,7 +4,7 @@
 Case: a column of water collapses over elastic soil, which is saturated up to a water table. Double-point water, AFLIP, no F-bar.
 Left out: rigid ground, contact, gaps at walls, drained walls, suction, rain, cavitation, viscosity, bulk modulus, volume correction.
 Matrices are dense and S is solved directly. Phases are soil and water, in this order; [node, component] tells what an array runs over.
-`python3 doc/theory/wet_step.py` prints results over time. The test tests/python/wet_step.py compares them with those of the program."""
+`python3 doc/theory/wet_step.py` prints results over time. The scene tests/scenes/reference_scenes.py compares them with those of the program."""
 
 from types import SimpleNamespace
 
@@ -52,7 +52,7 @@ def pores(soil, s, w):
     is_inside = (depth > 0) & (in_cell(volume) > 0)
     grains, volume = (np.where(is_inside & (volume == 0), in_cell(of_part), of_part) for of_part in (grains, volume))
     whole = np.where(is_inside, volume, np.maximum(volume, (H/PER_CELL)**2))  # at its surface soil shares a part with free water
-    return 1/np.maximum(.1, 1 - grains/whole)[part_of(w)], WATER_DENSITY*9.81/CONDUCTIVITY*(volume/whole)[part_of(w)]
+    return 1/np.maximum(.01, 1 - grains/whole)[part_of(w)], WATER_DENSITY*9.81/CONDUCTIVITY*(volume/whole)[part_of(w)]
 
 
 def free_surface(water, w, n):
