@@ -36,7 +36,7 @@ NOT_RUN = {
 }
 SHORTENED = {"README.md": 2, "doc/installation.md": 20, "doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4, "doc/tutorials/scenarios.md": 20,
              "doc/tutorials/bore.md": 2, "doc/tutorials/dry_slope.md": 2}
-LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report|scenarios|element --fit)|gdal|mpirun -np 4|(dam|strong|cut|graded_slope)\.prm --safety")
+LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report|scenarios|element --fit)|gdal|mpirun -np 4|build/scree .*(dam|strong|cut|graded_slope)\.prm --safety")
 LONG_PAGES = {"doc/tutorials/bore.md"}  # 50 pictures of 51 200 points
 # What a reader replaces by something of his own.
 PLACES = {"FOLDER": "installed", "XMIN YMIN XMAX YMAX": "100 100 500 800"}
