@@ -15,7 +15,7 @@ namespace scree
   template <int dim>
   SeepageReport SteadySeepage<dim>::report(const double scale) const
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const double resolution     = 1e-3 * grid.cell_size(); // of heads that count as one: that of one reservoir
     SeepageReport report;
     std::map<long, double> out_to; // flow by heads
@@ -47,7 +47,7 @@ namespace scree
   template <int dim>
   std::shared_ptr<const SeepageField<dim>> SteadySeepage<dim>::field(const SeepageReport &report) const
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const CellsOfBox<dim> &box  = grid.fine_cells().box();
     std::vector<int> lower(dim, std::numeric_limits<int>::max()), upper(dim, 0); // of the cells; MPI knows no arrays
     for (const Cell &cell : cells)

@@ -34,7 +34,7 @@ namespace scree
       : grid(grid)
       , vertices(Basis::linear)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     on_all_ranks(communicator, [&] { survey.find(cells, faces); });
     double highest = -std::numeric_limits<double>::infinity();
     for (const SeepageFace<dim> &face : faces)
@@ -108,7 +108,7 @@ namespace scree
   template <int dim>
   void SteadySeepage<dim>::number_rows()
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     rows.reinit(vertices.partitioner());
     for (const Cell &cell : cells)
       for (unsigned int v = 0; v < n_vertices; ++v)
@@ -136,7 +136,7 @@ namespace scree
   void SteadySeepage<dim>::make_pattern()
   {
     const IndexSet owned = source.locally_owned_elements();
-    TrilinosWrappers::SparsityPattern pattern(owned, grid.triangulation().get_communicator(), Utilities::pow(3, dim));
+    TrilinosWrappers::SparsityPattern pattern(owned, grid.communicator(), Utilities::pow(3, dim));
     for (const auto row : owned)
       pattern.add(row, row);
     for (const Cell &cell : cells)
@@ -269,7 +269,7 @@ namespace scree
           heads.local_element(vertex) = head;
         }
     heads.update_ghost_values();
-    return Utilities::MPI::max(change, grid.triangulation().get_communicator());
+    return Utilities::MPI::max(change, grid.communicator());
   }
 
 
@@ -304,7 +304,7 @@ namespace scree
           has_changed       = has_changed || leaves != is_leaving[f];
           is_leaving[f]     = leaves;
         }
-    return Utilities::MPI::max(int(has_changed), grid.triangulation().get_communicator()) == 1;
+    return Utilities::MPI::max(int(has_changed), grid.communicator()) == 1;
   }
 
 

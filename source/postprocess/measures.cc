@@ -98,11 +98,7 @@ namespace scree
     for (const auto &body : bodies)
       if (!body.is_rigid)
         append_parts(body.points, body.layout.mass, axis, parts);
-    return percentiles(parts,
-                       grid.lower_corner()[axis],
-                       grid.upper_corner()[axis],
-                       fractions,
-                       grid.triangulation().get_communicator());
+    return percentiles(parts, grid.lower_corner()[axis], grid.upper_corner()[axis], fractions, grid.communicator());
   }
 
 
@@ -115,11 +111,7 @@ namespace scree
     std::vector<PartOfMass> parts;
     for (const auto &one : water)
       append_parts(one.points(), one.layout.mass, axis, parts);
-    return percentiles(parts,
-                       grid.lower_corner()[axis],
-                       grid.upper_corner()[axis],
-                       fractions,
-                       grid.triangulation().get_communicator());
+    return percentiles(parts, grid.lower_corner()[axis], grid.upper_corner()[axis], fractions, grid.communicator());
   }
 
 
@@ -153,7 +145,7 @@ namespace scree
                               const std::list<WaterPhase<dim>> &water,
                               const BackgroundGrid<dim> &grid)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const double cell_volume    = Utilities::fixed_power<dim>(grid.cell_size());
     std::vector<double> sums(5, 0.); // water points, water mass, that outside soil, overfull volume, volume
     for (const CellContents &cell : contents_of_cells(bodies, water, grid))

@@ -30,7 +30,7 @@ namespace scree
                                 const double time_step,
                                 const UpdateReport &last_step)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const std::vector<double> fronts{ 0.90, 0.99, 0.995 };
     const Snapshot<dim> now{ grid,
                              further,

@@ -70,7 +70,7 @@ namespace scree
   template <int dim>
   MotionNumbers SoilMotion<dim>::look(const std::list<SoilBody<dim>> &bodies, const double time)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const std::size_t n         = columns.size();
     std::vector<double> sums(3 * n + 3, 0.); // thickness, its moment, moving; mass, moving mass, kinetic energy
     std::vector<PartOfMass> speeds;
