@@ -34,13 +34,12 @@ namespace scree
       : grid(grid)
       , vertices(Basis::linear)
   {
-    const MPI_Comm communicator = grid.communicator();
-    on_all_ranks(communicator, [&] { survey.find(cells, faces); });
+    on_all_ranks(grid.communicator(), [&] { survey.find(cells, faces); });
     double highest = -std::numeric_limits<double>::infinity();
     for (const SeepageFace<dim> &face : faces)
       if (!std::isnan(face.head))
         highest = std::max(highest, face.head);
-    highest = Utilities::MPI::max(highest, communicator);
+    highest = Utilities::MPI::max(highest, grid.communicator());
     require_entry(std::isfinite(highest),
                   "Water",
                   "Steady seepage",
@@ -48,7 +47,7 @@ namespace scree
                   "no soil lies beside a given head. Look at \"Reservoir level\", \"Heads at walls\" and the regions.");
     for (const SeepageFace<dim> &face : faces)
       smallest_conductivity = std::min(smallest_conductivity, face.conductivity);
-    smallest_conductivity = Utilities::MPI::min(smallest_conductivity, communicator);
+    smallest_conductivity = Utilities::MPI::min(smallest_conductivity, grid.communicator());
     vertices.distribute(grid.fine_cells());
     heads.reinit(vertices.partitioner());
     scales.reinit(vertices.partitioner());

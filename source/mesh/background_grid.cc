@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/mesh/background_grid.h>
-#include <scree/deal_ii_versions.h>
 #include <scree/input/input_error.h>
 
 #include <deal.II/base/mpi.h>

@@ -136,9 +136,8 @@ namespace scree
           if (is_close)
             tops[i * n_parts + part] = std::max(tops[i * n_parts + part], lump.location[dim - 1] + 0.5 * side);
         }
-    const MPI_Comm communicator = grid.communicator();
-    Utilities::MPI::sum(volumes, communicator, volumes);
-    Utilities::MPI::max(tops, communicator, tops);
+    Utilities::MPI::sum(volumes, grid.communicator(), volumes);
+    Utilities::MPI::max(tops, grid.communicator(), tops);
 
     std::vector<GroundColumn> columns;
     for (unsigned int i = 0; i < places.size(); ++i)

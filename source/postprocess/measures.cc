@@ -145,8 +145,7 @@ namespace scree
                               const std::list<WaterPhase<dim>> &water,
                               const BackgroundGrid<dim> &grid)
   {
-    const MPI_Comm communicator = grid.communicator();
-    const double cell_volume    = Utilities::fixed_power<dim>(grid.cell_size());
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     std::vector<double> sums(5, 0.); // water points, water mass, that outside soil, overfull volume, volume
     for (const CellContents &cell : contents_of_cells(bodies, water, grid))
       {
@@ -157,7 +156,7 @@ namespace scree
         sums[3] += std::max(0., volume - cell_volume);
         sums[4] += volume;
       }
-    Utilities::MPI::sum(sums, communicator, sums);
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
 
     std::vector<double> largest(3, -std::numeric_limits<double>::infinity()); // -p, p, x
     for (const auto &one : water)
@@ -167,7 +166,7 @@ namespace scree
         largest[1]            = std::max(largest[1], pressure);
         largest[2]            = std::max(largest[2], point.location[0]);
       });
-    Utilities::MPI::max(largest, communicator, largest);
+    Utilities::MPI::max(largest, grid.communicator(), largest);
 
     WaterMeasures measures;
     measures.n_points          = sums[0];

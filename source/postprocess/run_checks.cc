@@ -128,12 +128,11 @@ namespace scree
         speeds.push_back({ vector_of<dim>(velocity).norm(), 1. });
         largest = std::max(largest, speeds.back().place);
       });
-      const MPI_Comm communicator = grid.communicator();
-      largest                     = Utilities::MPI::max(largest, communicator);
+      largest = Utilities::MPI::max(largest, grid.communicator());
       if (!(largest > fall))
         return;
       if (!std::isinf(largest))
-        usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, communicator)[0]);
+        usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
       for_each([&](const double *velocity, const auto &name) {
         if (const double speed = vector_of<dim>(velocity).norm(); speed > std::max(usual, fall))
           suspect(Check::speed, speed / std::max(usual, fall), speed, name);

@@ -71,17 +71,17 @@ namespace scree
   template <int dim>
   IndexSet PressureNumbering<dim>::number_marked(VertexVector &marks) const
   {
-    const MPI_Comm communicator = grid.communicator();
     const auto begin = marks.begin(), end = begin + vertices.n_owned();
     const auto is_marked = [](const double mark) { return mark > 0.; };
     // Trilinos needs a row of every rank.
     AssertThrow(vertices.n_owned() > 0,
-                ExcMessage("One of the " + std::to_string(Utilities::MPI::n_mpi_processes(communicator)) +
+                ExcMessage("One of the " + std::to_string(Utilities::MPI::n_mpi_processes(grid.communicator())) +
                            " ranks has no nodes. Use fewer ranks."));
     if (std::none_of(begin, end, is_marked))
       *begin = 1.;
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
-        communicator, std::count_if(begin, end, is_marked))[Utilities::MPI::this_mpi_process(communicator)];
+        grid.communicator(),
+        std::count_if(begin, end, is_marked))[Utilities::MPI::this_mpi_process(grid.communicator())];
     auto next = owned.begin();
     for (auto mark = begin; mark != end; ++mark)
       *mark = is_marked(*mark) ? double(*next++) : -1.;

@@ -255,7 +255,6 @@ namespace scree
   PressureSolver<dim>::enforce_least_pressure(const double least, const VertexVector &pressure, VertexVector &change)
   {
     constexpr unsigned int most_sweeps = 5; // Vertices below after them are held without another solve.
-    const MPI_Comm communicator        = grid.communicator();
     std::pair<SolveReport, unsigned int> result;
     std::vector<char> is_held(system.n_owned(), false);
     VertexVector residual;
@@ -273,7 +272,7 @@ namespace scree
               if (holds)
                 solution.local_element(i) = bound(i);
             }
-        if (sweep == most_sweeps || !Utilities::MPI::logical_or(has_changed, communicator))
+        if (sweep == most_sweeps || !Utilities::MPI::logical_or(has_changed, grid.communicator()))
           break;
         if (sweep == 0)
           residual.reinit(numbering.partitioner());

@@ -69,11 +69,10 @@ namespace scree
   template <int dim>
   void Inflow<dim>::find_places(const InflowParameters &parameters, const LevelSet<dim> *ground)
   {
-    const MPI_Comm communicator = grid.communicator();
     const Region<dim> region(entry_name(parameters.subsection, "Region"), parameters.region);
     const double lower = face % 2 == 0 ? section : section - spacing; // of the layer behind the section
     std::vector<std::pair<std::array<double, dim>, double>> own;
-    on_all_ranks(communicator, [&] {
+    on_all_ranks(grid.communicator(), [&] {
       const auto seeds = lattice_seeds<dim>(grid.triangulation(),
                                             grid.cell_size(),
                                             { static_cast<unsigned int>(std::lround(grid.cell_size() / spacing)) },
@@ -91,7 +90,7 @@ namespace scree
         }
     });
     std::vector<std::pair<std::array<double, dim>, double>> all;
-    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, own))
+    for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator(), own))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
     std::sort(all.begin(), all.end());
     for (const auto &[location, volume] : all)

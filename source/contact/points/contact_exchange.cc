@@ -152,13 +152,12 @@ namespace scree
   template <int dim>
   void ContactExchange<dim>::receive_records(Neighbour &neighbour, const NodalField<dim> &field)
   {
-    const MPI_Comm communicator = grid.communicator();
     MPI_Status status;
-    timed(waited, [&] { return MPI_Probe(neighbour.rank, tag, communicator, &status); });
+    timed(waited, [&] { return MPI_Probe(neighbour.rank, tag, grid.communicator(), &status); });
     int size, error = MPI_Get_count(&status, MPI_BYTE, &size);
     AssertThrowMPI(error);
     records.resize(size / sizeof(Record));
-    error = MPI_Recv(records.data(), size, MPI_BYTE, neighbour.rank, tag, communicator, MPI_STATUS_IGNORE);
+    error = MPI_Recv(records.data(), size, MPI_BYTE, neighbour.rank, tag, grid.communicator(), MPI_STATUS_IGNORE);
     AssertThrowMPI(error);
 
     // Both lists are in the order of the shared nodes.
