@@ -59,9 +59,12 @@ namespace scree
             const auto &before = pass == 0 ? all : parts;
             std::vector<PartOfMass> kept;
             // Rounding decides anew about the edges.
-            std::copy_if(before.begin(), before.end(), std::back_inserter(kept), [&](const PartOfMass &part) {
-              return part.place >= begin - width && part.place < end + width;
-            });
+            std::copy_if(before.begin(),
+                         before.end(),
+                         std::back_inserter(kept),
+                         [first = begin - width, last = end + width](const PartOfMass &part) {
+                           return part.place >= first && part.place < last;
+                         });
             parts = std::move(kept);
           }
       }
