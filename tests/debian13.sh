@@ -16,6 +16,11 @@ did_not_run()
 
 [ "$(id -u)" -eq 0 ] || did_not_run "since a root folder is made by root only."
 command -v debootstrap >/dev/null || did_not_run "since there is no debootstrap (apt-get install debootstrap)."
+# Mounts of its own, which end with it: whoever deletes FOLDER then deletes nothing of this machine.
+if [ -z "$SCREE_OWN_MOUNTS" ]; then
+  unshare --mount true 2>/dev/null || did_not_run "since it may not mount anything."
+  SCREE_OWN_MOUNTS=yes exec unshare --mount sh "$0" "$@"
+fi
 mkdir -p "$folder" && folder=$(cd "$folder" && pwd) || exit 1
 root=$folder/root
 if [ ! -f "$folder/is_made" ]; then
@@ -30,11 +35,10 @@ fi
 cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
 apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$root/etc/apt/apt.conf.d/90machine"
 for mounted in proc dev dev/shm; do
-  mountpoint -q "$root/$mounted" || mount --bind "/$mounted" "$root/$mounted" ||
-    did_not_run "since /$mounted cannot be mounted in the root."
+  mount --bind "/$mounted" "$root/$mounted" || did_not_run "since /$mounted cannot be mounted in the root."
 done
-trap 'umount "$root/dev/shm" "$root/dev" "$root/proc"' EXIT
-trap 'exit 1' INT TERM
+# What an interrupted run has left.
+chroot "$root" sh -c 'dpkg --configure -a && apt-get -y -f install' >"$folder/repair.log" 2>&1
 
 # What git knows, as it lies here; built files of the last time stay.
 mkdir -p "$root/scree"
