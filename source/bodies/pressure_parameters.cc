@@ -10,7 +10,8 @@ namespace scree
     prm.enter_subsection("Pressure");
     prm.add_parameter("Relative tolerance",
                       relative_tolerance,
-                      "Ratio of the residual to the right-hand side at which a solve ends.",
+                      "Residual at which a solve ends, over the larger of the right-hand side and the product of the "
+                      "matrix with the whole pressure.",
                       Patterns::Double(1e-14, 0.1));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,

@@ -62,9 +62,9 @@ namespace scree
                       Patterns::Anything());
     prm.add_parameter("Air entry pressure",
                       air_entry_pressure,
-                      "Pa; suction that menisci in the pores bear before air enters them: the pressure at the surface "
-                      "of water in soil is its negative, and at the face of full soil it lies between that and 0. With "
-                      "\"Phreatic surface\" the pores above it are full up to the height where the suction is that "
+                      "Pa; suction at which air enters the pores. Where dry soil lies behind the surface of the water, "
+                      "the pressure at this surface is its negative. With \"Phreatic surface\" the pores above it are "
+                      "full up to the height where the suction is that "
                       "large. 0: no suction. Double-point only.",
                       Patterns::Double(0));
     suspension.add_parameters(prm);

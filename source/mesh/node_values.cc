@@ -84,22 +84,18 @@ namespace scree
   }
 
   template class NodeValues<2, 1>;
-  template class NodeValues<2, 2>; // change of the pressure at the corners
+  template class NodeValues<2, 2>;
   template class NodeValues<3, 1>;
   template class NodeValues<3, 2>;
-  template class NodeValues<2, 3>; // surroundings of a corner beside the water's surface
+  template class NodeValues<2, 3>;
   template class NodeValues<3, 3>;
   template class NodeValues<2, 4>; // pressure forces on soil and water
   template class NodeValues<3, 4>;
-  template class NodeValues<2, 5>; // NodalField in 2D; fill of the corners
-  template class NodeValues<3, 5>;
-  template class NodeValues<2, 6>; // pores
+  template class NodeValues<2, 5>; // NodalField in 2D
   template class NodeValues<3, 6>;
   template class NodeValues<3, 7>;
   template class NodeValues<2, 8>; // normals to choose from, between bodies
-  template class NodeValues<2, 9>; // faces of soil
   template class NodeValues<3, 11>;
-  template class NodeValues<3, 13>;
   template class NodeValues<2, 18>; // moments of the points of two bodies
   template class NodeValues<3, 28>;
 } // namespace scree

@@ -91,7 +91,7 @@ namespace scree
     for (const MixtureCell<dim> &cell : mixture.cells())
       shifts->activate_cell(cell.cell);
     const FlowField<dim> &of_flow = pressure.impulses(potential, time_step);
-    const double most = 0.1 * grid.cell_size();
+    const double most             = 0.1 * grid.cell_size();
     for (const unsigned int node : shifts->active_nodes())
       {
         const double mass = water_field[node][NodalField<dim>::mass];

@@ -92,7 +92,6 @@ namespace scree
       , water_density(forcing.mass_scaling() * water_density)
       , timer(timer)
       , friction(constraints)
-      , pressure_impulses(grid.numbering())
   {
     friction.reinit(grid.n_owned_nodes());
   }
@@ -102,7 +101,6 @@ namespace scree
   void TwoPhaseMomentum<dim>::reinit()
   {
     friction.reinit(grid.n_owned_nodes());
-    pressure_impulses.reinit();
   }
 
 
@@ -374,24 +372,6 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::sum_pressure_impulses(const Mixture<dim> &mixture,
-                                                    PorePressure<dim> &pressure,
-                                                    const double time_step)
-  {
-    pressure_impulses.clear();
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      pressure_impulses.activate_cell(cell.cell);
-    const FlowField<dim> &of_flow = pressure.impulses_of_change(time_step);
-    for (const PressedNode<dim> &node : pressure.pressed_nodes.all)
-      {
-        const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(node, of_flow[node.node]);
-        add_to(pressure_impulses[node.node], of_phases.soil);
-        add_to(pressure_impulses[node.node] + dim, of_phases.water);
-      }
-  }
-
-
-  template <int dim>
   void TwoPhaseMomentum<dim>::correct_at_walls(const unsigned int node,
                                                const DragBlock<dim> &pair,
                                                const SoilAndWater<dim> &impulses,
@@ -418,22 +398,19 @@ namespace scree
 
   template <int dim>
   void TwoPhaseMomentum<dim>::correct(const MixtureNodes<dim> &nodes,
-                                      const Mixture<dim> &mixture,
                                       PorePressure<dim> &pressure,
                                       const double time_step,
                                       Budget<dim> &balance)
   {
     const TimedPart part(timer, TimerSection::nodes);
-    sum_pressure_impulses(mixture, pressure, time_step);
-    for (const unsigned int node : nodes.pores.active_nodes())
+    const FlowField<dim> &of_flow = pressure.impulses_of_change(time_step);
+    for (const PressedNode<dim> &pressed : pressure.pressed_nodes.all)
       {
-        if (is_empty(nodes, node))
-          continue;
+        const unsigned int node = pressed.node;
         double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
-        const SoilAndWater<dim> impulses{ vector_of<dim>(pressure_impulses[node]),
-                                          vector_of<dim>(pressure_impulses[node] + dim) };
-        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
-        SoilAndWater<dim> change  = pair.solve(impulses);
+        const SoilAndWater<dim> impulses = PressedNodes<dim>::forces(pressed, of_flow[node]);
+        const DragBlock<dim> pair        = pressed_block_at(nodes, pressure, node);
+        SoilAndWater<dim> change         = pair.solve(impulses);
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);
         const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;

@@ -14,9 +14,6 @@ namespace scree
     /// Least depth of an unknown vertex, cells.
     constexpr double least_depth = 0.15;
 
-    /// Least part of the surroundings of an unknown vertex that rigid ground leaves open.
-    constexpr double least_room = 1e-3;
-
     /// Dry soil about a vertex beside the water's surface, over the volume there: up to the first by the scatter of
     /// points, from the second on the surface lies in soil.
     constexpr double least_dry_soil = 0.1, surely_dry_soil = 0.25;
@@ -113,7 +110,7 @@ namespace scree
   template <int dim>
   bool FreeSurface<dim>::has_room(const unsigned int vertex) const
   {
-    return closed_volume.empty() || closed_volume[vertex] < (1. - least_room) * whole_volume(vertex);
+    return closed_volume.empty() || closed_volume[vertex] < (1. - closures::least_open_fraction) * whole_volume(vertex);
   }
 
 
@@ -176,11 +173,9 @@ namespace scree
   {
     soil.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0. || cell.grain_volume > 0.)
+      if (cell.grain_volume > 0.)
         {
           soil.activate_cell(cell.cell);
-          if (!(cell.grain_volume > 0.))
-            continue;
           const double bulk = 1. + cell.pore_volume / cell.grain_volume;
           for (unsigned int v = 0; v < cell.n_vertices; ++v)
             soil[vertices.nodes(cell.cell)[v]][0] += bulk * cell.grains_at_vertex[v];

@@ -13,7 +13,8 @@ namespace scree
 
   namespace
   {
-    /// Diagonal of S by SchurOperator::find_diagonal() over that of L, of a vertex inside water.
+    /// Diagonal of S by SchurOperator::find_diagonal() over that of L, of a vertex inside water,
+    /// with splines.
     template <int dim>
     constexpr double inside_water = dim == 2 ? 0.079 : 0.055;
 
@@ -80,7 +81,8 @@ namespace scree
           storage_of_number[i]  = storage(numbering.vertex(i));
           const double diagonal = times_schur.local_element(numbering.vertex(i)) + storage_of_number[i];
           const double inside   = inside_water<dim> * system.diagonal_of(i);
-          scale_of_number[i]    = diagonal > 0. && diagonal < inside ? std::sqrt(inside / diagonal) : 1.;
+          // No part of a cell reaches a vertex with a diagonal of 0: its p follows the neighbours.
+          scale_of_number[i] = diagonal > 0. ? std::sqrt(std::max(inside / diagonal, 1.)) : 1.;
         }
       else
         storage_of_number[i] = scale_of_number[i] = 0.;

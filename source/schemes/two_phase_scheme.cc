@@ -192,13 +192,13 @@ namespace scree
     sum_at_nodes(time_step);
     if (drainage == Drainage::drained)
       return solve_drained(nodes, time_step, budget);
-    momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g + B^T p^n)
+    momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g - B^T p^n)
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
     contact.predict(nodes, mixture, momentum, time_step, budget);
     momentum.find_pressed_nodes(nodes, pressure);
-    pressure.solve(mixture, nodes, time_step, budget);             // S dp = -(B u** - c)
-    momentum.correct(nodes, mixture, pressure, time_step, budget); // v = v** + dt A^-1 B^T dp
+    pressure.solve(mixture, nodes, time_step, budget);    // S dp = B u** - c
+    momentum.correct(nodes, pressure, time_step, budget); // v = v** - dt A^-1 B^T dp
     contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);
     end_step(nodes, time_step, budget);
   }

@@ -36,10 +36,8 @@ namespace scree
 
 
   template <int dim>
-  void apply_f_bar(const FBar kind,
-                   const unsigned int first,
-                   const MaterialPoints<dim> &points,
-                   BlockMotion<dim> &motion)
+  void
+  apply_f_bar(const FBar kind, const unsigned int first, const MaterialPoints<dim> &points, BlockMotion<dim> &motion)
   {
     if (kind == FBar::none)
       return;

@@ -126,9 +126,7 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
-                                          const NodalField<dim> &field,
-                                          const double time_step)
+  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
   {
     const auto &cells = body.points.cells();
     const double keep = kept_velocity(method, pic_rate, time_step);
@@ -186,9 +184,7 @@ namespace scree
 
 
   template <int dim>
-  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body,
-                                        const NodalField<dim> &field,
-                                        const double time_step)
+  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
   {
     const auto dispatch = [&](auto n) {
       switch (method)

@@ -12,11 +12,10 @@ namespace scree
   void TransferParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Transfer");
-    prm.add_parameter(
-        "Method",
-        method,
-        "Transfer of velocity between points and nodes: FLIP, APIC, TPIC or AFLIP.",
-        Patterns::Selection("FLIP|APIC|TPIC|AFLIP"));
+    prm.add_parameter("Method",
+                      method,
+                      "Transfer of velocity between points and nodes: FLIP, APIC, TPIC or AFLIP.",
+                      Patterns::Selection("FLIP|APIC|TPIC|AFLIP"));
     prm.add_parameter(
         "PIC rate",
         rate,

@@ -16,10 +16,8 @@ namespace scree
   {
     /// Value, Pa, and gradient, Pa/m, of a cell's pressure at places in it: 1 + dim batches.
     template <int dim>
-    void find_pressure(const Multilinear<dim> &pressure,
-                       const std::array<Batch, dim> &x,
-                       const double width,
-                       Batch *result)
+    void
+    find_pressure(const Multilinear<dim> &pressure, const std::array<Batch, dim> &x, const double width, Batch *result)
     {
       const auto powers = monomials<dim, Batch>(x);
       result[0]         = simd::broadcast<Batch>(pressure.back());
@@ -69,8 +67,8 @@ namespace scree
       {
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int record = mixture.record(cell.cell);
-        MixtureCell<dim> sums = mixture.cells()[record];
-        auto *parts           = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
+        MixtureCell<dim> sums     = mixture.cells()[record];
+        auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
 
         for_each_record_with_shape<n>(
             cell, layout.volume + 1, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
@@ -112,8 +110,8 @@ namespace scree
     const auto &layout            = water.layout;
     for (const auto &cell : water.points().cells())
       {
-        const OpenKnots open      = grid.open_knots(cell.cell);
-        const unsigned int record = mixture.record(cell.cell);
+        const OpenKnots open                 = grid.open_knots(cell.cell);
+        const unsigned int record            = mixture.record(cell.cell);
         const PorosityOfParts<dim> *porosity = mixture.porosity_of_parts(cell.cell);
         if (porosity != nullptr)
           mixture.find_porosities(record);

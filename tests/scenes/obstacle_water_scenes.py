@@ -86,13 +86,11 @@ def obstacle_wet_wall(scree):
 def obstacle_dam_break(scree):
     """A dam break between two walls: what momentum the water has is what they gave, and no energy comes from them.
 
-    The pressure pushes the water by its volume, and the walls by their area: where points crowd, at the impact, the two differ, with
-    cells of 0.05 m by 2.2 % of the impulse in the end. What is thrown up tears differently with every rounding, so that the scene runs
-    five times, with gravity changed by 1e-6, and the bounds are on the medians: of 12 such runs, six of them with an older preconditioner, two
-    part by more than 1 %, the worst by 1.8 %; of the five here one gains 0.15 % of energy.
+    What is thrown up tears differently with every rounding, so that the scene runs three times, with gravity changed by 1e-6, and the bounds
+    are on the medians.
     """
     errors, gains = [], []
-    for nudge in range(5):
+    for nudge in range(3):
         name = "dam break %d" % nudge
         table = run(scree, "water/dam_break", "dam",
                     {"End time": "1.2", "Mesh/Upper corner": "2.4, 9", "Mesh/Cell size": "0.025", "Water/Region": "x < 0.713 && y < 1.03",
@@ -106,7 +104,7 @@ def obstacle_dam_break(scree):
         gains.append(gain(table))
         check(name + ": impulse of the right wall, N s", total, 500, 5000)
         check_balance_of_water(name, table)
-    check("dam break: momentum less impulses over the right wall's impulse, median", np.median(errors), 0, 0.022, 0.01)
+    check("dam break: momentum less impulses over the right wall's impulse, median", np.median(errors), 0, 0.015, 0.01)
     check("dam break: gain of energy over released, median", np.median(gains), 0, 1e-3)
 
 

@@ -167,9 +167,9 @@ def column_of(conductivity, young_modulus=1e6, load=1e3):
     return closed_forms.Terzaghi(1., load, closed_forms.oedometric_modulus(young_modulus, 0.2), conductivity)
 
 
-def check_consolidation(label, results, bounds, degree_tolerance=0.002):
+def check_consolidation(label, results, bounds, degree_tolerance=0.002, asked=None):
     for factor, (error, degree) in results.items():
-        check("%s: L2 error of p/q at T_v = %g" % (label, factor), error, 0, bounds[factor])
+        check("%s: L2 error of p/q at T_v = %g" % (label, factor), error, 0, bounds[factor], (asked or {}).get(factor))
         exact = closed_forms.terzaghi_degree(factor)
         check("%s: degree of consolidation at T_v = %g" % (label, factor), degree, exact - degree_tolerance, exact + degree_tolerance)
 
@@ -188,7 +188,7 @@ def terzaghi(scree):
         results, table = consolidation(scree, "terzaghi_%s_%g" % (sets, courant), column, factors,
                                        {"Time step/Courant number": str(courant), "Water/Point sets": sets,
                                         "Output/Statistics interval": repr(column.time(0.1))})
-        check_consolidation(label, results, bounds)
+        check_consolidation(label, results, bounds, asked={0.1: 0.00115} if bounds is small else None)
         check_water(label, table, sets == "single")
 
     # Soil and water points moved by up to a quarter of their spacing. Prototype: .0068 with 2^2 and .0015 with 4^2 a cell.
@@ -214,7 +214,7 @@ def terzaghi_slow(scree):
     stiff = column_of(1e-5, 1e9, 1e6)
     results, _ = consolidation(scree, "slow_stiff", stiff, (0.1, 0.3, 0.5, 1), {"Time step/Courant number": "0.9"}, 1e9,
                                "consolidation/terzaghi_slow")
-    check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.9", results, bounds)
+    check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.9", results, bounds, asked={0.1: 0.00105})
     results, _ = consolidation(scree, "slow_stiff_small_step", stiff, (0.1,), {"Time step/Courant number": "0.1"}, 1e9,
                                "consolidation/terzaghi_slow")
     check_consolidation("Terzaghi, k = 1e-5 m/s, stiff, C = 0.1", results, bounds)
@@ -354,7 +354,7 @@ def load_in_time(scree):
 
 
 def pulled_columns(scree):
-    """An undrained elastic column pulled upwards: p = -q(t) deep down until q is 100 kPa, -100 kPa to rounding from then on.
+    """An undrained elastic column pulled upwards: p = -q(t) deep down until q is 100 kPa, -100 kPa from then on.
 
     Below its drained top p overshoots by 3 % (the load's layer is thinner than a cell), so that it tears at .97 of 100 kPa there.
     The end is before the soil's first swing back, a period 4 H/c after that, closes the mixture.
@@ -378,9 +378,9 @@ def pulled_columns(scree):
         label = name + ": "
         check(label + "largest error of p over the load, below 100 kPa", max(before), 0, 8e-4, 1e-4)
         check(label + "above", max(after), 0, 1e-3)
-        check(label + "smallest p over that allowed", min(table["Smallest p (Pa)"]) / -min(bound, 1.1 * rate * end), 0, 1.035, 1)
+        check(label + "smallest p over that allowed", min(table["Smallest p (Pa)"]) / -min(bound, 1.1 * rate * end), 0, 1.035, 1e-12)
         corners = [(rate * time, n) for time, n in zip(table["Time (s)"], table["Cavitating corners"])]
-        check(label + "cavitating corners below 95 kPa", max(n for load, n in corners if load < 0.95e5), 0, 4, 0)
+        check(label + "cavitating corners below 95 kPa", max(n for load, n in corners if load < 0.95e5), 0, 0 if name == "unbound" else 4, 0)
         lowest, highest = (0, 0) if name == "unbound" else (19, 20)
         check(label + "fewest of 20 above 110 kPa", min(n for load, n in corners if load > 1.1e5) / columns, lowest, highest)
         check_water(name, table)
@@ -534,9 +534,8 @@ def saturated_slopes(scree):
 
 
 def saturated_column(scree):
-    """A saturated column on a rough floor, 90 % of the soil at 1 s, against the 1.91 m of h = 0.025 m: 1.79 m with h = 0.05 m, 1.56 m with h = 0.1 m.
+    """A saturated column on a rough floor, 90 % of the soil at 1 s: 1.98 m with h = 0.05 m, 1.87 m with h = 0.1 m.
 
-    So it misses its bound of 5 % with h = 0.05 m, by 6.3 % (doc/verification/saturated_slopes.md).
     The prototype's (1.44, 1.53, 1.62 m with h = .1, .05, .025 m) still grows with the mesh as its walls act from a cell away. Its Drucker-Prager
     cone through Mohr-Coulomb's compression corners, M = 6 sin 30/(3 - sin 30) = 1.2, is in plane strain without dilation as strong as
     sin(phi) = M/sqrt(3), phi = 43.85 degrees.
@@ -657,12 +656,13 @@ def filter_layers(scree):
                 inside = (y > low + 0.1) & (y < high - 0.1)
                 flows[layer].append(-np.mean(water.arrays["seepage_velocity"][inside, 1]) / darcy)
                 slopes[layer].append(np.polyfit(y[inside], water.arrays["pressure"][inside] / WATER + y[inside], 1)[0] * conductivities[layer] / darcy)
+        asked = 0.01 if bound > 0.01 else None
         for layer, ratios in flows.items():
-            check("%s: flow in the %s over Darcy's, mean" % (name, layer), np.mean(ratios), 1 - bound, 1 + bound)
+            check("%s: flow in the %s over Darcy's, mean" % (name, layer), np.mean(ratios), 1 - bound, 1 + bound, asked)
             check("%s: flow in the %s over Darcy's, smallest" % (name, layer), min(ratios), 1 - 2 * bound, 1 + 2 * bound)
             check("%s: flow in the %s over Darcy's, largest" % (name, layer), max(ratios), 1 - 2 * bound, 1 + 2 * bound)
         for layer, ratios in slopes.items():
-            check("%s: loss of head in the %s over Darcy's, mean" % (name, layer), np.mean(ratios), 1 - bound, 1 + bound)
+            check("%s: loss of head in the %s over Darcy's, mean" % (name, layer), np.mean(ratios), 1 - bound, 1 + bound, asked)
         check_water(name, table)
     check_rigid("filter", "filter", table)
 
@@ -853,7 +853,8 @@ def suspension(scree):
     middle = np.abs(soil.positions[:, 1] - 0.5) < 1 / 6
     speed_of_grains = -soil.arrays["velocity"][middle, 1] / closed_forms.settling_velocity(1e-2, 0.6, 2650)
     check("suspension: speed of sinking grains over the exact one, mean", np.mean(speed_of_grains), 0.99, 1.01)
-    check("suspension: the same, scatter of the points", np.std(speed_of_grains), 0, 0.25, 0.01)
+    check("suspension: the same, scatter of the points (ours)", np.std(speed_of_grains), 0, 0.25)
+    check("suspension: the same, largest distance of a point from it", np.max(np.abs(speed_of_grains - 1)), 0, 1.1, 0.01)
 
 
 def dam_break_wet(scree):
@@ -899,11 +900,7 @@ def water_on_soil(scree):
 
 
 def closing_gap(scree):
-    """Water and saturated soil fall on saturated soil, .05 to .2 m below, and come to rest.
-
-    Were p at the soil's face that of a free surface, the gains of water would be 9 and 8 %; were the closing of the gap a strain of the soil,
-    that of the last case would be 1.3 %.
-    """
+    """Water and saturated soil fall on saturated soil, .05 to .2 m below, and come to rest."""
     for what, gap, speed in (("water", 0.05, 1), ("water", 0.2, 0), ("soil", 0.1, 1), ("soil", 0.2, 0)):
         name = "%s, gap of %g m, %g m/s" % (what, gap, speed)
         both, velocity = "y < 0.4 || (y > %g && y < %g)" % (0.4 + gap, 0.8 + gap), "0; if(y > %g, %g, 0)" % (0.4 + gap / 2, -speed)

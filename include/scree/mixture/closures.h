@@ -12,12 +12,12 @@ namespace scree
   namespace closures
   {
     /// Smallest porosity in the flow between grains: where grains crowd, water shall not race.
-    constexpr double least_porosity = 0.1;
+    constexpr double least_porosity = 0.01;
 
     /// Inertia of a phase that the pressure moves at a node, over that of water that would fill its surroundings as far
     /// as B integrates. Without it points that lie on a floor leave nodes above them next to no mass, which p drives
     /// to 1e6 m/s: their gradient is not small.
-    constexpr double least_inertia = 1e-3;
+    constexpr double least_inertia = 0.01;
 
     /// Open fraction of a cut cell; less counts as so much.
     constexpr double least_open_fraction = 1e-6;

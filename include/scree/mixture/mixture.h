@@ -2,13 +2,9 @@
 #ifndef scree_mixture_mixture_h
 #define scree_mixture_mixture_h
 
-#include <scree/mesh/nodal_field.h>
 #include <scree/mesh/cut_cells.h>
-#include <scree/mixture/closures.h>
-#include <scree/mesh/node_rows.h>
 #include <scree/mixture/porosity_of_parts.h>
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <vector>
@@ -32,18 +28,18 @@ namespace scree
     bool is_rigid       = false; ///< whether the soil is held at its place
 
     // Sums weighted with the linear functions of the vertices.
-    AtVertices grains_at_vertex{},    ///< volume of grains, m^3
-        water_at_vertex{};            ///< volume of water, m^3
-    AtVertices pressure_at_vertex{};  ///< volume of water times pressure there, Pa m^3
-    AtVertices soil_depths{};         ///< signed distances from the surface of the soil, cells; positive inside
-    AtVertices bulk_at_vertex{};      ///< volume of water and the grains about it, sum V/n_p, m^3
+    AtVertices grains_at_vertex{},   ///< volume of grains, m^3
+        water_at_vertex{};           ///< volume of water, m^3
+    AtVertices pressure_at_vertex{}; ///< volume of water times pressure there, Pa m^3
+    AtVertices soil_depths{};        ///< signed distances from the surface of the soil, cells; positive inside
+    AtVertices bulk_at_vertex{};     ///< volume of water and the grains about it, sum V/n_p, m^3
 
     double bulk_volume  = 0, ///< sum V/n_p, m^3
         mass_of_flux    = 0, ///< sum m/n_p, kg
         inertia_of_flux = 0; ///< sum m/n_p^2, kg
     double drag_of_flux = 0; ///< sum V/n_p times the resistance of the pores, N s/m
 
-    double mobility     = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
+    double mobility = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
 
     /// @param cell active cell index
     /// @param volume open to soil and water, m^3
@@ -52,7 +48,6 @@ namespace scree
         , volume(volume)
     {
     }
-
   };
 
   /// The pressure at a cell's vertices, Pa, in deal.II's order.

@@ -43,12 +43,9 @@ namespace scree
     /// @param kept part of the points' velocity that remains beside that of the nodes, see kept_velocity()
     void predict(const MixtureNodes<dim> &nodes, const double time_step, const double kept, Budget<dim> &balance);
 
-    /// v = v* - dt A^-1 G dp with the change of `pressure`. Collective.
-    void correct(const MixtureNodes<dim> &nodes,
-                 const Mixture<dim> &mixture,
-                 PorePressure<dim> &pressure,
-                 const double time_step,
-                 Budget<dim> &balance);
+    /// v = v** - dt A^-1 B^T dp with the change of `pressure`. Collective.
+    void
+    correct(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure, const double time_step, Budget<dim> &balance);
 
     /// Soil and water at an owned node, after predict().
     DragBlock<dim> drag_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
@@ -107,9 +104,6 @@ namespace scree
                           SoilAndWater<dim> &change,
                           Budget<dim> &balance) const;
 
-    /// Forces of the change of the pressure on soil and water, times the step.
-    void sum_pressure_impulses(const Mixture<dim> &mixture, PorePressure<dim> &pressure, const double time_step);
-
     const Constraints<dim> &constraints;
     const WallGaps<dim> &wall_gaps;
     const BodyForces<dim> &forcing;
@@ -117,7 +111,6 @@ namespace scree
     const double water_density;
     dealii::TimerOutput &timer;
     WallFriction<dim> friction;
-    NodeValues<dim, 2 * dim> pressure_impulses; // of the change of pressure on soil and water, N s
   };
 } // namespace scree
 

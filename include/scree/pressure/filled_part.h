@@ -3,6 +3,7 @@
 #define scree_pressure_filled_part_h
 
 #include <scree/boundary/ground_gaps.h>
+#include <scree/mesh/node_rows.h>
 #include <scree/pressure/free_surface.h>
 
 #include <functional>

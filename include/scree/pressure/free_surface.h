@@ -2,11 +2,13 @@
 #ifndef scree_pressure_free_surface_h
 #define scree_pressure_free_surface_h
 
+#include <scree/mesh/node_values.h>
 #include <scree/boundary/water_walls.h>
-#include <scree/mixture/closures.h>
 #include <scree/mixture/mixture.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
+
+#include <algorithm>
 
 namespace scree
 {
@@ -95,10 +97,11 @@ namespace scree
       return kinds[vertex];
     }
 
-    /// Pressure at `surface_vertex` over that at an unknown vertex of the same cell, as the preconditioner sees it.
+    /// Pressure at `surface_vertex` over that at an unknown vertex of the same cell, as the preconditioner sees it: at
+    /// most 1, also where ground leaves a deep vertex no room, so that its matrix stays positive.
     double ratio(const unsigned int surface_vertex, const unsigned int unknown_vertex) const
     {
-      return distances[surface_vertex] / distances[unknown_vertex];
+      return std::min(distances[surface_vertex] / distances[unknown_vertex], 1.);
     }
 
     /// Volume of water under the linear function of an owned vertex, m^3.
@@ -142,15 +145,6 @@ namespace scree
     {
       const unsigned int *nodes = vertices.nodes(cell);
       return std::any_of(nodes, nodes + (1 << dim), [this](const unsigned int vertex) {
-        return kinds[vertex] == PressureDofType::unknown;
-      });
-    }
-
-    /// Whether all vertices of a cell of this rank are unknown.
-    bool is_within(const unsigned int cell) const
-    {
-      const unsigned int *nodes = vertices.nodes(cell);
-      return std::all_of(nodes, nodes + (1 << dim), [this](const unsigned int vertex) {
         return kinds[vertex] == PressureDofType::unknown;
       });
     }

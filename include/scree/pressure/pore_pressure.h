@@ -10,7 +10,7 @@
 namespace scree
 {
   /// The pore pressure p at the vertices of the cells: where the water ends, p at the start of a step, and the system
-  /// for its change dp, S dp = -T^T (B u* - c - H p) (SchurOperator), with the drag in S.
+  /// for its change dp, S dp = T^T (B u** - c - H T p) (SchurOperator), with the drag in S.
   template <int dim>
   class PorePressure
   {

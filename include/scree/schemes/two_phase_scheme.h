@@ -16,10 +16,10 @@ namespace scree
   /// Soil and water: explicit soil, implicit drag, and a pressure whose force is the transpose of the divergence
   /// (doc/theory/two_phases.md; two sets of points: @source{xie2024}).
   ///
-  /// 1. Predictor with the old pressure: A v* = m v + dt (f + B^T p^n), where A holds masses and drag
+  /// 1. Predictor with the old pressure: A v* = m v + dt (f - B^T p^n), where A holds masses and drag
   ///    (TwoPhaseMomentum). Then the viscosity: (A + dt K) v** = A v* (ViscousStep).
-  /// 2. Pressure: S dp = -(B u** - c), with u = v_s + n (v_w - v_s) and the drag in S (PorePressure).
-  /// 3. Corrector: v = v** + dt A^-1 B^T dp (TwoPhaseMomentum).
+  /// 2. Pressure: S dp = B u** - c, with u = v_s + n (v_w - v_s) and the drag in S (PorePressure).
+  /// 3. Corrector: v = v** - dt A^-1 B^T dp (TwoPhaseMomentum).
   ///    Soil is stopped at the ground after the predictor, soil and water after the corrector (CutCellContact).
   /// 4. Points of free water leave where they crowd (ParticleShifting).
   ///

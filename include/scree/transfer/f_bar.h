@@ -63,10 +63,8 @@ namespace scree
   ///
   /// @param first of the cell's points in the block
   template <int dim>
-  void apply_f_bar(const FBar kind,
-                   const unsigned int first,
-                   const MaterialPoints<dim> &points,
-                   BlockMotion<dim> &motion);
+  void
+  apply_f_bar(const FBar kind, const unsigned int first, const MaterialPoints<dim> &points, BlockMotion<dim> &motion);
 } // namespace scree
 
 #endif

@@ -36,9 +36,7 @@ namespace scree
 
     /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
     /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
-    MotionReport to_points(SoilBody<dim> &body,
-                           const NodalField<dim> &field,
-                           const double time_step);
+    MotionReport to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
 
   private:
     template <int n, TransferMethod method>
@@ -46,8 +44,7 @@ namespace scree
 
     /// to_points() for cells of n nodes along each axis.
     template <int n, TransferMethod method>
-    MotionReport
-    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
+    MotionReport move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     ///

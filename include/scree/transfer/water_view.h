@@ -2,6 +2,7 @@
 #ifndef scree_transfer_water_view_h
 #define scree_transfer_water_view_h
 
+#include <scree/mesh/nodal_field.h>
 #include <scree/bodies/water_phase.h>
 #include <scree/mixture/mixture.h>
 

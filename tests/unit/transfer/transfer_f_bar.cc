@@ -69,14 +69,12 @@ void test(const unsigned int n_points)
           moved_unloaded = std::max(moved_unloaded, std::abs(change / trial * ratio - 1));
         }
       else
-        own_kept = std::max({ own_kept,
-                              std::abs(change / own_change[p] - 1),
-                              std::abs(increment / own_change[p] - 1) });
+        own_kept =
+            std::max({ own_kept, std::abs(change / own_change[p] - 1), std::abs(increment / own_change[p] - 1) });
     }
   std::cout << dim << "D, " << n_points << " points: V/J_e kept " << (moved_unloaded < 1e-14) << ", one J_e "
-            << (largest / least - 1 < 1e-14) << ", volume kept "
-            << (std::abs(volume / own_volume - 1) < 1e-14) << ", own change without stress "
-            << (own_kept < 1e-14) << std::endl;
+            << (largest / least - 1 < 1e-14) << ", volume kept " << (std::abs(volume / own_volume - 1) < 1e-14)
+            << ", own change without stress " << (own_kept < 1e-14) << std::endl;
 }
 
 

@@ -85,7 +85,7 @@ def verdict(rows):
               abs(ratio(rows, "tolerance 1e-6") - 1) < 0.005 and ratio(rows, "tolerance 1e-6", "CG iterations") > 1.15 and abs(ratio(rows, "tolerance 1e-2") - 1) < 0.02
               and ratio(rows, "tolerance 1e-2", "CG iterations") < 0.75),
         Claim(f"3 x 3 points are as accurate as 4 x 4 ({ratio(rows, '3 x 3 points'):.2g} times the error) with a volume error of "
-              f"{100 * at_finest(rows, '3 x 3 points', 'largest volume error'):.0f} instead of {100 * at_finest(rows, DEFAULTS, 'largest volume error'):.0f} %; "
+              f"{100 * at_finest(rows, '3 x 3 points', 'largest volume error'):.0f} instead of {100 * at_finest(rows, DEFAULTS, 'largest volume error'):.0f} %. "
               f"2 x 2 have {ratio(rows, '2 x 2 points'):.3g} times the error (more than 1.1 was expected, which is missed on ten cells).",
               ratio(rows, "3 x 3 points") < 1.1 and ratio(rows, "2 x 2 points") > 1),
         Claim(f"Transfer and basis have little influence: APIC {ratio(rows, 'APIC'):.2g}, FLIP {ratio(rows, 'FLIP'):.2g} times the error of AFLIP, the default, linear functions "

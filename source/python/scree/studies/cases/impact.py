@@ -47,9 +47,9 @@ def verdict(rows):
         Claim(f"p oscillates after the impact by {mean:.2g} rho_w g 0.5 m (RMS) in the mean, by up to {max(row['oscillation of p'] for row in rows):.2g}. The row of "
               "points that the impact has compressed carries pore pressure instead of effective stress, and at small k it cannot drain. "
               f"Bound of a map: {BOUNDS['oscillation of p']:g} for each impact, which is missed.", max(row["oscillation of p"] for row in rows) < 1.2),
-        Claim(f"From h = 0.1 to 0.05 m the impulse changes by up to {max(changes):.2g} of the momentum, in the mean by {sum(changes) / len(changes):.2g}, and the peak of p "
-              f"grows by more in each run. The peak changes by a factor of {min(ratios):.2g} to {max(ratios):.2g}. Report the impulse; the peak is not a result.",
-              max(changes) < min(ratios) - 1, quick=False),
+        Claim(f"From h = 0.1 to 0.05 m the impulse changes by up to {max(changes):.2g} of the momentum, in the mean by {sum(changes) / len(changes):.2g}. The peak of p "
+              f"changes by a factor of {min(ratios):.2g} to {max(ratios):.2g}, without a trend. Report the impulse; the peak is not a result.",
+              max(changes) < 0.1 and max(ratios) > 1.5, quick=False),
         Claim(f"Single points of soil open beyond the bound in the spray of {max(row['v'] for row in rows):g} m/s (J up to {max(row['largest J'] for row in spray):.0f}, {len(spray)} of "
               f"{len(rows)} runs); up to {rest:g} m/s none does.", len(spray) > 0 and all(row["v"] > rest for row in spray), quick=False) if spray else
         Claim("No point's volume leaves its bounds.", True),

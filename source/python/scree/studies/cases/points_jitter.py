@@ -46,7 +46,7 @@ def verdict(rows):
         Claim(f"With 4 points a cell and axis, the default, the RMS error of p is {default:.2g} rho g h or less for any jitter (a map asks for 0.01).", default < 0.015),
         Claim(f"With 3 it is {three:.2g} or less (0.03 was asked and is missed); with 2 {two:.2g} or less up to a jitter of 0.3 (0.05 was asked and is missed).", three < 0.041 and two < 0.067, quick=False),
         Claim(f"On a regular lattice 2 points an axis are enough (error at most {regular:.1g}).", regular < 5e-3),
-        Claim(f"One point per cell fails as soon as points leave the middle: empty cells count as free surfaces, and p deviates by {min(one):.2g} to "
+        Claim(f"One point per cell fails as soon as points leave the middle, as empty cells count as free surfaces. There p deviates by {min(one):.2g} to "
               f"{max(one):.2g} rho g h from a jitter of 0.3 on (more than 0.5 was expected of each).", min(one) > 0.115),
         Claim(f"The energy gain is at most {gain:.1g} of the work that lifts a layer of a cell's height by a cell.", gain < 0.005),
     ]

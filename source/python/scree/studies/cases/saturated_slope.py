@@ -63,7 +63,7 @@ def verdict(rows):
               f"h = {REFERENCE:g} m, the AFLIP of the case by {100 * at_finest(rows, DEFAULTS):.0f} %. The fits of an order and a limit (study of the dry slope) find none for either.",
               at_finest(rows, candidate) < 0.15 and not any(LimitFit(rows, REFERENCE, method).found for method in (candidate, DEFAULTS)), quick=False, worst=True),
         Claim(f"FLIP (PIC rate 5 1/s) runs out less far than the AFLIP of the case and has {ratio(rows, 'FLIP'):.2g} times its distance to the reference on the "
-              f"same mesh (0.75 was asked and is missed), for {ratio(rows, 'FLIP', 'core-seconds'):.2g} times the time. It gains no energy. Independent of the reference, "
+              f"same mesh (0.75 was asked and is missed). It takes {ratio(rows, 'FLIP', 'core-seconds'):.2g} times the time. It gains no energy. Independent of the reference, "
               f"the fronts of AFLIP are the farther on each mesh (at 99 % of the soil {front('FLIP'):.2f} against {front(DEFAULTS):.2f} m with h = {finest:.2g} m).",
               ratio(rows, "FLIP") < 1.5 and not any(farther) and max(row["energy gained"] for row in rows if row["method"] == "FLIP") < 0.005),
         Claim(f"Single peaks of p' are more than 1.2 times as high with FLIP: {_largest(rows, 'FLIP'):.0f} kPa ({_largest(rows, 'FLIP, 3 x 3 points'):.0f} kPa with 3 x 3 points), against "

@@ -57,7 +57,7 @@ def verdict(rows):
 
 STUDY = Study(title="Slope under still water",
               question="Do slopes under water stand below the friction angle and slide above it?",
-              advice="Trust the angle at which a slope stands where it drains (k = 0.1 m/s); at k of 1e-4 m/s and less slopes creep on both sides of it.",
+              advice="Trust the angle of slopes that drain (k = 0.1 m/s); with k of 1e-4 m/s and less they creep on both sides of it.",
               base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "Water/Points per cell": 3, "End time": 1.,
                        "Settling/Maximum time": 1., "Time step/Maximum time step": 2e-3, "Output/Interval": 0.5, "Output/Statistics interval": 0.05},
