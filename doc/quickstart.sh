@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# sh doc/quickstart.sh: from a fresh Debian 12 to the first pictures.
+# sh doc/quickstart.sh: from a fresh Debian 12 or 13 to the first pictures.
 
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/setup.sh"

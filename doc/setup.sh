@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # shellcheck shell=sh
 #
-# Everything between a fresh Debian 12 and a build: packages, environment, build/. Called (sh doc/setup.sh) or sourced by
+# Everything between a fresh Debian 12 or 13 and a build: packages, environment, build/. Called (sh doc/setup.sh) or sourced by
 # doc/quickstart.sh and tests/run.sh; leaves the variable `root` (this repository) and the function configure_scree behind.
 # Installs the packages in the variable test_packages, too, and hands the words of configure_options to CMake.
 
@@ -13,7 +13,8 @@ fi
 
 # Packages -------------------------------------------------------------------------------------------------------------
 
-packages="libdeal.ii-dev libgdal-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy python3-gdal xvfb${test_packages:+ $test_packages}"
+# deal.II of Debian 13 links with mold, which its package does not bring.
+packages="libdeal.ii-dev mold libgdal-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy python3-gdal xvfb${test_packages:+ $test_packages}"
 
 missing_packages()
 {
@@ -56,21 +57,8 @@ fi
 PATH=/usr/bin:/bin:$PATH
 export PATH
 
-# Scree's ranks have one thread each.
-export OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1
-
-# Two ranks start on any one machine: as root, on one core, without a network and in a container that forbids reading
-# another process's memory. Unbound, because runs that start side by side would all be bound to the first cores.
-if [ "$(id -u)" -eq 0 ]; then
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-fi
-export OMPI_MCA_rmaps_base_oversubscribe=1
-export OMPI_MCA_hwloc_base_binding_policy=none
-export OMPI_MCA_btl=self,vader
-export OMPI_MCA_btl_vader_single_copy_mechanism=none
-# No search for networks and, without mpirun, no daemon: runs begin in half the time.
-export OMPI_MCA_pml=ob1
-export OMPI_MCA_ess_singleton_isolated=1
+# shellcheck source=doc/mpi.sh
+. "$root/doc/mpi.sh"
 
 # Build ----------------------------------------------------------------------------------------------------------------
 
@@ -110,4 +98,4 @@ configure_scree()
 }
 
 # shellcheck disable=SC2086  # a list of words
-configure_scree build Release ${configure_options:-} && cmake --build "$root/build" --target scree || exit 1
+configure_scree build Release ${configure_options:-} && cmake --build "$root/build" --target scree scree-element || exit 1

@@ -16,7 +16,7 @@ namespace scree
          << DEAL_II_TRILINOS_VERSION_MAJOR << '.' << DEAL_II_TRILINOS_VERSION_MINOR << '.'
          << DEAL_II_TRILINOS_VERSION_SUBMINOR << ", p4est " //
          << DEAL_II_P4EST_VERSION_MAJOR << '.' << DEAL_II_P4EST_VERSION_MINOR << '.' << DEAL_II_P4EST_VERSION_SUBMINOR
-         << '\n'
+         << ", GDAL " SCREE_GDAL "\n"
          << SCREE_COMPILER ", " SCREE_BUILD_TYPE "\n";
     return text.str();
   }

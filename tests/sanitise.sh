@@ -8,11 +8,10 @@
 # that cross its border must not be annotated.
 export ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0:abort_on_error=0:exitcode=99
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=0
-export OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-export OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1
-
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
+# shellcheck source=doc/mpi.sh
+. "$root/doc/mpi.sh"
+export OMPI_MCA_mpi_yield_when_idle=1
 build=${1:-$root/build-sanitise}
 cmake -S "$root" -B "$build" -GNinja -DCMAKE_BUILD_TYPE=Release -DSCREE_NATIVE=OFF -DSCREE_SANITISE=ON &&
   cmake --build "$build" --target scree scree-element || exit 1

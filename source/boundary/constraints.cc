@@ -208,7 +208,7 @@ namespace scree
   void Constraints<dim>::close_gate(std::unique_ptr<Region<dim>> region)
   {
     gate = std::move(region);
-    on_all_ranks(grid.triangulation().get_communicator(), [&] { reinit(); });
+    on_all_ranks(grid.communicator(), [&] { reinit(); });
   }
 
 

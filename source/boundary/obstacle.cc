@@ -55,7 +55,7 @@ namespace scree
   template <int dim>
   void Obstacle<dim>::require_in_box(const ObstacleParameters &parameters) const
   {
-    const MPI_Comm communicator   = grid.triangulation().get_communicator();
+    const MPI_Comm communicator   = grid.communicator();
     const Tensor<1, dim> diagonal = grid.upper_corner() - grid.lower_corner();
     constexpr double most_places  = 1e5;
     const unsigned int n_ranks    = Utilities::MPI::n_mpi_processes(communicator);

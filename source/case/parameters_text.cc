@@ -14,7 +14,7 @@ namespace scree
 
   void Parameters::print(std::ostream &out)
   {
-    handler.print_parameters(out, ParameterHandler::Text);
+    handler.print_parameters(out, ParameterHandler::PRM);
   }
 
 

@@ -15,8 +15,7 @@ namespace scree
   template <int dim>
   SeepageReport SteadySeepage<dim>::report(const double scale) const
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const double resolution     = 1e-3 * grid.cell_size(); // of heads that count as one: that of one reservoir
+    const double resolution = 1e-3 * grid.cell_size(); // of heads that count as one: that of one reservoir
     SeepageReport report;
     std::map<long, double> out_to; // flow by heads
     double highest = -std::numeric_limits<double>::infinity();
@@ -32,13 +31,13 @@ namespace scree
           }
       }
     std::map<long, double> of_all;
-    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, out_to))
+    for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator(), out_to))
       for (const auto &[head, flow] : of_rank)
         of_all[head] += flow;
     for (const auto &[head, flow] : of_all)
       (flow > 0. ? report.outflow_below : report.inflow) += std::abs(flow);
-    report.outflow_in_air = Utilities::MPI::sum(report.outflow_in_air, communicator);
-    highest               = Utilities::MPI::max(highest, communicator);
+    report.outflow_in_air = Utilities::MPI::sum(report.outflow_in_air, grid.communicator());
+    highest               = Utilities::MPI::max(highest, grid.communicator());
     report.exit_height    = std::isfinite(highest) ? highest : std::numeric_limits<double>::quiet_NaN();
     return report;
   }
@@ -47,7 +46,7 @@ namespace scree
   template <int dim>
   std::shared_ptr<const SeepageField<dim>> SteadySeepage<dim>::field(const SeepageReport &report) const
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const CellsOfBox<dim> &box  = grid.fine_cells().box();
     std::vector<int> lower(dim, std::numeric_limits<int>::max()), upper(dim, 0); // of the cells; MPI knows no arrays
     for (const Cell &cell : cells)

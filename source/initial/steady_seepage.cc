@@ -34,13 +34,12 @@ namespace scree
       : grid(grid)
       , vertices(Basis::linear)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
-    on_all_ranks(communicator, [&] { survey.find(cells, faces); });
+    on_all_ranks(grid.communicator(), [&] { survey.find(cells, faces); });
     double highest = -std::numeric_limits<double>::infinity();
     for (const SeepageFace<dim> &face : faces)
       if (!std::isnan(face.head))
         highest = std::max(highest, face.head);
-    highest = Utilities::MPI::max(highest, communicator);
+    highest = Utilities::MPI::max(highest, grid.communicator());
     require_entry(std::isfinite(highest),
                   "Water",
                   "Steady seepage",
@@ -48,7 +47,7 @@ namespace scree
                   "no soil lies beside a given head. Look at \"Reservoir level\", \"Heads at walls\" and the regions.");
     for (const SeepageFace<dim> &face : faces)
       smallest_conductivity = std::min(smallest_conductivity, face.conductivity);
-    smallest_conductivity = Utilities::MPI::min(smallest_conductivity, communicator);
+    smallest_conductivity = Utilities::MPI::min(smallest_conductivity, grid.communicator());
     vertices.distribute(grid.fine_cells());
     heads.reinit(vertices.partitioner());
     scales.reinit(vertices.partitioner());
@@ -108,7 +107,7 @@ namespace scree
   template <int dim>
   void SteadySeepage<dim>::number_rows()
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     rows.reinit(vertices.partitioner());
     for (const Cell &cell : cells)
       for (unsigned int v = 0; v < n_vertices; ++v)
@@ -136,7 +135,7 @@ namespace scree
   void SteadySeepage<dim>::make_pattern()
   {
     const IndexSet owned = source.locally_owned_elements();
-    TrilinosWrappers::SparsityPattern pattern(owned, grid.triangulation().get_communicator(), Utilities::pow(3, dim));
+    TrilinosWrappers::SparsityPattern pattern(owned, grid.communicator(), Utilities::pow(3, dim));
     for (const auto row : owned)
       pattern.add(row, row);
     for (const Cell &cell : cells)
@@ -269,7 +268,7 @@ namespace scree
           heads.local_element(vertex) = head;
         }
     heads.update_ghost_values();
-    return Utilities::MPI::max(change, grid.triangulation().get_communicator());
+    return Utilities::MPI::max(change, grid.communicator());
   }
 
 
@@ -304,7 +303,7 @@ namespace scree
           has_changed       = has_changed || leaves != is_leaving[f];
           is_leaving[f]     = leaves;
         }
-    return Utilities::MPI::max(int(has_changed), grid.triangulation().get_communicator()) == 1;
+    return Utilities::MPI::max(int(has_changed), grid.communicator()) == 1;
   }
 
 

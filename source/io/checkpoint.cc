@@ -117,7 +117,7 @@ namespace scree
                            const std::function<void(boost::archive::binary_oarchive &)> &state)
   {
     const CheckpointFolder folder(run_folder);
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
 
     const auto contents = std::make_shared<std::vector<FileContent>>();
@@ -206,7 +206,7 @@ namespace scree
                        const std::vector<PointSet<dim> *> &sets,
                        const std::function<void(boost::archive::binary_iarchive &)> &state)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const auto on_all_ranks     = [&](const std::function<void()> &action) {
       const std::string fault = fault_of(action);
       throw_on_all_ranks(fault.empty() ? ""

@@ -114,7 +114,7 @@ namespace scree
                   const std::list<WaterPhase<dim>> &water,
                   const double expected_bytes)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     folder.log(header_line(communicator));
     folder.log("Case        " + texts.case_file + " -> " + texts.output_directory);
     folder.log("Model       " + texts.model + points_text(bodies, water, communicator));

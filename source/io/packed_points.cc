@@ -25,8 +25,8 @@ namespace scree
               {
                 const std::uint64_t number = point->get_id();
                 append_bytes(buffer, &number, 1);
-                append_bytes(buffer, point->get_location().begin_raw(), dim);
-                append_bytes(buffer, point->get_reference_location().begin_raw(), dim);
+                append_bytes(buffer, &point->get_location()[0], dim);
+                append_bytes(buffer, &point->get_reference_location()[0], dim);
                 append_bytes(buffer, point->get_properties().data(), points->stride());
               }
           }
@@ -62,8 +62,8 @@ namespace scree
           {
             const std::uint64_t number = file.take();
             Point<dim> location, reference_location;
-            file.take(location.begin_raw(), dim);
-            file.take(reference_location.begin_raw(), dim);
+            file.take(&location[0], dim);
+            file.take(&reference_location[0], dim);
             file.take(properties.data(), properties.size());
             if (cell != cells.end())
               points.handler().insert_particle(location, reference_location, number, cell->second, properties);

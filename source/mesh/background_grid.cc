@@ -20,7 +20,7 @@ namespace scree
     Point<dim> point_from_list(const std::vector<double> &list)
     {
       Point<dim> point;
-      std::copy_n(list.begin(), dim, point.begin_raw());
+      std::copy_n(list.begin(), dim, &point[0]);
       return point;
     }
 
@@ -300,7 +300,7 @@ namespace scree
     double n_all           = 1;
     for (const int along : n)
       n_all *= along;
-    const Blocks around = with_margin<dim>(all_blocks(blocks, mesh.get_communicator()), GridParameters::margin / 2, n);
+    const Blocks around = with_margin<dim>(all_blocks(blocks, communicator_of(mesh)), GridParameters::margin / 2, n);
     if (around.size() <= GridParameters::most_of_box * n_all)
       return around;
     return with_margin<dim>({ 0 }, *std::max_element(n.begin(), n.end()), n);
@@ -344,7 +344,7 @@ namespace scree
           else if (cell->level() > 0 && !is_wanted(s + 1))
             cell->set_coarsen_flag();
         }
-    return Utilities::MPI::max(int(refines), mesh.get_communicator()) == 1;
+    return Utilities::MPI::max(int(refines), communicator_of(mesh)) == 1;
   }
 
   template class BackgroundGrid<2>;

@@ -84,7 +84,7 @@ namespace scree
     entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
     corners.clear();
     least.clear();
-    on_all_ranks(grid.triangulation().get_communicator(), [&] { sample(); });
+    on_all_ranks(grid.communicator(), [&] { sample(); });
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/mesh/fine_cells.h>
+#include <scree/deal_ii_versions.h>
 #include <scree/particles/cell_use.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,6 +8,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace scree
 {
@@ -25,7 +27,7 @@ namespace scree
   FineCells<dim>::FineCells(const parallel::distributed::Triangulation<dim> &mesh, const CellsOfBox<dim> &box)
       : triangulation(mesh)
       , cells_of_box(box)
-      , rank(Utilities::MPI::this_mpi_process(mesh.get_communicator()))
+      , rank(Utilities::MPI::this_mpi_process(communicator_of(mesh)))
   {
   }
 
@@ -128,7 +130,7 @@ namespace scree
     using CellIterator = typename Triangulation<dim>::active_cell_iterator;
     GridTools::exchange_cell_data_to_ghosts<unsigned int, parallel::distributed::Triangulation<dim>>(
         triangulation,
-        [](const CellIterator &cell) { return std_cxx17::optional<unsigned int>(cell->user_index()); },
+        [](const CellIterator &cell) { return std::optional<unsigned int>(cell->user_index()); },
         [](const CellIterator &cell, const unsigned int &use) { cell->set_user_index(use); });
   }
 

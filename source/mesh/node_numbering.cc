@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/mesh/node_numbering.h>
+#include <scree/deal_ii_versions.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace scree
 {
@@ -93,9 +95,9 @@ namespace scree
         [&](const CellIterator &cell) {
           const unsigned int c = cells.of_index(cell->active_cell_index());
           if (c == none)
-            return std_cxx17::optional<Numbers>();
+            return std::optional<Numbers>();
           const auto begin = homes.begin() + std::size_t(c) * n_nodes;
-          return std_cxx17::optional<Numbers>(Numbers(begin, begin + n_nodes));
+          return std::optional<Numbers>(Numbers(begin, begin + n_nodes));
         },
         [&](const CellIterator &cell, const Numbers &numbers) {
           const unsigned int c = cells.of_index(cell->active_cell_index());
@@ -108,7 +110,7 @@ namespace scree
   std::vector<types::global_dof_index>
   NodeNumbering<dim>::number_all(const FineCells<dim> &cells, Homes &homes, unsigned int n_owned)
   {
-    const MPI_Comm communicator = cells.mesh().get_communicator();
+    const MPI_Comm communicator = communicator_of(cells.mesh());
     const unsigned int n_nodes  = n_nodes_per_cell();
     // Nodes that live in no fine cell, by the number of that cell and which one of its nodes it is.
     std::map<std::pair<std::uint64_t, unsigned int>, unsigned int> homeless;

@@ -43,7 +43,7 @@ namespace scree
     for (const Part &part : *parts)
       n_places += Utilities::fixed_power<dim>(part.points_per_cell) * Region<dim>::n_places_of_cube;
     const auto loaded = [&parameters](const Point<dim> &cell) {
-      return parameters.surface_load.touches_cell(cell.begin_raw(), parameters.grid, dim);
+      return parameters.surface_load.touches_cell(&cell[0], parameters.grid, dim);
     };
     const auto fed = [sections, &parameters](const Point<dim> &cell) {
       return std::any_of(sections->begin(), sections->end(), [&](const Section &section) {

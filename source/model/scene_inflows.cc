@@ -171,7 +171,7 @@ namespace scree
           if (of_place)
             of_place->set(entrant.location, 0., properties.data() + layout.internal_variables);
           fill_entrant(entrant, body, properties);
-          std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + layout.velocity);
+          std::copy_n(&inflow.velocity()[0], dim, properties.begin() + layout.velocity);
           set_touching_distances(body, surfaces, entrant.cell, entrant.place, properties.data());
           ++totals.n_entered;
           totals.entered_mass += properties[layout.mass];
@@ -197,7 +197,7 @@ namespace scree
         [&](Entrant entrant, std::vector<double> &properties) {
           entrant.volume *= inflow.water_share;
           fill_entrant(entrant, phase, pressure(entrant.cell), properties);
-          std::copy_n(inflow.velocity().begin_raw(), dim, properties.begin() + phase.layout.velocity);
+          std::copy_n(&inflow.velocity()[0], dim, properties.begin() + phase.layout.velocity);
           totals.entered_water_mass += properties[phase.layout.mass];
         },
         totals);
@@ -213,7 +213,7 @@ namespace scree
     properties[layout.mass]             = body.density * entrant.volume;
     properties[layout.volume]           = entrant.volume;
     if (layout.has_start)
-      std::copy_n(entrant.location.begin_raw(), dim, properties.begin() + layout.start);
+      std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
     double stress[n_symmetric_components<dim>] = {};
     if (state.stress_kind() == InitialStress::isotropic)
       std::fill_n(stress, 3, -state.pressure);

@@ -69,7 +69,8 @@ namespace scree
                                   const std::list<SoilBody<dim>> &bodies,
                                   const BackgroundGrid<dim> &grid)
     {
-      const auto [entry, value] = parameters.place();
+      const auto place         = parameters.place(); // not taken apart: clang 14 hands no part of it to a lambda
+      const std::string &entry = place.first, &value = place.second;
       if (entry.rfind("Phreatic", 0) != 0)
         return;
       const Region<dim> wet(entry_name("Water", entry),
@@ -78,7 +79,7 @@ namespace scree
                             parameters.table<dim>());
       const double top = grid.upper_corner()[dim - 1], bottom = grid.lower_corner()[dim - 1];
       const double rounding = 1e-6 * grid.cell_size();
-      on_all_ranks(grid.triangulation().get_communicator(), [&] {
+      on_all_ranks(grid.communicator(), [&] {
         for (const SoilBody<dim> &body : bodies)
           for_each_point(body.points, [&](const auto &point) {
             Point<dim> above = point.location, below = point.location;
@@ -234,7 +235,7 @@ namespace scree
       Tensor<1, dim> down;
       down[dim - 1] = -1.;
       Overburden<dim> depth(grid, std::move(layers), down, grid.cell_size() / 4);
-      on_all_ranks(grid.triangulation().get_communicator(), [&] {
+      on_all_ranks(grid.communicator(), [&] {
         for_each_point(body.points, [&](const auto &point) {
           values.set(point.location,
                      variable.gradient > 0 ? depth.weight_above(point.location) : 0.,
@@ -388,7 +389,7 @@ namespace scree
     for (auto &body : bodies)
       if (body.layout.has_start)
         for_each_point(body.points, [&](const auto &point) {
-          std::copy_n(point.location.begin_raw(), dim, point.properties + body.layout.start);
+          std::copy_n(&point.location[0], dim, point.properties + body.layout.start);
         });
   }
 

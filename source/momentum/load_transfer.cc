@@ -52,7 +52,7 @@ namespace scree
           bounds[dim + a] = std::max(bounds[dim + a], marker.location[a]);
         }
     });
-    Utilities::MPI::max(bounds, grid.triangulation().get_communicator(), bounds);
+    Utilities::MPI::max(bounds, grid.communicator(), bounds);
     const double margin = grid.n_nodes_1d() * grid.cell_size();
     std::array<Point<dim>, 2> corners;
     for (unsigned int a = 0; a < dim; ++a)

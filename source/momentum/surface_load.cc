@@ -200,11 +200,10 @@ namespace scree
             seeds.push_back(seed);
           }
       }
-    insert_points<dim>(markers,
-                       seeds,
-                       cell_size,
-                       grid.triangulation().get_communicator(),
-                       [](const Seed<dim> &seed, std::vector<double> &properties) { properties[area] = seed.volume; });
+    insert_points<dim>(
+        markers, seeds, cell_size, grid.communicator(), [](const Seed<dim> &seed, std::vector<double> &properties) {
+          properties[area] = seed.volume;
+        });
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/particles/partition.h>
+#include <scree/deal_ii_versions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -22,7 +23,7 @@ namespace scree
   Partition<dim>::Partition(parallel::distributed::Triangulation<dim> &mesh, const std::vector<PointSet<dim> *> &sets)
       : mesh(mesh)
       , sets(sets)
-      , communicator(mesh.get_communicator())
+      , communicator(communicator_of(mesh))
       , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
       , typical_costs(sets.size(), cost_of_unmeasured_point)
       , weight_signal(mesh.signals.weight.connect([this](const auto &cell, const auto) { return weight_of(cell); }))

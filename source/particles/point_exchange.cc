@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/particles/point_exchange.h>
+#include <scree/deal_ii_versions.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -32,7 +33,7 @@ namespace scree
     // Points go to ghost cells only, so that all ranks know who may write to them. deal.II's some_to_some() asks first,
     // which takes 60 microseconds more a step on two ranks.
     const auto &neighbours      = dynamic_cast<const parallel::TriangulationBase<dim> &>(mesh).ghost_owners();
-    const MPI_Comm communicator = mesh.get_communicator();
+    const MPI_Comm communicator = communicator_of(mesh);
     constexpr int tag           = 1;
     std::vector<Record> immigrants;
     std::vector<std::vector<char>> messages;

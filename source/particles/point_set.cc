@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/particles/point_set.h>
+#include <scree/deal_ii_versions.h>
 #include <scree/simd/records.h>
 
 #include <deal.II/base/mpi.h>
@@ -51,6 +52,7 @@ namespace scree
     particle_handler.sort_particles_into_subdomains_and_cells();
     n_moved = 0;
     list_all_cells();
+    set_places(); // as hand_over() does: those of deal.II 9.6 and later differ in the last digit
   }
 
 
@@ -58,7 +60,7 @@ namespace scree
   void PointSet<dim>::hand_over()
   {
     const int disorder = static_cast<int>(update_places());
-    hand_over(static_cast<Disorder>(Utilities::MPI::max(disorder, mesh.get_communicator())));
+    hand_over(static_cast<Disorder>(Utilities::MPI::max(disorder, communicator_of(mesh))));
   }
 
 
@@ -170,7 +172,7 @@ namespace scree
   {
     const auto place = table[number].template place_of<double>(location);
     Point<dim> reference_location;
-    std::copy(place.begin(), place.end(), reference_location.begin_raw());
+    std::copy(place.begin(), place.end(), &reference_location[0]);
     return particle_handler.insert_particle(location, reference_location, id, table[number].iterator, properties)
         ->get_local_index();
   }

@@ -136,9 +136,8 @@ namespace scree
           if (is_close)
             tops[i * n_parts + part] = std::max(tops[i * n_parts + part], lump.location[dim - 1] + 0.5 * side);
         }
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
-    Utilities::MPI::sum(volumes, communicator, volumes);
-    Utilities::MPI::max(tops, communicator, tops);
+    Utilities::MPI::sum(volumes, grid.communicator(), volumes);
+    Utilities::MPI::max(tops, grid.communicator(), tops);
 
     std::vector<GroundColumn> columns;
     for (unsigned int i = 0; i < places.size(); ++i)
@@ -177,7 +176,7 @@ namespace scree
         };
         thickness[(dim == 3 ? number(1) * n[0] : 0) + number(0)] += lump.volume / columns.area();
       }
-    Utilities::MPI::sum(thickness, grid.triangulation().get_communicator(), thickness);
+    Utilities::MPI::sum(thickness, grid.communicator(), thickness);
 
     // Where, in cells from the centre of column i of a row, the thickness has fallen to the threshold at column j.
     const auto way = [&](const double *row, const int i, const int j) {

@@ -59,9 +59,12 @@ namespace scree
             const auto &before = pass == 0 ? all : parts;
             std::vector<PartOfMass> kept;
             // Rounding decides anew about the edges.
-            std::copy_if(before.begin(), before.end(), std::back_inserter(kept), [&](const PartOfMass &part) {
-              return part.place >= begin - width && part.place < end + width;
-            });
+            std::copy_if(before.begin(),
+                         before.end(),
+                         std::back_inserter(kept),
+                         [first = begin - width, last = end + width](const PartOfMass &part) {
+                           return part.place >= first && part.place < last;
+                         });
             parts = std::move(kept);
           }
       }
@@ -98,11 +101,7 @@ namespace scree
     for (const auto &body : bodies)
       if (!body.is_rigid)
         append_parts(body.points, body.layout.mass, axis, parts);
-    return percentiles(parts,
-                       grid.lower_corner()[axis],
-                       grid.upper_corner()[axis],
-                       fractions,
-                       grid.triangulation().get_communicator());
+    return percentiles(parts, grid.lower_corner()[axis], grid.upper_corner()[axis], fractions, grid.communicator());
   }
 
 
@@ -115,11 +114,7 @@ namespace scree
     std::vector<PartOfMass> parts;
     for (const auto &one : water)
       append_parts(one.points(), one.layout.mass, axis, parts);
-    return percentiles(parts,
-                       grid.lower_corner()[axis],
-                       grid.upper_corner()[axis],
-                       fractions,
-                       grid.triangulation().get_communicator());
+    return percentiles(parts, grid.lower_corner()[axis], grid.upper_corner()[axis], fractions, grid.communicator());
   }
 
 
@@ -153,8 +148,7 @@ namespace scree
                               const std::list<WaterPhase<dim>> &water,
                               const BackgroundGrid<dim> &grid)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const double cell_volume    = Utilities::fixed_power<dim>(grid.cell_size());
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     std::vector<double> sums(5, 0.); // water points, water mass, that outside soil, overfull volume, volume
     for (const CellContents &cell : contents_of_cells(bodies, water, grid))
       {
@@ -165,7 +159,7 @@ namespace scree
         sums[3] += std::max(0., volume - cell_volume);
         sums[4] += volume;
       }
-    Utilities::MPI::sum(sums, communicator, sums);
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
 
     std::vector<double> largest(3, -std::numeric_limits<double>::infinity()); // -p, p, x
     for (const auto &one : water)
@@ -175,7 +169,7 @@ namespace scree
         largest[1]            = std::max(largest[1], pressure);
         largest[2]            = std::max(largest[2], point.location[0]);
       });
-    Utilities::MPI::max(largest, communicator, largest);
+    Utilities::MPI::max(largest, grid.communicator(), largest);
 
     WaterMeasures measures;
     measures.n_points          = sums[0];

@@ -131,7 +131,7 @@ namespace scree
     // Of the weights along an axis, in cell sizes squared: below it, points lie too close together for a slope.
     constexpr double smallest_spread = 0.02;
     constexpr unsigned int n         = dim + 1;
-    Utilities::MPI::sum(sums.all, grid.triangulation().get_communicator(), sums.all);
+    Utilities::MPI::sum(sums.all, grid.communicator(), sums.all);
     std::vector<std::vector<double>> table(
         place_list.size(), std::vector<double>(sums.n_values, std::numeric_limits<double>::quiet_NaN()));
     for (unsigned int i = 0; i < place_list.size(); ++i)

@@ -12,7 +12,7 @@ namespace scree
     Point<dim> point_of(const std::vector<double> &coordinates)
     {
       Point<dim> point;
-      std::copy_n(coordinates.begin(), dim, point.begin_raw());
+      std::copy_n(coordinates.begin(), dim, &point[0]);
       return point;
     }
 
@@ -214,7 +214,7 @@ namespace scree
         for (unsigned int i = 0; i < rows.size(); ++i)
           {
             std::vector<double> where{ state.time, points[i].distance(points.front()) };
-            where.insert(where.end(), points[i].begin_raw(), points[i].end_raw());
+            where.insert(where.end(), &points[i][0], &points[i][0] + dim);
             rows[i].insert(rows[i].begin(), where.begin(), where.end());
           }
         append(*line.table, rows);

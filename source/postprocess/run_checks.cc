@@ -82,7 +82,7 @@ namespace scree
     has_soil   = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return !body.is_rigid; });
     look_at_speeds(bodies, water);
     look_at_places(bodies, water);
-    const double n_all = Utilities::MPI::sum(n_lost, grid.triangulation().get_communicator());
+    const double n_all = Utilities::MPI::sum(n_lost, grid.communicator());
     suspect(Check::lost, n_all, n_all, [] { return std::string(); });
     agree(time);
     return true;
@@ -128,12 +128,11 @@ namespace scree
         speeds.push_back({ vector_of<dim>(velocity).norm(), 1. });
         largest = std::max(largest, speeds.back().place);
       });
-      const MPI_Comm communicator = grid.triangulation().get_communicator();
-      largest                     = Utilities::MPI::max(largest, communicator);
+      largest = Utilities::MPI::max(largest, grid.communicator());
       if (!(largest > fall))
         return;
       if (!std::isinf(largest))
-        usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, communicator)[0]);
+        usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
       for_each([&](const double *velocity, const auto &name) {
         if (const double speed = vector_of<dim>(velocity).norm(); speed > std::max(usual, fall))
           suspect(Check::speed, speed / std::max(usual, fall), speed, name);
@@ -167,7 +166,7 @@ namespace scree
           const double height = -(gravity * (point.location - Point<dim>())) / g;
           ends                = { std::max(ends[0], height), std::max(ends[1], -height) };
         });
-    Utilities::MPI::max(ends, grid.triangulation().get_communicator(), ends);
+    Utilities::MPI::max(ends, grid.communicator(), ends);
     const double height      = ends[0] + ends[1] + grid.cell_size();
     const auto look_at_depth = [&](const auto &point, const auto &name) {
       const double deepest = -grid.cell_size() * now[static_cast<unsigned int>(Check::depth)].value;
@@ -223,7 +222,7 @@ namespace scree
   {
     for (Suspect &suspect : now)
       suspect.time = time;
-    const auto of_ranks = Utilities::MPI::gather(grid.triangulation().get_communicator(), now);
+    const auto of_ranks = Utilities::MPI::gather(grid.communicator(), now);
     for (const Suspects &of_rank : of_ranks) // none but on the rank that writes
       for (unsigned int c = 0; c < n_checks; ++c)
         if (of_rank[c].value > worst[c].value)

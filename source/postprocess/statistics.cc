@@ -30,7 +30,6 @@ namespace scree
                                 const double time_step,
                                 const UpdateReport &last_step)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
     const std::vector<double> fronts{ 0.90, 0.99, 0.995 };
     const Snapshot<dim> now{ grid,
                              further,
@@ -38,12 +37,12 @@ namespace scree
                              water,
                              history,
                              last_step,
-                             PointSums<dim>(bodies, water, gravity, communicator),
+                             PointSums<dim>(bodies, water, gravity, grid.communicator()),
                              water.empty() ? WaterMeasures() : measure_water(bodies, water, grid),
                              bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, 0, fronts),
                              water.empty() ? std::vector<double>() : mass_percentiles(water, grid, 0, fronts),
                              bodies.empty() ? MotionNumbers() : motion.look(bodies, time),
-                             local.sum_over_ranks(communicator),
+                             local.sum_over_ranks(grid.communicator()),
                              time,
                              step,
                              time_step };

@@ -73,7 +73,7 @@ namespace scree
                   forces[face] += (face % 2 == 0 ? -1. : 1.) * area * std::max(0., pressure_at<dim>(x, corners));
                 }
         }
-    Utilities::MPI::sum(forces, grid.triangulation().get_communicator(), forces);
+    Utilities::MPI::sum(forces, grid.communicator(), forces);
     return forces;
   }
 
@@ -86,7 +86,7 @@ namespace scree
       for (const WallImpulses<dim> *walls : { &totals.soil_walls, &totals.water_walls })
         for (unsigned int a = 0; a < dim; ++a)
           impulses.push_back(walls->of_face[face][a]);
-    Utilities::MPI::sum(impulses, grid.triangulation().get_communicator(), impulses);
+    Utilities::MPI::sum(impulses, grid.communicator(), impulses);
     const std::vector<double> pressure = view ? pressure_forces(*view) : std::vector<double>(2 * dim, 0.);
 
     std::vector<double> forces;

@@ -150,7 +150,7 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::count(const SolveReport &report, Budget<dim> &balance) const
   {
-    if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) != 0)
+    if (Utilities::MPI::this_mpi_process(grid.communicator()) != 0)
       return; // All ranks took part; one tells.
     balance.n_iterations += report.n_iterations;
     balance.n_preconditioners += report.made_preconditioner;

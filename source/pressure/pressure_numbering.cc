@@ -32,7 +32,7 @@ namespace scree
     for (const MixtureCell<dim> &cell : mixture.cells())
       for (unsigned int v = 0; v < n_vertices && serve && cell.water_volume > 0; ++v)
         serve = number_of_corner[vertices.nodes(cell.cell)[v]] != numbers::invalid_unsigned_int;
-    return Utilities::MPI::min(int(serve), grid.triangulation().get_communicator()) == 1;
+    return Utilities::MPI::min(int(serve), grid.communicator()) == 1;
   }
 
 
@@ -71,17 +71,17 @@ namespace scree
   template <int dim>
   IndexSet PressureNumbering<dim>::number_marked(VertexVector &marks) const
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
     const auto begin = marks.begin(), end = begin + vertices.n_owned();
     const auto is_marked = [](const double mark) { return mark > 0.; };
     // Trilinos needs a row of every rank.
     AssertThrow(vertices.n_owned() > 0,
-                ExcMessage("One of the " + std::to_string(Utilities::MPI::n_mpi_processes(communicator)) +
+                ExcMessage("One of the " + std::to_string(Utilities::MPI::n_mpi_processes(grid.communicator())) +
                            " ranks has no nodes. Use fewer ranks."));
     if (std::none_of(begin, end, is_marked))
       *begin = 1.;
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
-        communicator, std::count_if(begin, end, is_marked))[Utilities::MPI::this_mpi_process(communicator)];
+        grid.communicator(),
+        std::count_if(begin, end, is_marked))[Utilities::MPI::this_mpi_process(grid.communicator())];
     auto next = owned.begin();
     for (auto mark = begin; mark != end; ++mark)
       *mark = is_marked(*mark) ? double(*next++) : -1.;
@@ -110,8 +110,7 @@ namespace scree
       if (vertex >= vertices.n_owned())
         ghosts.add_index(number_of(vertex));
     });
-    numbers_of_ranks =
-        std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, grid.triangulation().get_communicator());
+    numbers_of_ranks = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, grid.communicator());
 
     std::fill(number_of_corner.begin(), number_of_corner.end(), numbers::invalid_unsigned_int);
     corner_of_number.assign(owned.n_elements() + ghosts.n_elements(), numbers::invalid_unsigned_int);

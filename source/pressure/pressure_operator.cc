@@ -97,7 +97,7 @@ namespace scree
       }
     const std::vector<double> own{ largest_mobility, double(is_anchored) };
     std::vector<double> all_ranks(2);
-    Utilities::MPI::max(own, grid.triangulation().get_communicator(), all_ranks);
+    Utilities::MPI::max(own, grid.communicator(), all_ranks);
     AssertThrow(all_ranks[0] == 0. || all_ranks[1] == 1.,
                 ExcMessage("Water fills the box, and all its walls are closed: nothing sets the level of its pressure. "
                            "Remedies: a drained wall in subsection Boundaries/Water, a 'Bulk modulus' in subsection "

@@ -146,7 +146,7 @@ namespace scree
           }
         std::array<double, 8> sums{ { rr, rz, zw, rw, ww, rs, ws, ss } };
         Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                            grid.triangulation().get_communicator(),
+                            grid.communicator(),
                             ArrayView<double>(sums.data(), sums.size()));
         std::tie(rr, rz, zw, rw, ww, rs, ws, ss) = std::tuple_cat(sums);
 
@@ -213,7 +213,7 @@ namespace scree
     take(change, solution);
     const std::vector<double> squares{ local_square(scratch), local_square(source) };
     std::vector<double> of_ranks(2);
-    Utilities::MPI::sum(squares, grid.triangulation().get_communicator(), of_ranks);
+    Utilities::MPI::sum(squares, grid.communicator(), of_ranks);
     tolerance = relative_tolerance * std::sqrt(std::max(of_ranks[0], of_ranks[1]));
     SolveReport report;
     converge(report);
@@ -257,7 +257,6 @@ namespace scree
   PressureSolver<dim>::enforce_least_pressure(const double least, const VertexVector &pressure, VertexVector &change)
   {
     constexpr unsigned int most_sweeps = 5; // Vertices below after them are held without another solve.
-    const MPI_Comm communicator        = grid.triangulation().get_communicator();
     std::pair<SolveReport, unsigned int> result;
     std::vector<char> is_held(system.n_owned(), false);
     VertexVector residual;
@@ -275,7 +274,7 @@ namespace scree
               if (holds)
                 solution.local_element(i) = bound(i);
             }
-        if (sweep == most_sweeps || !Utilities::MPI::logical_or(has_changed, communicator))
+        if (sweep == most_sweeps || !Utilities::MPI::logical_or(has_changed, grid.communicator()))
           break;
         if (sweep == 0)
           residual.reinit(numbering.partitioner());

@@ -68,7 +68,7 @@ namespace scree
                                 const RunTotals<dim> &local,
                                 const double time)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
+    const MPI_Comm communicator = grid.communicator();
     const RunTotals<dim> totals = local.sum_over_ranks(communicator);
     PointSums<dim> sums(bodies, water, gravity, communicator);
     sums.kinetic *= mass_scaling;

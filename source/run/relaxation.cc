@@ -186,7 +186,7 @@ namespace scree
       , control(control)
       , folder(folder)
       , advance(advance)
-      , communicator(scene.grid.triangulation().get_communicator())
+      , communicator(scene.grid.communicator())
       , gravity(scene.forcing.gravity().norm())
   {
     scene.mark_start();

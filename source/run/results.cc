@@ -35,7 +35,7 @@ namespace scree
              folder)
       , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
       , balances(scene.grid, scene.forcing)
-      , files(scene.grid.triangulation().get_communicator())
+      , files(scene.grid.communicator())
   {
   }
 

@@ -54,16 +54,14 @@ namespace scree
       look(body.points, body.layout.velocity);
     for (const auto &part : scene.water)
       look(part.points(), part.layout.velocity);
-    return Utilities::MPI::max(largest, scene.grid.triangulation().get_communicator());
+    return Utilities::MPI::max(largest, scene.grid.communicator());
   }
 
 
   template <int dim>
   double ShownMotion<dim>::kinetic_energy() const
   {
-    return PointSums<dim>(
-               scene.bodies, scene.water, scene.forcing.gravity(), scene.grid.triangulation().get_communicator())
-        .kinetic;
+    return PointSums<dim>(scene.bodies, scene.water, scene.forcing.gravity(), scene.grid.communicator()).kinetic;
   }
 
   template class ShownMotion<2>;

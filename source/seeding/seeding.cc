@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/deal_ii_versions.h>
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/seeding/seeding.h>
@@ -133,7 +134,7 @@ namespace scree
                                       soil[first].entry().second + ": both are true at " + number_text(x) +
                                       " m, and would be filled twice. Leave the place to one of them.");
         }
-    throw_on_all_ranks(fault, triangulation.get_communicator());
+    throw_on_all_ranks(fault, communicator_of(triangulation));
   }
 
 
@@ -151,7 +152,7 @@ namespace scree
             ? nullptr
             : parse_expression<dim>(entry_name(body.name, "Initial velocity"), parameters.initial_velocity, dim);
 
-    const MPI_Comm communicator = triangulation.get_communicator();
+    const MPI_Comm communicator = communicator_of(triangulation);
     std::vector<Seed<dim>> seeds;
     on_all_ranks(communicator, [&] {
       seeds = lattice_seeds<dim>(triangulation,

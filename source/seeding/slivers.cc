@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/seeding/slivers.h>
+#include <scree/deal_ii_versions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,7 +25,7 @@ namespace scree
     template <int dim>
     bool is_before(const Point<dim> &a, const Point<dim> &b)
     {
-      return std::lexicographical_compare(a.begin_raw(), a.end_raw(), b.begin_raw(), b.end_raw());
+      return std::lexicographical_compare(&a[0], &a[0] + dim, &b[0], &b[0] + dim);
     }
 
 
@@ -142,7 +143,7 @@ namespace scree
             triangulation,
             [&](const CellOf<dim> &cell) {
               const auto found = of_cells.find(cell->active_cell_index());
-              return found == of_cells.end() ? std_cxx17::optional<Views>() : found->second;
+              return found == of_cells.end() ? std::optional<Views>() : found->second;
             },
             [&](const CellOf<dim> &cell, const Views &views) { of_cells[cell->active_cell_index()] = views; });
       }
@@ -199,7 +200,7 @@ namespace scree
               if (best)
                 joinings[seed.cell] = { best->location, seed.location, seed.volume, seed.filled };
             }
-        const bool any = Utilities::MPI::max(joinings.empty() ? 0u : 1u, triangulation.get_communicator()) > 0;
+        const bool any = Utilities::MPI::max(joinings.empty() ? 0u : 1u, communicator_of(triangulation)) > 0;
         if (any)
           take_in();
         return any;
@@ -216,7 +217,7 @@ namespace scree
             triangulation,
             [&](const CellOf<dim> &cell) {
               const auto joining = joinings.find(cell);
-              return joining == joinings.end() ? std_cxx17::optional<Joining<dim>>() : joining->second;
+              return joining == joinings.end() ? std::optional<Joining<dim>>() : joining->second;
             },
             [&](const CellOf<dim> &cell, const Joining<dim> &joining) { joinings[cell] = joining; });
         std::vector<std::pair<Joining<dim>, Seed<dim> *>> due;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/deal_ii_versions.h>
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/seeding/slivers.h>
@@ -101,7 +102,7 @@ namespace scree
           sum.location = lower + moment / sum.volume;
         return sum;
       };
-      const MPI_Comm communicator = triangulation.get_communicator();
+      const MPI_Comm communicator = communicator_of(triangulation);
       std::vector<Seed<dim>> seeds;
       on_all_ranks(communicator, [&] {
         seeds = lattice_seeds<dim>(

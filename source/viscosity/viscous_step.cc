@@ -78,7 +78,7 @@ namespace scree
     double largest = 0;
     for (const Viscous &one : viscous)
       largest = std::max(largest, force.largest_rate(one.points, one.coefficients, one.mass_slot));
-    return Utilities::MPI::max(largest, grid.triangulation().get_communicator());
+    return Utilities::MPI::max(largest, grid.communicator());
   }
 
 
@@ -135,7 +135,7 @@ namespace scree
     double sum = 0;
     for (unsigned int i = 0; i < a.size(); ++i)
       sum += a[i].soil * b[i].soil + a[i].water * b[i].water;
-    return Utilities::MPI::sum(sum, grid.triangulation().get_communicator());
+    return Utilities::MPI::sum(sum, grid.communicator());
   }
 
 
@@ -212,7 +212,7 @@ namespace scree
         for (const unsigned int node : active)
           velocity.push_back(velocities(nodes, node));
         const unsigned int n_iterations = solve(velocity, &bed, time_step);
-        if (Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()) == 0)
+        if (Utilities::MPI::this_mpi_process(grid.communicator()) == 0)
           balance.n_viscous_iterations += n_iterations;
         // What the solve leaves would not add up to nothing.
         set_motion(velocity);

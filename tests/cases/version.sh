@@ -12,7 +12,7 @@ element=$3
 cat version
 number='[0-9][0-9]*\.[0-9][0-9]*\.[0-9][0-9]*'
 grep -Eqx "Scree $number \(commit ([0-9a-f]{7,}(-dirty)?|unknown)\)" version
-grep -qx "deal.II $number, Trilinos $number, p4est $number" version
+grep -qx "deal.II $number, Trilinos $number, p4est $number, GDAL $number" version
 grep -Eqx "[A-Za-z]+ [0-9.]+, (Release|Debug)" version
 [ "$(wc -l <version)" -eq 3 ]
 

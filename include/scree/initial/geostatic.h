@@ -56,7 +56,7 @@ namespace scree
     /// Communicator of the mesh.
     MPI_Comm communicator() const
     {
-      return grid.triangulation().get_communicator();
+      return grid.communicator();
     }
 
     /// m/s^2

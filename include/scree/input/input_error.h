@@ -73,7 +73,7 @@ namespace scree
   template <int dim>
   std::string number_text(const dealii::Point<dim> &x)
   {
-    return number_text(std::vector<double>(x.begin_raw(), x.end_raw()));
+    return number_text(std::vector<double>(&x[0], &x[0] + dim));
   }
 
   /// The text between double quotes.

@@ -2,6 +2,7 @@
 #ifndef scree_mesh_background_grid_h
 #define scree_mesh_background_grid_h
 
+#include <scree/deal_ii_versions.h>
 #include <scree/mesh/node_numbering.h>
 #include <scree/mesh/occupied_blocks.h>
 
@@ -163,6 +164,12 @@ namespace scree
     dealii::parallel::distributed::Triangulation<dim> &triangulation()
     {
       return mesh;
+    }
+
+    /// Communicator of the mesh.
+    MPI_Comm communicator() const
+    {
+      return communicator_of(mesh);
     }
 
     /// Mapping of the cells, cubes along the axes.

@@ -96,7 +96,7 @@ namespace scree
     /// Communicator of the mesh.
     MPI_Comm communicator() const
     {
-      return grid.triangulation().get_communicator();
+      return grid.communicator();
     }
 
   private:

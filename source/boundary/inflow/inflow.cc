@@ -55,7 +55,7 @@ namespace scree
     normal[face / 2] = face % 2 == 0 ? 1. : -1.;
     find_places(parameters, ground);
     reinit();
-    on_all_ranks(grid.triangulation().get_communicator(), [&] { mean_velocity = velocity_of(hydrograph.value(0.)); });
+    on_all_ranks(grid.communicator(), [&] { mean_velocity = velocity_of(hydrograph.value(0.)); });
   }
 
 
@@ -69,11 +69,10 @@ namespace scree
   template <int dim>
   void Inflow<dim>::find_places(const InflowParameters &parameters, const LevelSet<dim> *ground)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
     const Region<dim> region(entry_name(parameters.subsection, "Region"), parameters.region);
     const double lower = face % 2 == 0 ? section : section - spacing; // of the layer behind the section
     std::vector<std::pair<std::array<double, dim>, double>> own;
-    on_all_ranks(communicator, [&] {
+    on_all_ranks(grid.communicator(), [&] {
       const auto seeds = lattice_seeds<dim>(grid.triangulation(),
                                             grid.cell_size(),
                                             { static_cast<unsigned int>(std::lround(grid.cell_size() / spacing)) },
@@ -87,17 +86,17 @@ namespace scree
       for (const Seed<dim> &seed : seeds)
         {
           own.emplace_back(std::array<double, dim>(), seed.volume);
-          std::copy_n(seed.location.begin_raw(), dim, own.back().first.begin());
+          std::copy_n(&seed.location[0], dim, own.back().first.begin());
         }
     });
     std::vector<std::pair<std::array<double, dim>, double>> all;
-    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, own))
+    for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator(), own))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
     std::sort(all.begin(), all.end());
     for (const auto &[location, volume] : all)
       {
         Place place{ Point<dim>(), volume };
-        std::copy(location.begin(), location.end(), place.location.begin_raw());
+        std::copy(location.begin(), location.end(), &place.location[0]);
         layer.push_back(place);
         open_area += volume / spacing;
         cells_of_layer.push_back(grid.fine_cells().box().place_near(place.location));

@@ -85,7 +85,7 @@ namespace scree
   template <int dim>
   double ContactSolver<dim>::sum(const double value) const
   {
-    return Utilities::MPI::sum(value, grid.triangulation().get_communicator());
+    return Utilities::MPI::sum(value, grid.communicator());
   }
 
 
@@ -146,7 +146,7 @@ namespace scree
           own[0] += of_contact;
           own[1] += contact.area * mobilities[k] * of_contact;
         }
-      const int error = MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, grid.triangulation().get_communicator());
+      const int error = MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, grid.communicator());
       AssertThrowMPI(error);
       return std::make_pair(all[0], all[1]);
     };

@@ -23,7 +23,7 @@ namespace scree
   DelassusOperator<dim>::DelassusOperator(const BackgroundGrid<dim> &grid, const CutCells<dim> &cut_cells)
       : grid(grid)
       , cut_cells(cut_cells)
-      , is_parallel(Utilities::MPI::n_mpi_processes(grid.triangulation().get_communicator()) > 1)
+      , is_parallel(Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
       , messages(grid.numbering())
   {
     reinit();

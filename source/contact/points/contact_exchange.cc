@@ -115,13 +115,8 @@ namespace scree
   void ContactExchange<dim>::post(const std::vector<T> &message, const unsigned int rank)
   {
     requests.emplace_back();
-    const int error = MPI_Isend(message.data(),
-                                message.size() * sizeof(T),
-                                MPI_BYTE,
-                                rank,
-                                tag,
-                                grid.triangulation().get_communicator(),
-                                &requests.back());
+    const int error = MPI_Isend(
+        message.data(), message.size() * sizeof(T), MPI_BYTE, rank, tag, grid.communicator(), &requests.back());
     AssertThrowMPI(error);
   }
 
@@ -146,7 +141,8 @@ namespace scree
             {
               const NodeRow change = nodes.motion(number) - to_row<dim>(nodes.before(number));
               neighbour.records.push_back({ k, nodes.turns(number), {} });
-              std::copy_n(&change[0], dim, neighbour.records.back().change.begin());
+              for (unsigned int c = 0; c < dim; ++c)
+                neighbour.records.back().change[c] = change[c];
             }
         post(neighbour.records, neighbour.rank);
       }
@@ -156,13 +152,12 @@ namespace scree
   template <int dim>
   void ContactExchange<dim>::receive_records(Neighbour &neighbour, const NodalField<dim> &field)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
     MPI_Status status;
-    timed(waited, [&] { return MPI_Probe(neighbour.rank, tag, communicator, &status); });
+    timed(waited, [&] { return MPI_Probe(neighbour.rank, tag, grid.communicator(), &status); });
     int size, error = MPI_Get_count(&status, MPI_BYTE, &size);
     AssertThrowMPI(error);
     records.resize(size / sizeof(Record));
-    error = MPI_Recv(records.data(), size, MPI_BYTE, neighbour.rank, tag, communicator, MPI_STATUS_IGNORE);
+    error = MPI_Recv(records.data(), size, MPI_BYTE, neighbour.rank, tag, grid.communicator(), MPI_STATUS_IGNORE);
     AssertThrowMPI(error);
 
     // Both lists are in the order of the shared nodes.
@@ -271,7 +266,8 @@ namespace scree
     for (const unsigned int k : listed)
       {
         const NodeRow &motion = nodes.motion(neighbour.entries[k].number);
-        messages.back().insert(messages.back().end(), &motion[0], &motion[0] + dim);
+        for (unsigned int c = 0; c < dim; ++c)
+          messages.back().push_back(motion[c]);
       }
     post(messages.back(), neighbour.rank);
   }
@@ -290,7 +286,7 @@ namespace scree
                       MPI_BYTE,
                       neighbour.rank,
                       tag,
-                      grid.triangulation().get_communicator(),
+                      grid.communicator(),
                       MPI_STATUS_IGNORE);
     });
     const double *value = values.data();
@@ -302,7 +298,8 @@ namespace scree
             !entry.is_known_to_more ||
             last > std::max(latest[entry.number], last_before(nodes.turns(entry.number), position)))
           {
-            std::copy_n(value, dim, &nodes.motion(entry.number)[0]);
+            for (unsigned int c = 0; c < dim; ++c)
+              nodes.motion(entry.number)[c] = value[c];
             latest[entry.number] = last;
           }
         value += dim;
@@ -316,9 +313,8 @@ namespace scree
     for (const Neighbour &neighbour : neighbours)
       if (neighbour.streams[others].is_due(turn_at(position)))
         {
-          int is_here = 0;
-          const int error =
-              MPI_Iprobe(neighbour.rank, tag, grid.triangulation().get_communicator(), &is_here, MPI_STATUS_IGNORE);
+          int is_here     = 0;
+          const int error = MPI_Iprobe(neighbour.rank, tag, grid.communicator(), &is_here, MPI_STATUS_IGNORE);
           AssertThrowMPI(error);
           if (!is_here)
             return false;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace scree
 {
@@ -126,8 +127,7 @@ namespace scree
       double oscillation()
       {
         const unsigned int n_owned = moments.size();
-        if (const MPI_Comm communicator = grid.triangulation().get_communicator();
-            Utilities::MPI::n_mpi_processes(communicator) > 1)
+        if (const MPI_Comm communicator = grid.communicator(); Utilities::MPI::n_mpi_processes(communicator) > 1)
           add_ghosts();
         const std::vector<Fit<dim>> fits = fits_around(n_owned);
         std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
@@ -141,7 +141,7 @@ namespace scree
             sums[1] += sample.pressure;
             sums[2] += residual * residual;
           }
-        Utilities::MPI::sum(sums, grid.triangulation().get_communicator(), sums);
+        Utilities::MPI::sum(sums, grid.communicator(), sums);
         return sums[1] > 0 ? std::sqrt(sums[2] / sums[0]) / (sums[1] / sums[0]) : 0.;
       }
 
@@ -171,7 +171,7 @@ namespace scree
       void add_ghosts()
       {
         using Cell     = typename Triangulation<dim>::active_cell_iterator;
-        using Optional = std_cxx17::optional<Moments<dim>>;
+        using Optional = std::optional<Moments<dim>>;
         GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
             grid.triangulation(),
             [&](const Cell &cell) {

@@ -48,8 +48,7 @@ namespace scree
         Column{ "Least distance from bed",
                 "m",
                 [](const auto &now) {
-                  return least_distance(
-                      now.bodies, now.water, *now.further.bed, now.grid.triangulation().get_communicator());
+                  return least_distance(now.bodies, now.water, *now.further.bed, now.grid.communicator());
                 },
                 has_bed },
         Column{ "Obstacles",

@@ -12,8 +12,7 @@ namespace scree
     template <int dim>
     double n_separated(const Snapshot<dim> &now)
     {
-      return dealii::Utilities::MPI::sum(double(now.last_step.n_separated),
-                                         now.grid.triangulation().get_communicator());
+      return dealii::Utilities::MPI::sum(double(now.last_step.n_separated), now.grid.communicator());
     }
 
 

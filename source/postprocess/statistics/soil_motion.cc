@@ -70,8 +70,7 @@ namespace scree
   template <int dim>
   MotionNumbers SoilMotion<dim>::look(const std::list<SoilBody<dim>> &bodies, const double time)
   {
-    const MPI_Comm communicator = grid.triangulation().get_communicator();
-    const std::size_t n         = columns.size();
+    const std::size_t n = columns.size();
     std::vector<double> sums(3 * n + 3, 0.); // thickness, its moment, moving; mass, moving mass, kinetic energy
     std::vector<PartOfMass> speeds;
     double largest      = 0.;
@@ -98,13 +97,14 @@ namespace scree
     for (const SoilBody<dim> &body : bodies)
       if (!body.is_rigid)
         for_each_point(body.points, [&](const auto &point) { include(body, point); });
-    Utilities::MPI::sum(sums, communicator, sums);
-    largest = Utilities::MPI::max(largest, communicator);
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
+    largest = Utilities::MPI::max(largest, grid.communicator());
 
     has_soil         = sums[3 * n] > 0.;
     last_time        = time;
     last.moving_part = has_soil ? sums[3 * n + 1] / sums[3 * n] : 0.;
-    last.speed = largest > 0. ? percentiles(speeds, 0., largest * (1. + 1e-9), { part_at_rest }, communicator)[0] : 0.;
+    last.speed =
+        largest > 0. ? percentiles(speeds, 0., largest * (1. + 1e-9), { part_at_rest }, grid.communicator())[0] : 0.;
     last.thickness = median_by_volume({ sums.begin() + 2 * n, sums.begin() + 3 * n }) / grid.cell_size();
     if (last.speed > flow_part / rest_part * rest_speed() && sums[3 * n + 2] > largest_kinetic)
       {

@@ -17,8 +17,8 @@ namespace scree
       : grid(grid)
       , pictures(parameters.graphics_kind())
       , folder(run_folder + "/solution/")
-      , rank(Utilities::MPI::this_mpi_process(grid.triangulation().get_communicator()))
-      , n_ranks(Utilities::MPI::n_mpi_processes(grid.triangulation().get_communicator()))
+      , rank(Utilities::MPI::this_mpi_process(grid.communicator()))
+      , n_ranks(Utilities::MPI::n_mpi_processes(grid.communicator()))
   {
   }
 
@@ -100,8 +100,9 @@ namespace scree
   void Graphics<dim>::cut() const
   {
     std::vector<FileContent> files;
-    for (const auto &[series, pictures] :
-         { std::make_pair("points", &point_files), { "water", &water_files }, { "grid", &grid_files } })
+    // Named, since GCC 13 takes a list in the loop for a dangling reference.
+    const auto all = { std::make_pair("points", &point_files), { "water", &water_files }, { "grid", &grid_files } };
+    for (const auto &[series, pictures] : all)
       if (rank == 0 && !pictures->empty())
         files.push_back(series_file(series, *pictures));
     write_whole_files(files);

@@ -67,8 +67,8 @@ namespace scree
             for (const auto &[column, weight] : columns.around(start))
               at_rest[column] += weight * values[body.layout.mass] / body.density;
         });
-    Utilities::MPI::sum(sums, grid.triangulation().get_communicator(), sums);
-    Utilities::MPI::sum(at_rest, grid.triangulation().get_communicator(), at_rest);
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
+    Utilities::MPI::sum(at_rest, grid.communicator(), at_rest);
 
     const double area = columns.area();
     if (scour_depth.empty())

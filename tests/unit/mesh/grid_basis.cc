@@ -97,7 +97,7 @@ double linear_error(const BackgroundGrid<dim> &grid)
               error = std::max({ error, std::abs(linear.first - place[a]), linear.second.norm() });
             }
         }
-  return Utilities::MPI::max(error, grid.triangulation().get_communicator());
+  return Utilities::MPI::max(error, grid.communicator());
 }
 
 /// Largest jumps of a random field and of its gradient (times the cell size) across the faces of the mesh; the two
@@ -131,7 +131,7 @@ std::pair<double, double> jumps(const BackgroundGrid<dim> &grid)
             }
 
   std::map<std::array<long, dim>, std::vector<Trace>> faces;
-  for (const auto &of_rank : Utilities::MPI::gather(grid.triangulation().get_communicator(), traces))
+  for (const auto &of_rank : Utilities::MPI::gather(grid.communicator(), traces))
     for (const auto &[key, trace] : of_rank)
       faces[key].push_back(trace);
   std::pair<double, double> result(0., 0.);
@@ -164,7 +164,7 @@ void check_walls(const BackgroundGrid<dim> &grid, const std::array<unsigned int,
         }
       for (unsigned int a = 0; a < dim; ++a)
         expected *= a == axis ? 1 : nodes_along[a];
-      AssertThrow(Utilities::MPI::sum(n, grid.triangulation().get_communicator()) == expected,
+      AssertThrow(Utilities::MPI::sum(n, grid.communicator()) == expected,
                   ExcMessage("A wall has the wrong number of nodes."));
     }
 }

@@ -56,7 +56,7 @@ namespace scree
     std::string piece() override
     {
       dealii::DataOutBase::VtkFlags flags;
-      flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+      flags.compression_level = decltype(flags.compression_level)::best_speed; // the enumeration moved in deal.II 9.5
       this->set_flags(flags);
       patches.reserve(patches.size() + points.size());
       auto value = values.begin();
