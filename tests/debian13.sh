@@ -34,7 +34,7 @@ fi
 # The way to the mirror is that of this machine.
 cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
 apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$root/etc/apt/apt.conf.d/90machine"
-for mounted in proc dev dev/shm; do
+for mounted in proc sys dev dev/shm; do
   mount --bind "/$mounted" "$root/$mounted" || did_not_run "since /$mounted cannot be mounted in the root."
 done
 # What an interrupted run has left.
