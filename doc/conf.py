@@ -43,15 +43,16 @@ def hand_out_files(app, tree):
     """Links to the list of cases go to its page here; to other files outside this folder become downloads; to folders, plain text."""
     page = pathlib.Path(app.env.doc2path(app.env.docname)).parent
     for link in list(tree.findall(addnodes.pending_xref)):
-        target = page / link["reftarget"].split("#")[0]
+        is_page = link.get("refdomain") == "doc"  # MyST 2 and later name the page, and not its file
+        target = FOLDER / (link["reftarget"] + ".md") if is_page else page / link["reftarget"].split("#")[0]
         if link.get("reftype") != "myst" or not target.exists() or FOLDER in target.resolve().parents and target.suffix == ".md":
             continue
         if target.resolve() == FOLDER.parent / "prm" / "README.md":
-            link["reftarget"] = os.path.relpath(FOLDER / "cases.md", page)
+            link["reftarget"] = "cases" if is_page else os.path.relpath(FOLDER / "cases.md", page)
         elif target.is_dir():
             link.replace_self(nodes.inline("", "", *link.children))
         else:
-            link.replace_self(addnodes.download_reference("", "", *link.children, refdoc=app.env.docname, reftarget=link["reftarget"].split("#")[0],
+            link.replace_self(addnodes.download_reference("", "", *link.children, refdoc=app.env.docname, reftarget=os.path.relpath(target, page),
                                                           refdomain=None, reftype="myst", refexplicit=True, refwarn=False))
 
 
