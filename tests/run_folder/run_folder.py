@@ -437,7 +437,7 @@ def log_header():
         r"Model       2D plane strain, dry, FLIP \(PIC rate 5 1/s\), 400 soil points\n"
         r"Mesh        120 cells of 0\.1 m\n"
         r"Memory      ([1-9]\d+) MB estimated\n"
-        r"Libraries   deal\.II [0-9.]+, Trilinos [0-9.]+, p4est [0-9.]+\n"
+        r"Libraries   deal\.II [0-9.]+, Trilinos [0-9.]+, p4est [0-9.]+, GDAL [0-9.]+\n"
         r"Compiler    \w+ [0-9.]+, (Release|Debug), flags .*-std=c\+\+17.*\n"
         r"Process     \d+ on \S+ \(first rank\)\n"
         r"In use      [1-9]\d+ MB at the start \(all ranks\)\n"
