@@ -9,14 +9,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Of H: a pressure that does not change along an axis costs what it costs in 2D.
-    template <int dim>
-    constexpr double same_as_2d = dim == 2 ? 1. : 0.25;
-  } // namespace
-
-
   template <int dim>
   SchurOperator<dim>::SchurOperator(const BackgroundGrid<dim> &grid,
                                     const NodeNumbering<dim> &vertices,
@@ -47,7 +39,8 @@ namespace scree
                                     const PressedNodes<dim> &pressed_nodes,
                                     const double of_step)
   {
-    constexpr double part_of_laplacian = 0.01;
+    // A pressure that does not change along an axis costs what it costs in 2D.
+    constexpr double part_of_laplacian = dim == 2 ? 0.01 : 0.0025;
     nodes                              = &pressed_nodes;
     time_step                          = of_step;
     stiffness.clear();
@@ -98,8 +91,7 @@ namespace scree
           values[v] = pressure.local_element(corners[v]);
         transform();
         for (unsigned int m = 0; m < n_vertices; ++m)
-          values[m] =
-              (m & (m - 1)) == 0 ? 0. : factor * same_as_2d<dim> * stiffness[k] * values[m]; // 1 and x_a are linear
+          values[m] = (m & (m - 1)) == 0 ? 0. : factor * stiffness[k] * values[m]; // 1 and x_a are linear
         transform();
         for (unsigned int v = 0; v < n_vertices; ++v)
           sums.local_element(corners[v]) += values[v];
@@ -175,8 +167,7 @@ namespace scree
     pair.add_squares(flow, target);
     for (unsigned int k = 0; k < part.cells().size(); ++k)
       for (unsigned int v = 0; v < n_vertices; ++v)
-        target.local_element(vertices.nodes(part.cells()[k].cell)[v]) +=
-            same_as_2d<dim> * stiffness[k] * (n_vertices - dim - 1);
+        target.local_element(vertices.nodes(part.cells()[k].cell)[v]) += stiffness[k] * (n_vertices - dim - 1);
     target.compress(VectorOperation::add);
     surface.restrict_to_unknown(target, FreeSurface<dim>::Shares::squared);
   }
