@@ -46,9 +46,7 @@ for name in column_short water_short; do
   # shellcheck disable=SC2016  # for the inner shell
   check 0 "$name.resume" sh -c '"$0" "$1" && "$0" "$1" --resume' "$build/scree" "$root/tests/cases/$name.prm"
 done
-for case in "$root"/tests/errors/*.prm; do
-  check 1 "errors/$(basename "$case" .prm)" "$build/scree" "$case"
-done
+check 0 errors python3 "$root/tests/errors/errors.py" --folder "$folder/errors" --scree "$build/scree" --element "$build/scree-element"
 for case in "$root"/prm/element/*.prm; do
   check 0 "element/$(basename "$case" .prm)" "$build/scree-element" "$case"
 done

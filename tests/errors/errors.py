@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the cases of the tables beside this file: wrong input, and what a program must say about it.
+
+A table consists of blocks, with the lines of a block indented:
+
+  base plain                        entries that cases start from
+    Soil/Region = y < 0.5
+
+  file profile.csv                  a file that cases name, each line after "| "
+    | 0, 0.2
+
+  case cell_size_zero from plain    the file cell_size_zero.prm: these entries, then the others of the base
+    Mesh/Cell size = 0
+    ! subsection Mesh, entry "Cell size" = 0: write a number above 0.
+
+"Soil/" alone is an empty subsection. A case of "| " lines has those as its file instead, \\xHH is a byte of them.
+"$ scree --resume valid.prm" is a command line other than "scree NAME.prm".
+"! TEXT" is all of standard error, with exit code 1: "scree: NAME.prm, line N: TEXT", where N is the line of the entry or
+subsection that the text names, and without a line if the case does not contain it. "! scree..." is the whole message,
+"! nothing" a run without an error.
+"""
+
+import argparse
+import concurrent.futures
+import dataclasses
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+@dataclasses.dataclass
+class Block:
+    """A block of a table: its kind, the words of its first line, that line's place, and its lines."""
+    kind: str
+    name: str
+    base: str
+    place: str
+    lines: list
+
+
+def blocks(table):
+    """Yields the blocks of a table."""
+    block = None
+    for number, line in enumerate(table.read_text(encoding="ascii").splitlines(), start=1):
+        place = f"{table.name}, line {number}"
+        if header := re.fullmatch(r"(base|file|case) (\S+)(?: from (\S+))?", line):
+            if block:
+                yield block
+            block = Block(header[1], header[2], header[3] or "", place, [])
+        elif line.startswith("  ") and block:
+            block.lines.append(line[2:])
+        elif line and not line.startswith("#"):
+            raise SystemExit(f"{place}: {line!r} begins no block. Write base, file or case, or indent the line.")
+    if block:
+        yield block
+
+
+def as_bytes(text):
+    """The bytes of a text in which \\xHH is one."""
+    return re.sub(rb"\\x([0-9a-f]{2})", lambda code: bytes.fromhex(code[1].decode()), text.encode())
+
+
+def quoted(block):
+    """The content of the "| " lines of a block."""
+    return b"".join(as_bytes(line[2:]) + b"\n" for line in block.lines if line.startswith("|"))
+
+
+def entries(block):
+    """The entries of a block: path and value, or None for an empty subsection."""
+    found = {}
+    for line in block.lines:
+        if line[0] in "|!$":
+            continue
+        path, equals, value = line.partition(" = ")
+        if not (equals or line.endswith("/")) or path in found:
+            raise SystemExit(f"{block.place}: {line!r} is no new entry. Write SUBSECTION/ENTRY = VALUE.")
+        found[path] = value if equals else None
+    return found
+
+
+def parameter_file(values):
+    """A parameter file with these entries, and the line of each one and of each subsection in it."""
+    tree = {}
+    for path, value in values.items():
+        *subsections, entry = path.split("/")
+        level = tree
+        for subsection in subsections:
+            level = level.setdefault(subsection + "/", {})
+        if entry:
+            level[entry] = value
+    text, at = [], {}
+
+    def write(level, path):
+        indent = "  " * path.count("/")
+        for name, value in level.items():
+            at[path + name] = len(text) + 1
+            if isinstance(value, dict):
+                text.append(f"{indent}subsection {name[:-1]}\n")
+                write(value, path + name)
+                text.append(f"{indent}end\n")
+            else:
+                text.append(f"{indent}set {name} = {value}\n")
+    write(tree, "")
+    return "".join(text).encode(), at
+
+
+class Case:
+    """A case of a table: its file, its command line, and what standard error must be."""
+
+    def __init__(self, block, bases):
+        self.name, self.place = block.name, block.place
+        values = entries(block)
+        if block.base:
+            values |= {path: value for path, value in bases[block.base].items() if path not in values}
+        self.content, at = (quoted(block), {}) if any(line[0] == "|" for line in block.lines) else parameter_file(values)
+        command = [line[2:] for line in block.lines if line[0] == "$"] or [f"scree {self.name}.prm"]
+        said = [line[2:] for line in block.lines if line[0] == "!"]
+        if len(command) != 1 or len(said) != 1:
+            raise SystemExit(f"{self.place}: there are {len(said)} messages. A case has one: ! TEXT, or ! nothing")
+        self.program, *self.arguments = shlex.split(command[0])
+        self.expected = as_bytes(self.message(said[0], at)) if said[0] != "nothing" else b""
+        self.code = 1 if self.expected else 0
+
+    def message(self, text, at):
+        """All of standard error, of a text as tables have it."""
+        if text.startswith("scree"):
+            return text + "\n"
+        named = re.match(r'(?:subsection ([^,:]+)(?:, |:))?(?:entry "([^"]+)")?', text)
+        line = at.get((named[1] + "/" if named[1] else "") + (named[2] or ""))
+        return f"{self.program}: {self.name}.prm{f', line {line}' if line else ''}: {text}\n"
+
+    def fault(self, codes, got):
+        """What is not as expected, or ""."""
+        fault = ""
+        if got != self.expected:
+            fault += f"expected: {self.expected!r}\n     got: {got!r}\n"
+        if set(codes) != {self.code}:
+            fault += f"exit codes {codes}, expected {self.code}\n"
+        return f"{self.name} ({self.place}):\n{fault}" if fault else ""
+
+
+class Tables:
+    """The blocks of all tables, each name once."""
+
+    def __init__(self, tables):
+        kinds = {"base": {}, "file": {}, "case": {}}
+        for table in tables:
+            for block in blocks(table):
+                if block.name in kinds[block.kind]:
+                    raise SystemExit(f"{block.place}: there is another {block.kind} {block.name}.")
+                kinds[block.kind][block.name] = block
+        bases = {name: entries(block) for name, block in kinds["base"].items()}
+        self.files = {name: quoted(block) for name, block in kinds["file"].items()}
+        for block in kinds["case"].values():
+            if block.base and block.base not in bases:
+                raise SystemExit(f"{block.place}: there is no base {block.base}. There are {', '.join(bases)}.")
+        self.cases = {name: Case(block, bases) for name, block in sorted(kinds["case"].items())}
+        self.refuse_unused({block.base for block in kinds["case"].values()}, bases)
+
+    def refuse_unused(self, used, bases):
+        """Every base and every file belongs to a case."""
+        texts = b"\n".join([case.content for case in self.cases.values()] + list(self.files.values()))
+        for name in bases:
+            if name not in used:
+                raise SystemExit(f"No case starts from base {name}.")
+        for name in self.files:
+            if not re.search(rb"(^|[^\w.])" + re.escape(name.encode()), texts) and pathlib.Path(name).suffix != ".prj":
+                raise SystemExit(f"No case names file {name}.")
+
+    def write(self, folder):
+        """Writes all files of the cases into a new folder."""
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        for name, content in self.files.items():
+            (folder / name).write_bytes(content)
+        for case in self.cases.values():
+            if case.content:
+                (folder / f"{case.name}.prm").write_bytes(case.content)
+        for file in HERE.glob("*.tif"):
+            shutil.copy(file, folder)
+
+
+def run_in_process(cases, folder, command):
+    """Runs all cases one after the other in the processes of a command (messages.cc); yields their faults."""
+    (folder / "list").write_text("".join("\t".join([case.name, case.program, *case.arguments]) + "\n" for case in cases), encoding="ascii")
+    results = folder / "results"
+    shutil.rmtree(results, ignore_errors=True)
+    results.mkdir()
+    code = subprocess.run([*command, folder / "list", folder / "cases", results], check=False).returncode
+    if code:
+        yield f"The program of all cases ended with exit code {code} in the last case above.\n"
+    for case in cases:
+        codes = results / f"{case.name}.codes"
+        if not codes.exists():
+            yield f"{case.name} ({case.place}) did not end.\n"
+        else:
+            got = b"".join(file.read_bytes() for file in sorted(results.glob(f"{case.name}.error.*")))
+            yield case.fault([int(word) for word in codes.read_text().split()], got)
+
+
+def run_program(case, folder, programs, launcher):
+    """Runs a case by its program in a copy of a folder; returns its fault."""
+    with tempfile.TemporaryDirectory() as scratch:
+        own = shutil.copytree(folder, pathlib.Path(scratch) / "cases")
+        # mpirun also remarks on exit codes: each rank's standard error goes to a file of its own.
+        command = [*launcher, "sh", "-c", '"$@" 2>../error.$$', "scree", programs[case.program], *case.arguments]
+        code = subprocess.run(command, cwd=own, check=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL).returncode
+        got = b"".join(file.read_bytes() for file in sorted(pathlib.Path(scratch).glob("error.*")))
+    return case.fault([code], got)
+
+
+def path(text):
+    """A path that holds in any folder."""
+    return pathlib.Path(text).resolve()
+
+
+def main():
+    """Runs the cases that the command line asks for."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--in-process", metavar="COMMAND", type=shlex.split, help="run all cases by this program of messages.cc, with its launcher")
+    parser.add_argument("--scree", type=path, help="run each case by this program ...")
+    parser.add_argument("--element", type=path, help="... or this one")
+    parser.add_argument("--launcher", type=shlex.split, default=[], help="such as \"mpirun -np 2\"")
+    parser.add_argument("--folder", type=path, required=True, help="where the cases are written and run")
+    parser.add_argument("--table", type=pathlib.Path, action="append", help="instead of all tables")
+    parser.add_argument("name", nargs="*", help="of a case; none: all")
+    options = parser.parse_args()
+
+    tables = Tables(options.table or sorted(HERE.glob("*.table")))
+    cases = [tables.cases[name] for name in options.name] or list(tables.cases.values())
+    folder = options.folder
+    tables.write(folder / "cases")
+    if options.in_process:
+        faults = list(run_in_process(cases, folder, options.in_process))
+    else:
+        programs = {"scree": options.scree, "scree-element": options.element}
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            faults = list(pool.map(lambda case: run_program(case, folder / "cases", programs, options.launcher), cases))
+    faults = [fault for fault in faults if fault]
+    print("\n".join(faults))
+    print(f"{len(cases)} cases, {len(faults)} faults")
+    sys.exit(1 if faults or not cases else 0)
+
+
+if __name__ == "__main__":
+    main()
