@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # sh tests/run.sh                      builds, runs the quick tests (label quick)
-# sh tests/run.sh --full               all tests, and the short cases of tests/debug in a Debug build
+# sh tests/run.sh --full               the tests with the label full, and the short cases of tests/debug in a Debug build
 # sh tests/run.sh -R nor_sand          those of all tests that these arguments of ctest name, whatever their label
 
 scope=quick
@@ -51,9 +51,12 @@ failed=0
 if [ "$scope" = quick ]; then
   run_tests build -L '^quick$' || failed=1
 else
-  run_tests build "$@" || failed=1
-  # The first of the Debug tests compiles scree.
-  configure_scree build-debug Debug && run_tests build-debug -L '^debug$' "$@" || failed=1
+  label=.
+  [ "$scope" = named ] || label='^full$'
+  run_tests build -L "$label" "$@" || failed=1
+  # The first of the Debug tests compiles scree. Assertions do without debugging information, which takes time to write.
+  [ -f "$root/build-debug/CMakeCache.txt" ] || debug_options=-DSCREE_DEBUG_INFO=OFF
+  configure_scree build-debug Debug ${debug_options:+"$debug_options"} && run_tests build-debug -L '^debug$' "$@" || failed=1
 fi
 [ -f "$root/build/tests.log" ] || [ -f "$root/build-debug/tests.log" ] || failed=1
 

@@ -2,11 +2,11 @@
 """documented_commands.py BUILD quick|full [PAGE...]: runs every command of the blocks ```sh and ```python of the documentation.
 
 The blocks of a page run in their order in a folder of its own, with a copy of prm/ and a link to BUILD as build/. A page fails with a command that does.
-In both versions all commands run; those on the list NOT_RUN do not, and are not forgotten there when the text changes.
+All times of the cases, of scree-variant and of --times are divided by 200, so that pictures are where the text asks for them; of the pictures that the
+text does not ask for, most are left out. The commands on the list NOT_RUN do not run; the list must follow the text.
 
-- quick: all times of the cases, of scree-variant and of --times are divided by 200, so that pictures are where the text asks for them; of the pictures
-  that the text does not ask for, most are left out.
-- full: the times are those of the text, apart from the pages of SHORTENED. Also what takes long and does not depend on these times (LONG, LONG_PAGES).
+- quick: without what takes long and does not depend on these times (LONG).
+- full: with it.
 
 What stands for the reader's own files and folders is in PLACES and PREPARED; how commands that build or test are checked instead, in checked().
 """
@@ -24,7 +24,7 @@ import sys
 from scree.command import ROOT
 from scree.studies.study import prm_files
 
-FACTOR = {"doc/tutorials/debris_flow.md": 10}  # of the quick version: here the soil must have entered
+FACTOR = {"doc/tutorials/debris_flow.md": 10}  # here the soil must have entered
 DEFAULT_FACTOR = 200
 NOT_RUN = {
     "cmake --build build --target scree scree-element": "the test build/test_programs, on which this one depends, is this command",
@@ -38,11 +38,7 @@ NOT_RUN = {
     "build/scree strong.prm --safety": "as dam.prm --safety on the same page, with other numbers",
     "build/scree-scenarios prm/terrain/acheron_scenarios.toml": "needs rasters that are not in the repository; the page says where to get them",
 }
-SHORTENED = {"README.md": 8, "doc/installation.md": 20, "doc/running.md": 8, "doc/tutorials/saturated_slope.md": 8, "doc/tutorials/own_terrain.md": 4,
-             "doc/tutorials/scenarios.md": 20, "doc/tutorials/bore.md": 8, "doc/tutorials/dry_slope.md": 8, "doc/tutorials/clay.md": 8, "doc/tutorials/dam.md": 8,
-             "doc/tutorials/rain.md": 8, "doc/tutorials/phases.md": 8}
 LONG = re.compile(r"cmake (-S|--install)|build/scree-(study|report|scenarios|element --fit)|gdal|mpirun -np 4|build/scree .*dam\.prm --safety")
-LONG_PAGES = {"doc/tutorials/bore.md"}  # 50 pictures of 51 200 points
 # What a reader replaces by something of his own.
 PLACES = {"FOLDER": "installed", "XMIN YMIN XMAX YMAX": "100 100 500 800"}
 # What a page takes for granted: files and runs of the reader.
@@ -81,7 +77,7 @@ def copy_of_cases(folder, factor, wanted):
     for case in (folder / "prm").rglob("*.prm"):
         text = case.read_text(encoding="utf-8")
         entries = prm_files.read_entries(ROOT / "prm" / case.relative_to(folder / "prm"))
-        if factor == 1 or "Path" in entries:  # a case of scree-element
+        if "Path" in entries:  # a case of scree-element
             continue
         if "End time" in entries:
             entries["Output/Interval"] = rarer(entries.get("Output/Interval", "0.1"), entries["End time"], wanted)
@@ -98,7 +94,7 @@ class Page:
     def __init__(self, path, build, scratch, version):
         self.name, self.build, self.version = str(path.relative_to(ROOT)), build, version
         self.text = path.read_text(encoding="utf-8")
-        self.factor = FACTOR.get(self.name, DEFAULT_FACTOR) if version == "quick" else SHORTENED.get(self.name, 1)
+        self.factor = FACTOR.get(self.name, DEFAULT_FACTOR)
         self.folder = scratch / self.name.replace("/", "_")
         self.faults, self.n_commands, self.n_skipped, self.left_out, self.seconds = [], 0, 0, set(), 0.
 
@@ -147,10 +143,9 @@ class Page:
         if command in NOT_RUN:
             self.left_out.add(command)
             return
-        is_long = LONG.match(command) or self.name in LONG_PAGES
         is_without_program = any(command.startswith(start) and shutil.which(program) is None
                                  for start, program in (("gdal", "gdalwarp"), ("build/scree-scenarios", "snakemake")))
-        if (is_long and self.version == "quick") or is_without_program:
+        if (LONG.match(command) and self.version == "quick") or is_without_program:
             self.n_skipped += 1
             return
         called = self.checked(shortened_words(command, self.factor))

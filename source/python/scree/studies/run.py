@@ -115,7 +115,8 @@ class Plan:
     """The runs of a study, the reference's first; which of them are missing, and how long those will take."""
 
     def __init__(self, name, study, arguments):
-        self.variants = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
+        self.variants = [variant._replace(entries={**variant.entries, **study.quick_entries}) if arguments.quick else variant
+                         for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
         reference = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
         self.has_reference = reference is not None
         if self.has_reference:
