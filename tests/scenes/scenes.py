@@ -133,7 +133,7 @@ def shaken_block(scree):
 
 def stable_step(scree):
     """An elastic body without weight, full of waves: with the default step its energy does not grow in 1000 steps and more, whatever the
-    transfer and wherever its points are in their cells; with a Courant number of 1.5 it does, so that the waves would tell."""
+    transfer and, of the default one, wherever its points are in their cells; with a Courant number of 1.5 it does, so that the waves would tell."""
     body = {"Stabilisation/F-bar": "modified", "Mesh/Cell size": "0.05", "End time": "3", "Output/Statistics interval": "0.1",
             "Soil/Grain density": "1600", "Soil/Initial porosity": "0.4", "Transfer/PIC rate": "auto",
             "Time step/Maximum time step": "1", "Time step/Advection number": "1"}
@@ -144,7 +144,7 @@ def stable_step(scree):
         for method in ("FLIP", "TPIC", "AFLIP", "APIC"):
             of_flip = {"Transfer/PIC rate": "0"} if "FLIP" in method else {}
             for n in points:
-                for shift in (0, 0.3, 0.6):
+                for shift in (0, 0.3, 0.6) if method == "AFLIP" else (0,):
                     region = " && ".join("%s > %g && %s < %g" % (axis, 0.15 + shift * 0.05, axis, 0.15 + shift * 0.05 + side)
                                          for axis, side in zip("xyz", sides))
                     scene = {**body, **entries, **of_flip, "Transfer/Method": method, "Soil/Points per cell": str(n), "Soil/Region": region,

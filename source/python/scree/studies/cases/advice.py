@@ -48,7 +48,7 @@ NEW = {
 }
 FOLDERS = ("", "bed", "benchmarks", "columns", "consolidation", "contact", "dynamics", "seepage", "slopes", "terrain", "water")
 WITHOUT_RASTERS = {"acheron"}  # they are not in the repository
-TINY = {"terzaghi", "saturated_rest", "dam_break"}
+TINY = {"terzaghi", "saturated_rest"}
 
 
 def cases():
