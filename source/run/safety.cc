@@ -19,11 +19,11 @@ namespace scree
     void check(const Parameters &parameters)
     {
       require_entry(!parameters.bodies.empty(), "", "Bodies", "none", "without soil there is no slope. Name a body.");
-      require_entry(!parameters.has_water || parameters.settling.drainage() == Drainage::drained,
+      require_entry(!parameters.has_water || parameters.settling.maximum_time > 0.,
                     "Settling",
-                    "Type",
-                    parameters.settling.type,
-                    "--safety holds the pore pressure. Write drained, and a \"Maximum time\" above 0.");
+                    "Maximum time",
+                    parameters.settling.maximum_time,
+                    "--safety holds the pore pressure of settled soil. Write a time above 0, in s.");
       for (const BodyParameters &body : parameters.bodies)
         require_entry(body.material.law != "Nor-Sand" && body.material.law != "Nor-Sand (Jefferies-Been)",
                       body.name,

@@ -19,9 +19,6 @@ namespace scree
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
-
-    /// See LawEntries.
-    void append_usual_ranges(std::vector<UsualRange> &ranges) const;
   };
 
 

@@ -46,7 +46,7 @@ namespace scree
 
     /// Writes the files of a checkpoint of `time`, s, while the run goes on; if that fails, it stops or tells, as the
     /// case says. Collective.
-    void write_checkpoint(FileJob job, const double time);
+    void write_checkpoint(FileJob job);
 
     /// What writes pictures, maps and checkpoints.
     BackgroundWriter &writer()

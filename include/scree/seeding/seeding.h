@@ -22,7 +22,6 @@ namespace scree
     SourceMapParameters source;           ///< maps that bound the region, too
     std::shared_ptr<const SourceMap> map; ///< of them, once they are read; null without
     unsigned int points_per_cell = 3;     ///< along each axis
-    double jitter                = 0;     ///< over the points' spacing
     double grain_density         = 2500;  ///< kg/m^3
     double initial_porosity      = -1;    ///< below 0: as the law says
     std::string initial_velocity = "";    ///< m/s, one expression an axis; empty: at rest

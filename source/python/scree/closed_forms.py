@@ -7,7 +7,7 @@
 - infiltration of a pond with suction (Green & Ampt 1911)
 - hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
 - dam break on a wet bed in shallow water: Stoker 1957; of grains on a plane: Mangeney, Heinrich & Roche 2000
-- viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923), viscosity and settling of suspensions
+- viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923), settling of suspensions
 """
 
 import math
@@ -405,11 +405,6 @@ def vortex_decay(viscosity, density, size):
     """Rate, 1/s, at which the velocity (sin kx cos ky, -cos kx sin ky), k = pi/L, decays: 2 nu k^2 (Taylor 1923). The convective
     terms are a gradient, and walls along cell borders of the pattern take no shear."""
     return 2 * viscosity / density * (math.pi / size)**2
-
-
-def krieger_dougherty(viscosity, grain_fraction, densest_packing=0.64):
-    """mu (1 - phi/phi_m)^(-5/2 phi_m): viscosity of a suspension, Pa s (Krieger & Dougherty 1959)."""
-    return viscosity * (1 - grain_fraction / densest_packing)**(-2.5 * densest_packing)
 
 
 def settling_velocity(conductivity, porosity, grain_density, density=1000):

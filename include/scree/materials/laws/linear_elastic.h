@@ -27,9 +27,6 @@ namespace scree
 
     /// See LawEntries.
     LawEntry modulus() const;
-
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
   };
 
   /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (@source{hencky1928};

@@ -41,9 +41,6 @@ namespace scree
     /// See LawEntries. Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
     void divide_strength(const double factor);
 
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
-
   private:
     void check_softening(const std::string &subsection) const;
   };
