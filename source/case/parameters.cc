@@ -39,7 +39,7 @@ namespace scree
         name_inflows();
         name_contacts();
         has_water = file.has_subsection("Water");
-        // Suggestions know of water's entries also where a dry run's list of all entries leaves them out: read again,
+        // Suggestions include water's entries also where a dry run's list of all entries leaves them out: read again,
         // that list must not make the scene wet.
         ParameterHandler all;
         declare(all);

@@ -99,7 +99,7 @@ namespace scree
   template <int dim>
   void Scene<dim>::make_bodies()
   {
-    // The one place that knows whose points carry the water.
+    // The one place that depends on whose points carry the water.
     const bool affine      = parameters.transfer.carries_affine_field();
     const double inertia   = parameters.transfer.affine_inertia(grid.cell_size());
     const bool water_rides = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;

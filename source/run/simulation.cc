@@ -107,7 +107,7 @@ namespace scree
   template <int dim>
   End Simulation<dim>::run()
   {
-    timer.reset(); // Only the steps' time is to be told.
+    timer.reset(); // Only the steps' time is reported.
     stop.listen();
     const ShownMotion<dim> motion(scene);
     progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, motion.heading());

@@ -97,7 +97,7 @@ namespace scree
     /// Whether a phreatic surface, a reservoir level or steady seepage say where water is, in place of the region.
     bool has_levels() const;
 
-    /// Entry and value of what tells where water is, for messages.
+    /// Entry and value that place the water, for messages.
     std::pair<std::string, std::string> place() const;
 
     /// Where water is in pores, as an expression; a table() is asked besides.

@@ -78,7 +78,7 @@ namespace scree
     std::pair<double, double>
     part_of_line(const double x, const double y, const double lower, const double upper) const;
 
-    /// What the log should tell of the heights of its surfaces, in lines; empty: nothing.
+    /// Remarks on the heights of its surfaces for the log, in lines; empty: none.
     /// @param body its name
     std::string remark(const std::string &body) const;
 

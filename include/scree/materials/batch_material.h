@@ -183,7 +183,7 @@ namespace scree
 
     const Mask is_served  = is_possible & in_one_step & strain.is_valid;
     const Mask is_elastic = is_served & law.is_admissible(state);
-    // As many sub-steps as the other way would take; its message tells of more.
+    // As many sub-steps as the other way would take; its message covers more.
     const Mask is_cut = is_possible & !in_one_step & (change <= 1000. * largest_change);
 
     const unsigned int elastic = simd::bits_of(is_elastic) & used;

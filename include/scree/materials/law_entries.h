@@ -153,7 +153,7 @@ namespace scree
     }
   };
 
-  /// A law that entry "Material" knows.
+  /// A law that entry "Material" can name.
   struct RegisteredLaw
   {
     std::string name;                    ///< value of the entry

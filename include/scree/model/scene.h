@@ -106,7 +106,7 @@ namespace scree
     /// From here on, displacements count.
     void mark_start();
 
-    /// What the run calls a point where it tells its speed.
+    /// Name of a point in the report of the speed.
     std::string name_of_a_point() const
     {
       return water.empty() ? "point" : "soil or water point";

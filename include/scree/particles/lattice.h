@@ -20,7 +20,7 @@ namespace scree
     double filled;               ///< part of the cube that its region covers, m^3 (2D: m^2)
     double volume;               ///< of the material itself there: less than `filled` in pores
     dealii::Point<dim> location; ///< centroid of the volume, m
-    bool stays = false;          ///< in its cell, however little it is: free water bears pressure there
+    bool stays = false;          ///< in its cell, however little it is: free water has a pressure there
   };
 
   /// A point to be.

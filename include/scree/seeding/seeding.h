@@ -35,10 +35,10 @@ namespace scree
     /// Throws EntryError if an expression does not read; `body` is the name of the subsection.
     void check(const std::string &body, const unsigned int dim) const;
 
-    /// The expression of the region; true everywhere if maps alone tell where the body is.
+    /// The expression of the region; true everywhere if maps alone bound the body.
     std::string expression() const;
 
-    /// Entry and value of what tells where the body is, for messages.
+    /// Entry and value that place the body, for messages.
     std::pair<std::string, std::string> place() const;
 
     /// Whether unit weights say how heavy it is.

@@ -16,7 +16,7 @@ namespace scree
     aflip ///< as FLIP, and the nodes get the points' velocity gradient, too, as in TPIC (@source{fei2021})
   };
 
-  /// Whether points keep a velocity of their own, which they forget at a rate.
+  /// Whether points keep a velocity of their own, which relaxes at a rate.
   constexpr bool keeps_velocity(const TransferMethod method)
   {
     return method == TransferMethod::flip || method == TransferMethod::aflip;
@@ -56,7 +56,7 @@ namespace scree
     /// @param cell_size h, m
     void choose_rate(const double gravity, const double wave_speed, const double cell_size);
 
-    /// The method, and its rate if it has one, as the log tells it.
+    /// The method, and its rate if it has one, as in the log.
     std::string text() const;
 
     /// Entry `Method` as an enum.

@@ -42,7 +42,7 @@ namespace scree
   }
 
 
-  /// What nodes say to a batch of points; what nobody reads is not set.
+  /// Values of nodes at a batch of points; what is not read is not set.
   template <int dim>
   struct NodesAtPoints
   {

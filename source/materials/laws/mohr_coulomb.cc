@@ -150,7 +150,7 @@ namespace scree
   namespace
   {
     /// Divides tan(phi), of phi itself, cohesion and cut-off. The increase of inertial friction stays, as far as the
-    /// grains bear no tension.
+    /// grains take no tension.
     void divide(MohrCoulombParameters &law, const double factor)
     {
       law.friction_angle = divided_angle(std::asin(law.sine()) * 180. / numbers::PI, factor);
@@ -186,7 +186,7 @@ namespace scree
 
   namespace
   {
-    /// The law without softening is another one: it knows its yield surfaces before the first step.
+    /// The law without softening is another one: its yield surfaces are constant.
     class MohrCoulombEntries : public EntriesWith<MohrCoulombParameters>
     {
     public:

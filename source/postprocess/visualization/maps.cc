@@ -177,7 +177,7 @@ namespace scree
       return;
     files.emplace_back(path + ".asc", ascii_grid(raster));
     const std::string system = frame.system.empty() ? "" : prj_text(frame.system);
-    if (system.empty()) // Nothing of an earlier run may tell another one.
+    if (system.empty()) // A file of an earlier run would give another one.
       std::filesystem::remove(path + ".prj");
     else
       files.emplace_back(path + ".prj", system);

@@ -76,7 +76,7 @@ namespace scree
     /// J per m^3 of reference volume; a gap stores none.
     double energy(const PrincipalValues &strain) const;
 
-    /// Zero: the law knows no pores.
+    /// Zero: the law has no pores.
     double initial_porosity() const;
 
     /// tau/sigma on a plane of shear, sin(phi) cos(psi)/(1 - sin(phi) sin(psi)); infinite with cohesion.

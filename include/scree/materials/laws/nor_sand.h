@@ -64,7 +64,7 @@ namespace scree
   /// isotropic compression hardens.
   ///
   /// No tension: a point whose trial or returned P is below the minimum pressure has no stress. Its b_e becomes
-  /// isotropic and keeps eps_v: the gap, to be closed before it bears again; grains apart do not dilate. Pi becomes
+  /// isotropic and keeps eps_v: the gap, to be closed before stress returns; grains apart do not dilate. Pi becomes
   /// Pi* of the minimum pressure.
   class NorSand
   {
@@ -173,7 +173,7 @@ namespace scree
     double yield(const PrincipalValues &strain, const double image_pressure) const;
 
   private:
-    /// zeta. The data know no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
+    /// zeta. The data show no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
     static constexpr double lode_factor = 1;
 
     /// Invariants after the return.
