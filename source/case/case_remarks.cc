@@ -51,9 +51,10 @@ namespace scree
     for (const BodyParameters &body : parameters.bodies)
       add_unresolved_length(body, parameters.grid.cell_size, remarks);
     const auto walls = parameters.boundaries.walls(3);
+    const auto names = FaceEntries::names(3);
     for (unsigned int face = 0; face < walls.size(); ++face)
-      if (const std::string &name = FaceEntries::names(3)[face]; name == "Bottom")
-        add_stronger_base(parameters, "Boundaries", name, walls[face].friction_coefficient, remarks);
+      if (names[face] == "Bottom")
+        add_stronger_base(parameters, "Boundaries", names[face], walls[face].friction_coefficient, remarks);
     if (parameters.bed.type_kind() == BedType::friction)
       add_stronger_base(parameters, "Bed", "Friction angle", parameters.bed.friction_coefficient(), remarks);
     return remarks;
