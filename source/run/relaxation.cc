@@ -16,7 +16,6 @@ namespace scree
   namespace
   {
     constexpr double part_that_moves   = 0.01; // of the mass; single points at the surface do not count
-    constexpr double longest_trial     = 40.;  // over sqrt(height of the soil/gravity); what moves then fails
     constexpr double damping_of_trials = 2.;   // decay rate of the velocity, times sqrt(height of the soil/gravity)
     constexpr double speed_at_rest     = 2e-4; // over sqrt(g H): terminal speed with a thousandth of strength missing
 
@@ -318,7 +317,7 @@ namespace scree
     const TrialBounds bounds{ time_scale,
                               speed_at_rest * gravity * time_scale,
                               displacement_of_failure * height.slope,
-                              longest_trial * time_scale };
+                              parameters.safety.longest_trial * time_scale };
     TrialJudge judge(bounds);
     Trial trial;
     scene.forcing.set_damping(damping_of_trials / time_scale);

@@ -186,7 +186,7 @@ namespace scree
     trials.log("Safety      " + parameters.case_file + " -> " + parameters.output_directory + "/safety");
     trials.log("Rests       where not more than 1 % of the soil is faster than 2e-4 sqrt(gH), during sqrt(H/g)\n"
                "Fails       where more than 1 % of the soil has moved by " +
-               number_text(safety.displacement) + " H, or still moves after " + number_text(safety.maximum_time) +
+               number_text(safety.displacement) + " H, or still moves after " + number_text(safety.longest_trial) +
                " sqrt(H/g)");
     const TrialEnd first = trials.settle();
     require_entry(first != TrialEnd::fails,

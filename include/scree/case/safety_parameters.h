@@ -17,6 +17,9 @@ namespace scree
     double tolerance       = 0.01; ///< of the factor
     double displacement    = 0.02; ///< of a slope that fails, over its height
 
+    /// Longest duration of a trial, in sqrt(height of the soil/gravity); what moves then fails.
+    static constexpr double longest_trial = 40;
+
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 

@@ -13,7 +13,6 @@ SCENES = {"water": ("prm/water/hydrostatic.prm", "Water/Region", {"Mesh/Upper co
           "saturated soil": ("prm/seepage/saturated_rest.prm", "Soil/Region", {"Mesh/Upper corner": "0.4, 1.5", "Time step/Maximum time step": 2e-3})}
 
 
-
 def scene(name):
     base, region, entries = SCENES[name]
     return [Variant({"scene": name, "surface": part}, {**entries, region: f"y < {1 + part * CELL:.6g}"}, base)
