@@ -154,7 +154,7 @@ namespace scree
         }
       catch (const std::exception &fault)
         {
-          if (advice.n_ranks > 1) // The others may know nothing of it.
+          if (advice.n_ranks > 1) // It may be on one rank only.
             throw;
           advice.pilot_fault = fault.what();
         }

@@ -68,7 +68,7 @@ namespace scree
         seen.passages.push_back({ duration, speeds.wave, speeds.points });
       }
 
-      /// Steps while `more`, which is told how many were taken, the core-seconds that rank 0 spent on them and the time
+      /// Steps while `more`, which gets how many were taken, the core-seconds that rank 0 spent on them and the time
       /// of the run, s, and until the run's end. Adds them to n_steps.
       template <class More>
       StepCost steps_while(const More &more, double &n_steps)

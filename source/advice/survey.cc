@@ -197,7 +197,7 @@ namespace scree
             if (scene.has_water)
               scene.conductivity = smallest_conductivity();
           }
-        // The rank with the fastest wave tells its soil.
+        // The rank with the fastest wave names its soil.
         const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);
         std::vector<double> fastest{
           scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density, scene.fastest.pressure

@@ -12,10 +12,6 @@ namespace scree
                       conductivity,
                       "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
                       Patterns::Double(0));
-    prm.add_parameter("Grain diameter",
-                      grain_diameter,
-                      "m; grain diameter of this body, for the drag law of Ergun (1952); 0: as in subsection Water.",
-                      Patterns::Double(0));
   }
 
 
@@ -24,9 +20,6 @@ namespace scree
     const std::string dry =
         "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.";
     require_entry(water != nullptr || conductivity == 0, body, "Hydraulic conductivity", conductivity, dry);
-    require_entry(water != nullptr || grain_diameter == 0, body, "Grain diameter", grain_diameter, dry);
-    if (grain_diameter > 0)
-      water->check_grain_diameter(body, grain_diameter, conductivity > 0 ? number_text(conductivity) : "");
   }
 
 
@@ -38,8 +31,6 @@ namespace scree
         result.conductivity   = conductivity;
         result.grain_diameter = 0;
       }
-    if (grain_diameter > 0)
-      result.grain_diameter = grain_diameter;
     return result;
   }
 } // namespace scree

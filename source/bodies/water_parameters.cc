@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/height_surface.h>
-#include <scree/geometry/profile.h>
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/input/named_file.h>
@@ -31,20 +29,11 @@ namespace scree
                       points_per_cell,
                       "Water points along each axis of a cell. Double-point only.",
                       Patterns::Integer(1, 32));
-    prm.add_parameter("Jitter",
-                      jitter,
-                      "Largest random displacement of a water point from the lattice, along each axis, over the "
-                      "lattice spacing; 0: regular lattice. For verification and stability maps. Double-point only.",
-                      Patterns::Double(0, 0.49));
     prm.add_parameter("Density", density, "kg/m^3; density of the water.", Patterns::Double(1e-12));
     add_drag_parameters(prm);
     prm.add_parameter("Viscosity", viscosity, "Pa s; dynamic viscosity of the water; 0: none.", Patterns::Double(0));
     prm.add_parameter(
         "Bulk modulus", bulk_modulus, "Pa; bulk modulus of the water; 0: incompressible.", Patterns::Double(0));
-    prm.add_parameter("Fluidisation porosity",
-                      fluidisation_porosity,
-                      "Porosity above which soil has no effective stress; 1: never.",
-                      Patterns::Double(1e-12, 1));
     prm.add_parameter("Volume correction rate",
                       volume_correction_rate,
                       "1/s; rate at which surplus free water leaves crowded cells; 0: never. Usual: 1/2 sqrt(g/h), "
@@ -67,7 +56,6 @@ namespace scree
                       "full up to the height where the suction is that "
                       "large. 0: no suction. Double-point only.",
                       Patterns::Double(0));
-    suspension.add_parameters(prm);
   }
 
 
@@ -79,13 +67,6 @@ namespace scree
                       "full, and there is no water outside the soil but that of \"Reservoir level\". Alternative to "
                       "\"Region\". The vertical axis is y (3D: z). Empty: not given.",
                       Patterns::Anything());
-    add_file_entry(
-        prm,
-        "Phreatic surface file",
-        phreatic_file,
-        "m; alternative to \"Phreatic surface\". 2D: file of points x, y, one per line, with ascending x. 3D: "
-        "raster (ESRI ASCII grid or GeoTIFF) of elevations, dry where values are missing. Beyond its ends "
-        "the surface is level.");
     prm.add_parameter("Reservoir level",
                       reservoir_level,
                       "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
@@ -139,11 +120,8 @@ namespace scree
     if (!initial_velocity.empty() && dim == 3)
       parse_expression<3>(where_speed, initial_velocity, 3);
 
-    seepage_start.check(n_bodies,
-                        phreatic_surface.empty() ? std::make_pair(std::string("Phreatic surface file"), phreatic_file)
-                                                 : std::make_pair(std::string("Phreatic surface"), phreatic_surface),
-                        reservoir_level,
-                        initial_pressure);
+    seepage_start.check(
+        n_bodies, std::make_pair(std::string("Phreatic surface"), phreatic_surface), reservoir_level, initial_pressure);
     if (has_levels())
       check_levels(gravity, n_bodies);
     if (air_entry_pressure > 0)
@@ -158,16 +136,7 @@ namespace scree
                   conductivity_text,
                   "write auto, or a number from 1e-20 on, in m/s.");
     if (grain_diameter > 0)
-      {
-        check_grain_diameter("Water", grain_diameter, conductivity_text == "auto" ? "" : conductivity_text);
-        require_entry(conductivity_law == WaterParameters().conductivity_law,
-                      "Water",
-                      "Conductivity law",
-                      conductivity_law,
-                      "the drag follows from \"Grain diameter\" = " + number_text(grain_diameter) +
-                          ". Remove one of the two.");
-      }
-    suspension.check(viscosity, n_bodies);
+      check_grain_diameter();
     // Gravity 0 is no fault: the pressure starts at 0.
     require_entry(initial_pressure_kind() == InitialPressure::none ||
                       std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
@@ -186,30 +155,28 @@ namespace scree
     require_entry(conductivity_text == "auto", "Water", "Hydraulic conductivity", conductivity_text, remedy);
     require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
     require_entry(grain_diameter == defaults.grain_diameter, "Water", "Grain diameter", grain_diameter, remedy);
-    require_entry(fluidisation_porosity == defaults.fluidisation_porosity,
-                  "Water",
-                  "Fluidisation porosity",
-                  fluidisation_porosity,
-                  remedy);
   }
 
 
-  void WaterParameters::check_grain_diameter(const std::string &subsection,
-                                             const double diameter,
-                                             const std::string &conductivity) const
+  void WaterParameters::check_grain_diameter() const
   {
-    const std::string grains = "\"Grain diameter\" = " + number_text(diameter);
-    require_entry(conductivity.empty(),
-                  subsection,
+    const std::string grains = "\"Grain diameter\" = " + number_text(grain_diameter);
+    require_entry(conductivity_text == "auto",
+                  "Water",
                   "Hydraulic conductivity",
-                  conductivity,
+                  conductivity_text,
                   "the drag follows from " + grains + ". Remove one of the two.");
     require_entry(viscosity > 0,
                   "Water",
                   "Viscosity",
                   viscosity,
-                  "the drag of grains of " + grains + (subsection == "Water" ? "" : " in subsection " + subsection) +
+                  "the drag of grains of " + grains +
                       " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
+    require_entry(conductivity_law == WaterParameters().conductivity_law,
+                  "Water",
+                  "Conductivity law",
+                  conductivity_law,
+                  "the drag follows from " + grains + ". Remove one of the two.");
   }
 
 
@@ -222,9 +189,6 @@ namespace scree
     require(point_sets_kind() == PointSets::double_point,
             "single-point water does not leave the soil, and no air enters it. Remove the entry, or write "
             "\"Point sets = double\".");
-    require(phreatic_file.empty(),
-            "the pores above \"Phreatic surface file\" = " + phreatic_file +
-                " would not be full. Remove the entry, or write the elevation as \"Phreatic surface\".");
     require(
         !seepage_start.is_steady,
         "the pores above the water table of \"Steady seepage\" would not be full. Remove one of the two entries, or "
@@ -244,7 +208,6 @@ namespace scree
     const std::string remedy =
         "this entry has no effect, as the soil points carry single-point water. Remove it, or write "
         "\"Point sets = double\".";
-    require_entry(jitter == defaults.jitter, "Water", "Jitter", jitter, remedy);
     require_entry(volume_correction_rate == defaults.volume_correction_rate,
                   "Water",
                   "Volume correction rate",
@@ -263,12 +226,7 @@ namespace scree
                   "Region",
                   region,
                   quoted(entry) + " = " + elevation + " says where water is, too. Keep one of the two.");
-    require_entry(phreatic_surface.empty() || phreatic_file.empty(),
-                  "Water",
-                  "Phreatic surface file",
-                  phreatic_file,
-                  "the surface is given twice. Keep one of \"Phreatic surface\" and \"Phreatic surface file\".");
-    require_entry(n_bodies > 0 || (phreatic_surface.empty() && phreatic_file.empty()),
+    require_entry(n_bodies > 0 || phreatic_surface.empty(),
                   "Water",
                   entry,
                   elevation,
@@ -314,7 +272,7 @@ namespace scree
 
   bool WaterParameters::has_levels() const
   {
-    return seepage_start.is_steady || !(phreatic_surface.empty() && phreatic_file.empty() && reservoir_level.empty());
+    return seepage_start.is_steady || !(phreatic_surface.empty() && reservoir_level.empty());
   }
 
 
@@ -324,8 +282,6 @@ namespace scree
       return { "Steady seepage", "true" };
     if (!phreatic_surface.empty())
       return { "Phreatic surface", phreatic_surface };
-    if (!phreatic_file.empty())
-      return { "Phreatic surface file", phreatic_file };
     if (!reservoir_level.empty())
       return { "Reservoir level", reservoir_level };
     return { "Region", region };
@@ -343,7 +299,7 @@ namespace scree
 
   std::string WaterParameters::region_in_soil(const unsigned int dim) const
   {
-    if (!phreatic_file.empty() || seepage_start.is_steady)
+    if (seepage_start.is_steady)
       return "1";
     if (has_levels())
       return below("(" + place().second + ')' + (fringe > 0. ? " + " + number_text(fringe) : ""), dim);
@@ -358,33 +314,4 @@ namespace scree
     return reservoir_level.empty() ? "" : below(reservoir_level, dim);
   }
 
-
-  void WaterParameters::read_table(const unsigned int dim,
-                                   const Point<2> &map_origin,
-                                   const std::vector<double> &lower,
-                                   const std::vector<double> &upper)
-  {
-    seepage_start.check_heads(lower, upper);
-    if (phreatic_file.empty())
-      return;
-    const std::string where    = entry_name("Water", "Phreatic surface file");
-    const auto require_overlap = [&](const unsigned int a, const double first, const double last) {
-      require_entry(first < upper[a] && last > lower[a],
-                    "Water",
-                    "Phreatic surface file",
-                    phreatic_file,
-                    "it lies beside the box of subsection Mesh. Look at its coordinates, and at \"Local origin\".");
-    };
-    if (dim == 2)
-      {
-        auto profile = std::make_shared<const Profile>(read_profile(phreatic_file, where));
-        require_overlap(0, profile->first_x(), profile->last_x());
-        std::get<0>(tables) = profile;
-        return;
-      }
-    Raster raster = read_raster(phreatic_file, where, map_origin);
-    require_overlap(0, raster.x, raster.last_x());
-    require_overlap(1, raster.y, raster.last_y());
-    std::get<1>(tables) = std::make_shared<const HeightSurface>(std::move(raster));
-  }
 } // namespace scree

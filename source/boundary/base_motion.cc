@@ -22,13 +22,12 @@ namespace scree
     {
     public:
       /// Reads the record; throws EntryError if that fails.
-      /// @param scale m/s^2 of a unit of the record
-      BaseMotion(const std::string &record, const double scale)
+      BaseMotion(const std::string &record)
       {
         std::vector<std::string> columns{ "time (s)", "acceleration along x", "along y", "along z" };
         columns.resize(1 + dim);
         for (const auto &numbers : read_number_table(record, entry_name("Base motion", "Acceleration record"), columns))
-          acceleration.add(numbers[0], scale * Tensor<1, dim>(make_array_view(numbers.begin() + 1, numbers.end())));
+          acceleration.add(numbers[0], Tensor<1, dim>(make_array_view(numbers.begin() + 1, numbers.end())));
       }
 
       /// The box's velocity, the integral of the record, linear between its rows, is met in each step, however long.
@@ -77,37 +76,26 @@ namespace scree
             "Acceleration record",
             record,
             "File of the acceleration of the box with all its walls; empty: at rest. Each line has the time (s) "
-            "and one component per axis, separated by commas. Values are linear between lines and 0 outside the "
+            "and one component per axis (m/s^2), separated by commas. Values are linear between lines and 0 outside "
+            "the "
             "record. Results are relative to the box.");
-        prm.add_parameter(
-            "Scale", scale, "Factor that converts the record to m/s^2; 9.81 if it is in g.", Patterns::Double());
         prm.leave_subsection();
       }
       bool is_set() const override
       {
         return !record.empty();
       }
-      void check(const unsigned int dim) const override
-      {
-        require_entry(is_set() || scale == BaseMotionEntries().scale,
-                      "Base motion",
-                      "Scale",
-                      scale,
-                      "there is nothing to scale. Write an \"Acceleration record\", or remove the entry.");
-        BodyForceEntries::check(dim);
-      }
       std::unique_ptr<BodyForce<2>> make_2d() const override
       {
-        return std::make_unique<BaseMotion<2>>(record, scale);
+        return std::make_unique<BaseMotion<2>>(record);
       }
       std::unique_ptr<BodyForce<3>> make_3d() const override
       {
-        return std::make_unique<BaseMotion<3>>(record, scale);
+        return std::make_unique<BaseMotion<3>>(record);
       }
 
     private:
       std::string record;
-      double scale = 1;
     };
 
     const RegisterBodyForce<BaseMotionEntries> registered_base_motion("Base motion");

@@ -2,7 +2,6 @@
 #include <scree/boundary/rain.h>
 #include <scree/input/input_error.h>
 #include <scree/particles/cell_use.h>
-#include <scree/particles/region.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,6 @@ namespace scree
                       "expression of t such as if(t < 60, 1e-4, 0). 50 mm/h are 1.39e-5 m/s. What does not enter runs "
                       "off. Empty: no rain.",
                       Patterns::Anything());
-    prm.add_parameter("Region", region, "Where it rains, an expression of x (3D: x, y), in m.", Patterns::Anything());
     prm.leave_subsection();
   }
 
@@ -32,11 +30,6 @@ namespace scree
                              const double air_entry,
                              const unsigned int n_bodies) const
   {
-    require_entry(is_set() || region == RainParameters().region,
-                  "Rain",
-                  "Region",
-                  region,
-                  "this entry has no effect without a \"Rate\". Write one, or remove it.");
     if (!is_set())
       return;
     require_entry(has_own_points && n_bodies > 0,
@@ -58,10 +51,6 @@ namespace scree
                   std::string("rain needs gravity along -") + "xyz"[dim - 1] +
                       ", but entry \"Gravity\" = " + number_text(gravity) + ". Change it, or remove the rain.");
     parse_expression<1>(entry_name("Rain", "Rate"), rate, 1);
-    if (dim == 2)
-      Region<2>(entry_name("Rain", "Region"), region);
-    else
-      Region<3>(entry_name("Rain", "Region"), region);
   }
 
 
@@ -80,11 +69,9 @@ namespace scree
     unsigned int n_columns = 1;
     for (unsigned int a = 0; a + 1 < dim; ++a)
       n_columns *= n[a] = std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / spacing);
-    const Region<dim> region(entry_name("Rain", "Region"), parameters.region);
     constexpr double golden = 0.6180339887498949;
     for (unsigned int column = 0; column < n_columns; ++column)
       {
-        is_open.push_back(region.contains(foot(column)));
         due.push_back(depth * std::fmod(golden * (column + 1), 1.)); // in turns, and right in the mean
         books.waiting -= due.back() * std::pow(spacing, dim - 1);
       }
@@ -116,7 +103,7 @@ namespace scree
   template <int dim>
   double Rain<dim>::area() const
   {
-    return std::count(is_open.begin(), is_open.end(), true) * std::pow(spacing, dim - 1);
+    return due.size() * std::pow(spacing, dim - 1);
   }
 
 
@@ -130,8 +117,7 @@ namespace scree
     const double fallen = 0.5 * time_step * (first + second);
     bool is_due         = false;
     for (unsigned int column = 0; column < due.size(); ++column)
-      if (is_open[column])
-        is_due = (due[column] += fallen) >= depth || is_due;
+      is_due = (due[column] += fallen) >= depth || is_due;
     books.fell += fallen * area();
     return is_due && fallen > 0.;
   }
@@ -255,7 +241,7 @@ namespace scree
   {
     std::vector<Drop> result;
     for (unsigned int column = 0; column < due.size(); ++column)
-      if (is_open[column] && due[column] >= depth)
+      if (due[column] >= depth)
         {
           Point<dim> x = foot(column);
           x[dim - 1]   = std::min(height_of_drop(column, columns), grid.upper_corner()[dim - 1] - 0.5 * spacing);

@@ -137,7 +137,7 @@ namespace scree
     };
 
 
-    /// Throws EntryError if there are differences: tells the first, and names a few others.
+    /// Throws EntryError if there are differences: names the first and a few others.
     void refuse(const std::vector<Difference> &differences, const Checkpoint &checkpoint)
     {
       if (differences.empty())

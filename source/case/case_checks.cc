@@ -117,13 +117,6 @@ namespace scree
     {
       parameters.water.check(parameters.gravity, parameters.bodies.size());
       parameters.water_boundaries.check(parameters.dimension);
-      require_entry(
-          parameters.bed.friction_angles.empty(),
-          "Bed",
-          "Friction angles",
-          parameters.bed.friction_angles,
-          "with water the bed has one angle of friction yet. Write a \"Friction angle\", or remove subsection "
-          "Water.");
       for (const WaterWall &wall : parameters.water_boundaries.walls(parameters.dimension))
         require_entry(wall.type != WaterWallType::drained || wall.pressure >= parameters.pressure.cavitation_pressure,
                       "Water/Pressure",
@@ -131,17 +124,9 @@ namespace scree
                       parameters.pressure.cavitation_pressure,
                       "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
                           " Pa. Water cavitates there. Write a lower number, or a higher pressure at the wall.");
-      for (const SoilRegion &body : parameters.soil_regions())
-        {
-          if (parameters.water.is_where_soil_is())
-            require_pores(body);
-          require_entry(body.porosity < parameters.water.fluidisation_porosity,
-                        "Water",
-                        "Fluidisation porosity",
-                        parameters.water.fluidisation_porosity,
-                        quoted(body.name) + " has a porosity of " + number_text(body.porosity) +
-                            " at the start and would never bear a stress. Write a larger number.");
-        }
+      if (parameters.water.is_where_soil_is())
+        for (const SoilRegion &body : parameters.soil_regions())
+          require_pores(body);
     }
 
 
@@ -228,14 +213,6 @@ namespace scree
     parameters.settling.check(parameters.gravity);
     parameters.safety.check();
     parameters.probes.check(parameters.grid, parameters.dimension, !parameters.bodies.empty());
-    require_entry(parameters.transfer.transfer_method() != TransferMethod::apic ||
-                      parameters.grid.basis_kind() == Basis::spline,
-                  "Transfer",
-                  "Method",
-                  parameters.transfer.method,
-                  "with \"Basis = " + parameters.grid.basis +
-                      "\" its affine field grows without bound, as the inertia of the nodes around a point vanishes at "
-                      "cell faces. Write \"Basis = spline\", or another method.");
     for (const auto &body : parameters.bodies)
       body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);
     check_contacts(parameters);

@@ -21,7 +21,6 @@ namespace scree
           result.emplace_back(entry_name(subsection, entry), file);
       };
       add(parameters.bed.subsection, "Raster", parameters.bed.raster());
-      add(parameters.bed.subsection, "Friction angles", parameters.bed.friction_angles);
       for (const ObstacleParameters &obstacle : parameters.obstacles)
         add(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
       for (const BodyParameters &body : parameters.bodies)
@@ -29,9 +28,7 @@ namespace scree
           const SourceMapParameters &source = body.seeding.source;
           add(body.name, "Thickness", source.thickness);
           add(body.name, "Upper surface", source.upper_surface);
-          add(body.name, "Lower surface", source.lower_surface);
         }
-      add("Water", "Phreatic surface file", parameters.water.phreatic_file);
       return result;
     }
 

@@ -39,7 +39,7 @@ namespace scree
         name_inflows();
         name_contacts();
         has_water = file.has_subsection("Water");
-        // Suggestions know of water's entries also where a dry run's list of all entries leaves them out: read again,
+        // Suggestions include water's entries also where a dry run's list of all entries leaves them out: read again,
         // that list must not make the scene wet.
         ParameterHandler all;
         declare(all);
@@ -47,7 +47,10 @@ namespace scree
         file.check(
             all,
             "scree --print-parameters lists all of them.",
-            [&](const std::string &subsection) { return unlisted_body(subsection); },
+            [&](const std::string &subsection) {
+              const std::string removed = removed_entry_remedy("", subsection, "");
+              return removed.empty() ? unlisted_body(subsection) : removed;
+            },
             removed_entry_remedy);
         if (!has_water)
           check_dry();
@@ -74,7 +77,7 @@ namespace scree
         map_system = system_of_maps(*this);
         read_maps();
         if (has_water)
-          water.read_table(dimension, bed.map_origin, grid.lower_corner, grid.upper_corner);
+          water.seepage_start.check_heads(grid.lower_corner, grid.upper_corner);
         water.find_fringe(size_of_gravity());
         if (safety.strength_factor != 1. && settling.maximum_time == 0.) // or else it acts at the release
           reduce_strength(safety.strength_factor);
@@ -264,34 +267,23 @@ namespace scree
 
   void Parameters::take_box_from_raster()
   {
-    const bool is_asked  = grid.box == "from raster";
-    const bool has_lower = file.sets("Mesh", "Lower corner"), has_upper = file.sets("Mesh", "Upper corner");
-    require_entry(!is_asked || !bed.raster().empty(),
-                  "Mesh",
-                  "Box",
-                  grid.box,
-                  "subsection Bed has no \"Raster\". Name one there, or write the corners.");
-    if (bed.raster().empty() || dimension != 3 || (has_lower && has_upper) || (!is_asked && (has_lower || has_upper)))
+    if (bed.raster().empty() || dimension != 3 || file.sets("Mesh", "Lower corner") ||
+        file.sets("Mesh", "Upper corner"))
       return;
     const BoxOfRaster box     = box_of_raster(bed, bodies, grid.cell_size);
-    std::vector<double> lower = has_lower ? grid.lower_corner : box.lower;
-    std::vector<double> upper = has_upper ? grid.upper_corner : box.upper;
-    for (unsigned int a = 0; a < 3 && lower.size() == 3 && upper.size() == 3; ++a)
+    std::vector<double> upper = box.upper;
+    for (unsigned int a = 0; a < 3; ++a)
       {
         // Along the map the ground must cover whole cells; along z there may be more of them.
-        const double cells = (upper[a] - lower[a]) / grid.cell_size;
-        const double whole = grid.cell_size * (a < 2 ? std::floor(cells + 1e-6) : std::ceil(cells - 1e-6));
-        if (has_upper)
-          lower[a] = upper[a] - whole;
-        else
-          upper[a] = lower[a] + whole;
+        const double cells = (upper[a] - box.lower[a]) / grid.cell_size;
+        upper[a] = box.lower[a] + grid.cell_size * (a < 2 ? std::floor(cells + 1e-6) : std::ceil(cells - 1e-6));
       }
-    text_of_box = "Box from the raster, in whole cells: from " + number_text(lower) + " to " + number_text(upper) +
+    text_of_box = "Box from the raster, in whole cells: from " + number_text(box.lower) + " to " + number_text(upper) +
                   " m; the raster reaches from " + number_text({ box.lower[0], box.lower[1] }) + " to " +
                   number_text({ box.upper[0], box.upper[1] }) + " m, its heights from " + number_text(box.lowest) +
                   " to " + number_text(box.highest) + " m";
     handler.enter_subsection("Mesh");
-    handler.set("Lower corner", exact_text(lower));
+    handler.set("Lower corner", exact_text(box.lower));
     handler.set("Upper corner", exact_text(upper));
     handler.leave_subsection();
   }

@@ -32,16 +32,6 @@ namespace scree
                       "the slope. Write more for soil so soft that it deforms as much without failure. It also bounds "
                       "the displacement while the soil settles.",
                       Patterns::Double(1e-6, 10));
-    prm.add_parameter(
-        "Maximum time",
-        maximum_time,
-        "--safety: longest duration of a trial, over sqrt(height of the soil/gravity). A slope that still "
-        "moves then fails.",
-        Patterns::Double(1, 1e6));
-    prm.add_parameter("Damping rate",
-                      damping,
-                      "1/s; --safety: decay rate of the velocity. auto: 2 sqrt(gravity/height of the soil).",
-                      Patterns::Anything());
     prm.leave_subsection();
   }
 
@@ -53,16 +43,5 @@ namespace scree
                   "Upper factor",
                   upper,
                   "it must exceed \"Lower factor\" = " + number_text(lower) + " by more than the tolerance.");
-    require_entry(damping == "auto" || number_of(damping) > 0.,
-                  "Safety",
-                  "Damping rate",
-                  damping,
-                  "write a number above 0, in 1/s, or auto.");
-  }
-
-
-  double SafetyParameters::damping_rate(const double time_scale) const
-  {
-    return damping == "auto" ? 2. / time_scale : number_of(damping);
   }
 } // namespace scree

@@ -44,7 +44,7 @@ namespace scree
       ElementDriver driver(parameters);
       driver.run();
 
-      std::error_code failure; // write() tells.
+      std::error_code failure; // write() reports it.
       std::filesystem::create_directories(parameters.output_directory, failure);
       std::ostringstream table, all_entries;
       driver.write_table(table);
@@ -93,7 +93,7 @@ namespace scree
     /// only if there is none: the exit code.
     int become_fit(std::vector<std::string> arguments)
     {
-      std::error_code failure; // execvp() tells.
+      std::error_code failure; // execvp() reports it.
       const auto beside    = std::filesystem::read_symlink("/proc/self/exe", failure).replace_filename("scree-fit");
       const bool is_beside = std::filesystem::exists(beside, failure);
       arguments[0]         = is_beside ? beside.string() : "scree-fit";

@@ -16,11 +16,6 @@ namespace scree
   {
     prm.enter_subsection(subsection);
     add_entries(prm);
-    add_file_entry(prm,
-                   "Friction angles",
-                   friction_angles,
-                   "degrees; 3D. Raster (ESRI ASCII grid or GeoTIFF) of the angles, which covers the box; alternative "
-                   "to \"Friction angle\".");
     prm.add_parameter(
         "Turbulent friction",
         turbulent_friction,
@@ -123,20 +118,11 @@ namespace scree
     const bool is_rough = type_kind() == BedType::friction;
     const auto n_given =
         std::count_if(shapes.begin(), shapes.end(), [](const auto &shape) { return !shape.second.empty(); });
-    const auto type_entry   = std::make_pair(std::string("Type"), type);
-    const auto angles_entry = std::make_pair(std::string("Friction angles"), friction_angles);
-    require(is_rough || friction_angles.empty(),
-            angles_entry,
-            "this entry has no effect. Remove it, or write \"Type = friction\".");
-    require(
-        dim == 3 || friction_angles.empty(), angles_entry, "maps are for scenes in space. Write a \"Friction angle\".");
-    require(friction_angle == 0. || friction_angles.empty(),
-            angles_entry,
-            "friction is given twice. Keep one of \"Friction angle\" and \"Friction angles\".");
+    const auto type_entry = std::make_pair(std::string("Type"), type);
     require(is_rough || friction_angle == 0.,
             std::make_pair(std::string("Friction angle"), friction_angle),
             "this entry has no effect. Remove it, or write \"Type = friction\".");
-    require(!is_rough || friction_angle > 0. || !friction_angles.empty(),
+    require(!is_rough || friction_angle > 0.,
             std::make_pair(std::string("Friction angle"), friction_angle),
             "write an angle above 0, in degrees, or \"Type = free slip\".");
     require(is_rough || turbulent_friction == 0.,
@@ -159,35 +145,6 @@ namespace scree
           if (shape.value == ShapeValue::text)
             dim == 2 ? void(make_shape<2>(*this, {}, {}, 1.)) : void(make_shape<3>(*this, {}, {}, 1.));
         }
-  }
-
-
-  Raster
-  read_friction(const BedParameters &parameters, const std::vector<double> &lower, const std::vector<double> &upper)
-  {
-    const std::string where = entry_name(parameters.subsection, "Friction angles");
-    Raster raster           = read_raster(parameters.friction_angles, where, parameters.map_origin);
-    const auto require      = [&](const bool possible, const std::string &remedy) {
-      if (!possible)
-        throw EntryError(where + " = " + parameters.friction_angles + ": " + remedy);
-    };
-    require(raster.x <= lower[0] && raster.last_x() >= upper[0] && raster.y <= lower[1] && raster.last_y() >= upper[1],
-            "the angles do not cover the box of subsection Mesh: they reach from " +
-                number_text({ raster.x, raster.y }) + " to " + number_text({ raster.last_x(), raster.last_y() }) +
-                " m. Write more of them, or a smaller box.");
-    for (unsigned int row = 0; row < raster.n_rows; ++row)
-      for (unsigned int column = 0; column < raster.n_columns; ++column)
-        {
-          double &value  = raster.values[std::size_t(row) * raster.n_columns + column];
-          const double x = raster.x + column * raster.spacing, y = raster.y + row * raster.spacing;
-          const bool counts = x > lower[0] - raster.spacing && x < upper[0] + raster.spacing &&
-                              y > lower[1] - raster.spacing && y < upper[1] + raster.spacing;
-          require(!counts || (value >= 0. && value < 90.),
-                  "at " + number_text({ x, y }) + " m it is " + (std::isnan(value) ? "missing" : number_text(value)) +
-                      ". Write angles from 0 to below 90 degrees.");
-          value = std::tan(value * numbers::PI / 180.);
-        }
-    return raster;
   }
 
 

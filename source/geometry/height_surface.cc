@@ -71,7 +71,7 @@ namespace scree
         return;
       shortest                  = distance;
       const Tensor<1, 3> normal = across(corners);
-      // On the ground itself only the triangle tells where the open is.
+      // On the ground itself the open side is that of the triangle.
       best = { side * distance, distance > 1e-10 * raster.spacing ? side / distance * way : normal / normal.norm() };
     };
     const auto range = [&](const double place, const double first, const unsigned int n) {

@@ -56,7 +56,7 @@ namespace scree
         return;
       shortest      = distance;
       best.distance = side * distance;
-      // On the ground itself only the segment tells where the open is.
+      // On the ground itself the open side is that of the segment.
       best.normal = distance > 1e-10 * along.norm() ? side / distance * way
                                                     : Tensor<1, 2>({ -along[1], along[0] }) / along.norm();
     };

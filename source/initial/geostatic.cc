@@ -125,7 +125,7 @@ namespace scree
 
 
     /// Gives each point the state with the stress components that `fill_stress(location, components)` writes. Throws
-    /// EntryError, which begins with `entry` or `modulus`, if the law cannot bear one. Collective.
+    /// EntryError, which begins with `entry` or `modulus`, if the law cannot carry one. Collective.
     template <int dim, typename Function>
     void set_stress(SoilBody<dim> &body,
                     const std::string &entry,

@@ -72,12 +72,6 @@ namespace scree
   void SettlingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
-    prm.add_parameter("Type",
-                      type,
-                      "undrained: water moves with the soil, and its pressure follows from the motion. drained: water "
-                      "keeps its place and its initial pressure; the soil carries its effective weight and the seepage "
-                      "force of that pressure.",
-                      Patterns::Selection("undrained|drained"));
     prm.add_parameter(
         "Maximum time",
         maximum_time,
@@ -110,20 +104,9 @@ namespace scree
                   "Gate",
                   gate,
                   "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
-    require_entry(drainage() == Drainage::undrained || maximum_time > 0,
-                  "Settling",
-                  "Type",
-                  type,
-                  "settling has no time. Write a \"Maximum time\" above 0, in s.");
     if (!gate.empty() && dim == 2)
       Region<2>(entry_name("Settling", "Gate"), gate);
     if (!gate.empty() && dim == 3)
       Region<3>(entry_name("Settling", "Gate"), gate);
-  }
-
-
-  Drainage SettlingParameters::drainage() const
-  {
-    return type == "drained" ? Drainage::drained : Drainage::undrained;
   }
 } // namespace scree

@@ -48,7 +48,7 @@ namespace scree
   {
     const MPI_Comm communicator = grid.communicator();
     const CellsOfBox<dim> &box  = grid.fine_cells().box();
-    std::vector<int> lower(dim, std::numeric_limits<int>::max()), upper(dim, 0); // of the cells; MPI knows no arrays
+    std::vector<int> lower(dim, std::numeric_limits<int>::max()), upper(dim, 0); // of the cells; MPI reduces no arrays
     for (const Cell &cell : cells)
       for (unsigned int a = 0; a < dim; ++a)
         {

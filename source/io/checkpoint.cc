@@ -95,7 +95,7 @@ namespace scree
     }
 
 
-    /// What a user wants to know after a checkpoint has failed.
+    /// What the message about a failed checkpoint contains.
     std::string what_is_left(const CheckpointFolder &folder, const Manifest &manifest)
     {
       std::string names;

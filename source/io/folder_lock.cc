@@ -38,7 +38,7 @@ namespace scree
         return { dealii::Utilities::System::get_hostname(), getpid(), start_of(getpid()) };
       }
 
-      /// 0 if the process is none, or dead and only not yet collected by its parent, or if the system does not tell.
+      /// 0 if the process is none, or dead and only not yet collected by its parent, or if the system does not report.
       static long long start_of(const long pid)
       {
         std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
@@ -129,7 +129,7 @@ namespace scree
   {
     std::ifstream in(file);
     const std::string found{ std::istreambuf_iterator<char>(in), {} };
-    if (why_not.empty() && found == text) // and not that of a run that was told to ignore this one
+    if (why_not.empty() && found == text) // and not that of a run that ignores this one
       ::unlink(file.c_str());
   }
 } // namespace scree

@@ -68,11 +68,6 @@ namespace scree
                       checkpoint_interval,
                       "s; simulated time between checkpoints, from which --resume continues; 0: none.",
                       Patterns::Double(0));
-    prm.add_parameter("Checkpoint failure",
-                      checkpoint_failure,
-                      "Action if a checkpoint cannot be written. stop: the run ends. go on: the next checkpoint is "
-                      "tried when it is due.",
-                      Patterns::Selection("stop|go on"));
     prm.add_parameter("Wall time limit",
                       wall_time_limit,
                       "s; wall-clock time within which the run writes a checkpoint and stops, so that --resume can "

@@ -123,7 +123,7 @@ namespace scree
       }
     catch (const FileError &error)
       {
-        if (is_present()) // or else require_presence() is going to tell
+        if (is_present()) // or else require_presence() reports it
           tell_once(name, std::string(error.what()) + " The run goes on, and tries again each time.");
       }
   }

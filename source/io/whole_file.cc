@@ -49,7 +49,7 @@ namespace scree
         return number >= 0 && ::fsync(number) == 0;
       }
 
-      /// Network disks tell here that they are full.
+      /// Network disks report here that they are full.
       bool close()
       {
         const int open_number = number;

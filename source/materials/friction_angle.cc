@@ -38,19 +38,4 @@ namespace scree
     const double on_plane = std::tan(radians(angle)), psi = radians(dilation_angle);
     return on_plane / (std::cos(psi) + std::sin(psi) * on_plane);
   }
-
-
-  double critical_stress_ratio(const double angle, const FrictionAngleKind kind)
-  {
-    const double sine = std::sin(radians(angle));
-    switch (kind)
-      {
-      case FrictionAngleKind::triaxial:
-        return 6 * sine / (3 - sine);
-      case FrictionAngleKind::plane_strain:
-        return std::sqrt(3.) * sine;
-      default:
-        return std::sqrt(3.) * std::tan(radians(angle));
-      }
-  }
 } // namespace scree

@@ -21,10 +21,4 @@ namespace scree
                       "Largest increase of tau/p with the rate of shear: tau/p grows by this value/(1 + I_0/I).",
                       Patterns::Double(0, 2));
   }
-
-
-  void InertialFrictionParameters::append_usual_ranges(std::vector<UsualRange> &ranges) const
-  {
-    ranges.push_back({ "Grain diameter", grain_diameter, 1e-5, 3, "m (1 mm = 1e-3 m)" });
-  }
 } // namespace scree

@@ -62,10 +62,4 @@ namespace scree
                   nonlocal_length,
                   "this entry has no effect without \"Softening strain\". Add one, or remove the entry.");
   }
-
-
-  void SofteningParameters::append_usual_ranges(std::vector<UsualRange> &ranges) const
-  {
-    ranges.push_back({ "Softening strain", strain, 1e-3, 10, "- (10 % = 0.1)" });
-  }
 } // namespace scree

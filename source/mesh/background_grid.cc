@@ -83,12 +83,6 @@ namespace scree
     }
 
 
-    GridParameters everywhere(GridParameters parameters)
-    {
-      parameters.fine = "everywhere";
-      return parameters;
-    }
-
   } // namespace
 
 
@@ -102,15 +96,10 @@ namespace scree
                       Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Upper corner",
                       upper_corner,
-                      "m; upper corner of the box, one coordinate per axis.",
+                      "m; upper corner of the box, one coordinate per axis. 3D without both corners, with a bed of a "
+                      "raster: in x and y the part of the raster that whole cells cover, in z from two cells below its "
+                      "lowest height to above the soil.",
                       Patterns::List(Patterns::Double(), 2, 3));
-    prm.add_parameter(
-        "Box",
-        box,
-        "Source of the corners that are not set. corners: their defaults, or the bed raster if neither corner "
-        "is set. from raster: in x and y the part of the raster that whole cells cover, "
-        "in z from two cells below its lowest height to above the soil.",
-        Patterns::Selection("corners|from raster"));
     prm.add_parameter("Cell size",
                       cell_size,
                       "m; width of the cubic cells. The box lengths must be integer multiples of it.",
@@ -119,11 +108,6 @@ namespace scree
                       basis,
                       "Shape functions: spline (C1 quadratic B-splines) or linear.",
                       Patterns::Selection("spline|linear"));
-    prm.add_parameter("Fine cells",
-                      fine,
-                      "Region with cells of this size. around points: near points, with a margin that moves with them; "
-                      "cells elsewhere are larger. everywhere: the whole box.",
-                      Patterns::Selection("around points|everywhere"));
     prm.leave_subsection();
   }
 
@@ -194,20 +178,21 @@ namespace scree
   bool GridParameters::is_adaptive() const
   {
     constexpr double few = 2e4;
-    return fine == "around points" && n_cells() > few;
+    return n_cells() > few;
   }
 
 
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
                                       const unsigned int n_levels,
+                                      const bool follows,
                                       const MPI_Comm communicator)
       : width(parameters.cell_size)
       , lower(point_from_list<dim>(parameters.lower_corner))
       , upper(point_from_list<dim>(parameters.upper_corner))
       , box(cells_of_box<dim>(parameters))
       , n_levels(n_levels)
-      , follows(parameters.is_adaptive())
+      , follows(follows)
       , mesh(communicator,
              Triangulation<dim>::none,
              parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
@@ -226,7 +211,7 @@ namespace scree
 
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator)
-      : BackgroundGrid(everywhere(parameters), levels_that_divide(cells_of_box<dim>(parameters)), communicator)
+      : BackgroundGrid(parameters, levels_that_divide(cells_of_box<dim>(parameters)), /* follows */ false, communicator)
   {
     mesh.refine_global(n_levels);
     cells.reinit();
@@ -238,7 +223,7 @@ namespace scree
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
                                       const PlacesOfPoints<dim> &places,
                                       const MPI_Comm communicator)
-      : BackgroundGrid(parameters, levels<dim>(parameters), communicator)
+      : BackgroundGrid(parameters, levels<dim>(parameters), parameters.is_adaptive(), communicator)
   {
     if (follows)
       refine(with_surroundings(occupied_blocks(box, places, communicator)), Shares::even);

@@ -36,12 +36,6 @@ namespace scree
         parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner, parameters.grid.cell_size);
     if (ground)
       bed = std::make_unique<DiscreteLevelSet<dim>>(grid, *ground);
-    if (!parameters.bed.friction_angles.empty())
-      {
-        bed_friction = read_friction(parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner);
-        for (auto &coefficient : bed_friction->values)
-          coefficient /= parameters.safety.strength_factor;
-      }
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);
@@ -105,7 +99,7 @@ namespace scree
   template <int dim>
   void Scene<dim>::make_bodies()
   {
-    // The one place that knows whose points carry the water.
+    // The one place that depends on whose points carry the water.
     const bool affine      = parameters.transfer.carries_affine_field();
     const double inertia   = parameters.transfer.affine_inertia(grid.cell_size());
     const bool water_rides = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
@@ -235,14 +229,11 @@ namespace scree
     std::vector<RigidSurface<dim>> surfaces;
     if (bed)
       {
-        surfaces.push_back({ bed.get(),
-                             parameters.bed.friction_coefficient(),
-                             bed_friction ? &*bed_friction : nullptr,
-                             parameters.bed.no_slip() });
+        surfaces.push_back({ bed.get(), parameters.bed.friction_coefficient(), parameters.bed.no_slip() });
         surfaces.back().turbulent_friction = parameters.bed.turbulent_friction;
       }
     for (const Obstacle<dim> &obstacle : obstacles)
-      surfaces.push_back({ &obstacle.surface, obstacle.friction_coefficient, nullptr, obstacle.no_slip, &obstacle });
+      surfaces.push_back({ &obstacle.surface, obstacle.friction_coefficient, obstacle.no_slip, &obstacle });
     return surfaces;
   }
 

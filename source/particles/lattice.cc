@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace scree
 {
@@ -13,52 +12,14 @@ namespace scree
 
   namespace
   {
-    /// Mixes the bits of `state` (SplitMix64: Steele, Lea & Flood 2014).
-    std::uint64_t mix_bits(std::uint64_t state)
-    {
-      state += 0x9e3779b97f4a7c15;
-      state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9;
-      state = (state ^ (state >> 27)) * 0x94d049bb133111eb;
-      return state ^ (state >> 31);
-    }
-
-
-    /// Moves the seeds of one cell. The numbers follow from the cell's place in the mesh and the seed's in the cell: a
-    /// generator's sequence would depend on which rank owns which cells.
-    template <int dim>
-    void jitter_seeds(const typename std::vector<Seed<dim>>::iterator begin,
-                      const typename std::vector<Seed<dim>>::iterator end,
-                      const double cell_size,
-                      const Lattice &lattice)
-    {
-      for (auto seed = begin; seed != end; ++seed)
-        {
-          std::uint64_t hash = mix_bits(lattice.sequence);
-          for (const unsigned int part : seed->cell->id().template to_binary<dim>())
-            hash = mix_bits(hash ^ part);
-          hash = mix_bits(hash ^ (seed - begin));
-          for (unsigned int a = 0; a < dim; ++a)
-            {
-              hash                = mix_bits(hash);
-              const double number = std::ldexp(double(hash >> 11), -52) - 1.; // evenly from -1 to 1
-              // Points at the edge of a region may stand anywhere in their cell, and must stay there.
-              const double lower = seed->location[a] - seed->cell->vertex(0)[a];
-              const double room  = std::min(lower, cell_size - lower);
-              seed->location[a] += number * std::min(lattice.jitter * cell_size / lattice.n, 0.98 * room);
-            }
-        }
-    }
-
-
     /// Appends the seeds of one cell.
     template <int dim>
     void add_seeds_of_cell(const typename Triangulation<dim>::active_cell_iterator &cell,
                            const double cell_size,
-                           const Lattice &lattice,
+                           const unsigned int n,
                            const PartOfCube<dim> &part_of_cube,
                            std::vector<Seed<dim>> &seeds)
     {
-      const unsigned int n    = lattice.n;
       const double width      = cell_size / n;
       const std::size_t first = seeds.size();
       const double cube       = Utilities::fixed_power<dim>(width);
@@ -86,8 +47,6 @@ namespace scree
           nearest->stays |= sliver.stays;
           nearest->take_in(sliver.location, sliver.volume, sliver.filled);
         }
-      if (lattice.jitter > 0)
-        jitter_seeds<dim>(seeds.begin() + first, seeds.end(), cell_size, lattice);
     }
   } // namespace
 
@@ -95,13 +54,13 @@ namespace scree
   template <int dim>
   std::vector<Seed<dim>> lattice_seeds(const Triangulation<dim> &triangulation,
                                        const double cell_size,
-                                       const Lattice &lattice,
+                                       const unsigned int n,
                                        const PartOfCube<dim> &part_of_cube)
   {
     std::vector<Seed<dim>> seeds;
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned() && holds_nodes(cell))
-        add_seeds_of_cell(cell, cell_size, lattice, part_of_cube, seeds);
+        add_seeds_of_cell(cell, cell_size, n, part_of_cube, seeds);
     return seeds;
   }
 
@@ -133,9 +92,9 @@ namespace scree
   }
 
   template std::vector<Seed<2>>
-  lattice_seeds(const Triangulation<2> &, const double, const Lattice &, const PartOfCube<2> &);
+  lattice_seeds(const Triangulation<2> &, const double, const unsigned int, const PartOfCube<2> &);
   template std::vector<Seed<3>>
-  lattice_seeds(const Triangulation<3> &, const double, const Lattice &, const PartOfCube<3> &);
+  lattice_seeds(const Triangulation<3> &, const double, const unsigned int, const PartOfCube<3> &);
   template void
   insert_points(PointSet<2> &, const std::vector<Seed<2>> &, const double, const MPI_Comm, const FillProperties<2> &);
   template void

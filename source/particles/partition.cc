@@ -89,7 +89,7 @@ namespace scree
     const auto own        = [this](const Work work) { return work_of_rank[unsigned(work)]; };
     const double to_nodes = own(Work::to_nodes), solving = own(Work::solving), to_points = own(Work::to_points);
     const double contact = n_steps * contacts();
-    // Points that feel the ground themselves tell what that takes; else solving at the nodes is like points to grid.
+    // Contact of points with the ground is timed by itself; else solving at the nodes is like points to grid.
     enum
     {
       with_solving,

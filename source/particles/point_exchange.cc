@@ -30,7 +30,7 @@ namespace scree
   template <int dim>
   std::vector<PointRecord<dim>> PointExchange<dim>::exchange()
   {
-    // Points go to ghost cells only, so that all ranks know who may write to them. deal.II's some_to_some() asks first,
+    // Points go to ghost cells only, so that the ghost layer gives the partners. deal.II's some_to_some() asks first,
     // which takes 60 microseconds more a step on two ranks.
     const auto &neighbours      = dynamic_cast<const parallel::TriangulationBase<dim> &>(mesh).ghost_owners();
     const MPI_Comm communicator = communicator_of(mesh);

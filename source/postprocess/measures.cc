@@ -27,7 +27,7 @@ namespace scree
     };
     std::vector<Search> searches(fractions.size(), { lower, upper, 0., 0., {} });
 
-    // Each pass finds the bin in which the wanted mass is reached and looks into it the next time.
+    // Each pass finds the bin in which the given mass is reached and looks into it the next time.
     constexpr unsigned int n_bins = 1000, n_passes = 5;
     std::vector<double> bins;
     for (unsigned int pass = 0; pass < n_passes; ++pass)
@@ -49,7 +49,7 @@ namespace scree
             if (pass == 0)
               for (unsigned int bin = 0; bin < n_bins; ++bin)
                 wanted += fractions[s] * bin_of_search[bin];
-            // Equal masses often add up to just the wanted part: rounding must not choose the point.
+            // Equal masses often add up to just the given part: rounding must not choose the point.
             unsigned int bin = 0;
             while (bin + 1 < n_bins && below + bin_of_search[bin] < wanted * (1. - 1e-12))
               below += bin_of_search[bin++];

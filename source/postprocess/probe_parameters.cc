@@ -130,8 +130,8 @@ namespace scree
                       Patterns::Bool());
     prm.add_parameter("Displacement",
                       displacement,
-                      "true: the graphics output has the displacement of the soil points since the start, and maps "
-                      "have the scour depth. Both are always there if the soil settles.",
+                      "true: the graphics output has the displacement of the soil points since the start. It is always "
+                      "there if the soil settles.",
                       Patterns::Bool());
     prm.leave_subsection();
   }

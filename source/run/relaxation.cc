@@ -15,8 +15,9 @@ namespace scree
 
   namespace
   {
-    constexpr double part_that_moves = 0.01; // of the mass; single points at the surface do not count
-    constexpr double speed_at_rest   = 2e-4; // over sqrt(g H): terminal speed with a thousandth of strength missing
+    constexpr double part_that_moves   = 0.01; // of the mass; single points at the surface do not count
+    constexpr double damping_of_trials = 2.;   // decay rate of the velocity, times sqrt(height of the soil/gravity)
+    constexpr double speed_at_rest     = 2e-4; // over sqrt(g H): terminal speed with a thousandth of strength missing
 
 
     template <int dim, typename Visit>
@@ -194,15 +195,12 @@ namespace scree
 
 
   template <int dim>
-  TimeStepper Relaxation<dim>::relax(const Drainage drainage,
-                                     const double maximum_time,
+  TimeStepper Relaxation<dim>::relax(const double maximum_time,
                                      const unsigned int steps_between_looks,
                                      const std::function<bool(const TimeStepper &, double)> &is_over)
   {
-    TimeStepper clock(drainage == Drainage::drained
-                          ? parameters.time_step.with_held_pressure(gravity, scene.grid.cell_size())
-                          : parameters.time_step);
-    scheme.set_drainage(drainage);
+    TimeStepper clock(parameters.time_step.with_held_pressure(gravity, scene.grid.cell_size()));
+    scheme.hold_water(true);
     bool goes_on = true;
     while (goes_on && clock.time() < maximum_time && control.stop_reason() == StopReason::none)
       {
@@ -214,7 +212,7 @@ namespace scree
       }
     if (control.stop_reason() == StopReason::none)
       {
-        scheme.set_drainage(Drainage::undrained);
+        scheme.hold_water(false);
         scene.open_gate();
         scene.stop();
         control.measure_speeds();
@@ -255,7 +253,7 @@ namespace scree
                    name_of_ratio + number_text(ratio));
       return n_below >= steps_at_rest;
     };
-    const TimeStepper clock = relax(settling.drainage(), settling.maximum_time, 1, is_at_rest);
+    const TimeStepper clock = relax(settling.maximum_time, 1, is_at_rest);
     const bool is_released  = control.stop_reason() == StopReason::none;
     folder.log("Settled for " + number_text(clock.time()) + " s in " + std::to_string(clock.step()) + " steps; " +
                name_of_ratio + number_text(ratio) + (is_released ? ". Released." : ". Asked to stop."));
@@ -319,10 +317,10 @@ namespace scree
     const TrialBounds bounds{ time_scale,
                               speed_at_rest * gravity * time_scale,
                               displacement_of_failure * height.slope,
-                              parameters.safety.maximum_time * time_scale };
+                              parameters.safety.longest_trial * time_scale };
     TrialJudge judge(bounds);
     Trial trial;
-    scene.forcing.set_damping(parameters.safety.damping_rate(time_scale));
+    scene.forcing.set_damping(damping_of_trials / time_scale);
     const auto has_ended = [&](const TimeStepper &clock, const double) {
       trial.displacement = displacement();
       const double speed = exceeded_by(
@@ -337,7 +335,7 @@ namespace scree
                     " m, speed " + number_text(speed) + " m/s");
       return trial.end != TrialEnd::undecided;
     };
-    const TimeStepper clock = relax(Drainage::drained, bounds.maximum_time, steps_between_looks, has_ended);
+    const TimeStepper clock = relax(bounds.maximum_time, steps_between_looks, has_ended);
     scene.forcing.set_damping(0.);
     trial.time  = clock.time();
     trial.steps = clock.step();

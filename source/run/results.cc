@@ -90,20 +90,11 @@ namespace scree
 
 
   template <int dim>
-  void Results<dim>::write_checkpoint(FileJob job, const double time)
+  void Results<dim>::write_checkpoint(FileJob job)
   {
-    job.failed = [this, fail = std::move(job.failed), time](const std::string &fault) {
+    job.failed = [this, fail = std::move(job.failed)](const std::string &fault) {
       folder.require_presence();
-      try
-        {
-          fail(fault);
-        }
-      catch (const EntryError &error)
-        {
-          if (parameters.output.stops_without_checkpoint())
-            throw;
-          folder.log("No checkpoint at t = " + number_text(time) + " s: " + error.what());
-        }
+      fail(fault);
     };
     files.start(std::move(job));
   }

@@ -19,11 +19,11 @@ namespace scree
     void check(const Parameters &parameters)
     {
       require_entry(!parameters.bodies.empty(), "", "Bodies", "none", "without soil there is no slope. Name a body.");
-      require_entry(!parameters.has_water || parameters.settling.drainage() == Drainage::drained,
+      require_entry(!parameters.has_water || parameters.settling.maximum_time > 0.,
                     "Settling",
-                    "Type",
-                    parameters.settling.type,
-                    "--safety holds the pore pressure. Write drained, and a \"Maximum time\" above 0.");
+                    "Maximum time",
+                    parameters.settling.maximum_time,
+                    "--safety holds the pore pressure of settled soil. Write a time above 0, in s.");
       for (const BodyParameters &body : parameters.bodies)
         require_entry(body.material.law != "Nor-Sand" && body.material.law != "Nor-Sand (Jefferies-Been)",
                       body.name,
@@ -186,7 +186,7 @@ namespace scree
     trials.log("Safety      " + parameters.case_file + " -> " + parameters.output_directory + "/safety");
     trials.log("Rests       where not more than 1 % of the soil is faster than 2e-4 sqrt(gH), during sqrt(H/g)\n"
                "Fails       where more than 1 % of the soil has moved by " +
-               number_text(safety.displacement) + " H, or still moves after " + number_text(safety.maximum_time) +
+               number_text(safety.displacement) + " H, or still moves after " + number_text(safety.longest_trial) +
                " sqrt(H/g)");
     const TrialEnd first = trials.settle();
     require_entry(first != TrialEnd::fails,

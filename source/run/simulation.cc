@@ -8,7 +8,7 @@
 #include <scree/io/log_header.h>
 #include <scree/run/simulation.h>
 #include <scree/transfer/point_fault.h>
-#include <scree/case/unusual_units.h>
+#include <scree/case/case_remarks.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -54,8 +54,8 @@ namespace scree
     record_case(parameters, folder);
     log_case(parameters, scene, folder, communicator);
     log_released(parameters, scene, folder, communicator);
-    for (const std::string &question : unusual_values(parameters, scene.bodies, communicator))
-      folder.log(question);
+    for (const std::string &remark : remarks_on(parameters))
+      folder.log(remark);
     if (parameters.settling.maximum_time > 0)
       settle();
     if (!is_released)
@@ -107,7 +107,7 @@ namespace scree
   template <int dim>
   End Simulation<dim>::run()
   {
-    timer.reset(); // Only the steps' time is to be told.
+    timer.reset(); // Only the steps' time is reported.
     stop.listen();
     const ShownMotion<dim> motion(scene);
     progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, motion.heading());
@@ -155,14 +155,6 @@ namespace scree
         return;
       }
     write_checkpoint();
-    require_entry(
-        step_of_checkpoint == clock.step(),
-        "Output",
-        "Checkpoint failure",
-        parameters.output.checkpoint_failure,
-        "the run was stopped by " + text_of(control.stop_reason()) +
-            ", and its last checkpoint could not be written. The log tells why; make room, and use --resume if "
-            "there is an older one.");
     // After the checkpoint, so that a resumed run drops it, unless it was due.
     if (results.step_of_last_row() != clock.step())
       write_row();
@@ -384,7 +376,7 @@ namespace scree
                                    [&](auto &archive) { serialize_state(archive); });
     totals      = own;
     job.done    = [this, step = clock.step()] { step_of_checkpoint = step; };
-    results.write_checkpoint(std::move(job), clock.time());
+    results.write_checkpoint(std::move(job));
   }
 
   template class Simulation<2>;

@@ -23,7 +23,6 @@ namespace scree
   TwoPhaseScheme<dim>::TwoPhaseScheme(const Model<dim> &model, TimerOutput &timer)
       : grid(model.grid)
       , forces(model.forces)
-      , fluidisation_porosity(model.water_parameters.fluidisation_porosity)
       , water(model.water)
       , faces_closed_to_soil(model.constraints[0]->faces_closed_to_soil())
       , faces_closed_to_water(model.water_walls->closed_faces())
@@ -46,7 +45,7 @@ namespace scree
       , wall_gaps(grid, *model.constraints[0])
       , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
       , momentum(grid, *model.constraints[0], wall_gaps, forces, model.water_parameters.density, timer)
-      , viscosity(grid, model.water_parameters, model.bodies, water, timer)
+      , viscosity(grid, model.water_parameters, water, timer)
       , contact(grid,
                 model.ground,
                 model.surfaces,
@@ -190,7 +189,7 @@ namespace scree
     const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
     Budget<dim> &budget = report.balance;
     sum_at_nodes(time_step);
-    if (drainage == Drainage::drained)
+    if (holds_water)
       return solve_drained(nodes, time_step, budget);
     momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g - B^T p^n)
     contact.begin_step(mixture, pressure.free_surface());
@@ -252,34 +251,13 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::fluidise()
-  {
-    if (fluidisation_porosity >= 1.)
-      return;
-    const double no_stress[n_symmetric_components<dim>] = {};
-    for (auto &body : soil.all_bodies())
-      {
-        const auto &layout = body.layout;
-        std::vector<double> scratch(layout.n_properties); // A state without stress must not reset internal variables.
-        for_each_point(body.points, [&](const auto &point) {
-          double *properties = point.properties;
-          if (body.porosity(properties) > fluidisation_porosity)
-            body.material->initialise(
-                no_stress, properties + layout.left_cauchy_green, properties + layout.stress, scratch.data());
-        });
-      }
-  }
-
-
-  template <int dim>
   void TwoPhaseScheme<dim>::to_points(const double time_step, StepReport<dim> &report)
   {
     {
       const TimedPart part(timer, TimerSection::stress);
       soil.to_points(time_step, report);
-      fluidise();
     }
-    if (drainage == Drainage::undrained)
+    if (!holds_water)
       move_water(time_step, report);
     project_to_boundary(time_step, report.speeds.points);
   }
@@ -305,9 +283,9 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::set_drainage(const Drainage now)
+  void TwoPhaseScheme<dim>::hold_water(const bool holds)
   {
-    drainage = now;
+    holds_water = holds;
   }
 
 

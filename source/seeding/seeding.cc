@@ -23,12 +23,6 @@ namespace scree
     source.add_parameters(prm);
     prm.add_parameter(
         "Points per cell", points_per_cell, "Points along each axis of a cell.", Patterns::Integer(1, 32));
-    prm.add_parameter("Jitter",
-                      jitter,
-                      "Largest random displacement of a point from the lattice, along each axis, over the lattice "
-                      "spacing; 0: regular lattice. For verification and stability maps: points keep their volume, so "
-                      "that cells are filled unevenly.",
-                      Patterns::Double(0, 0.49));
     prm.add_parameter("Grain density",
                       grain_density,
                       "kg/m^3; density of the grains. The bulk density is this value times (1 - porosity).",
@@ -157,7 +151,7 @@ namespace scree
     on_all_ranks(communicator, [&] {
       seeds = lattice_seeds<dim>(triangulation,
                                  cell_size,
-                                 { parameters.points_per_cell, parameters.jitter, 0 },
+                                 parameters.points_per_cell,
                                  [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
                                    const auto [volume, centroid] = region.part_of_cube(lower, width, ground);
                                    return { volume, volume, centroid };

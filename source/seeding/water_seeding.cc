@@ -105,8 +105,7 @@ namespace scree
       const MPI_Comm communicator = communicator_of(triangulation);
       std::vector<Seed<dim>> seeds;
       on_all_ranks(communicator, [&] {
-        seeds = lattice_seeds<dim>(
-            triangulation, cell_size, { parameters.points_per_cell, parameters.jitter, 1 }, part_of_cube);
+        seeds = lattice_seeds<dim>(triangulation, cell_size, parameters.points_per_cell, part_of_cube);
         require_velocities(velocity.get(), seeds);
       });
       keep_slivers_at(ground, seeds);

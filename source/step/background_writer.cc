@@ -100,7 +100,7 @@ namespace scree
 
   void BackgroundWriter::begin_stage()
   {
-    // A single rank waits for nobody between the stages.
+    // A single rank does not wait between the stages.
     auto &all       = jobs.front().stages;
     const auto next = all.begin() + stage;
     stage           = n_ranks == 1 ? all.size() : std::min<std::size_t>(stage + 1, all.size());

@@ -191,8 +191,6 @@ namespace scree
         {
         case TransferMethod::flip:
           return move_points<n, TransferMethod::flip>(body, field, time_step);
-        case TransferMethod::apic:
-          return move_points<n, TransferMethod::apic>(body, field, time_step);
         case TransferMethod::aflip:
           return move_points<n, TransferMethod::aflip>(body, field, time_step);
         default:

@@ -41,8 +41,6 @@ namespace scree
     const auto dispatch = [&](auto n) {
       switch (method)
         {
-        case TransferMethod::apic:
-          return add_points<n, TransferMethod::apic>(body, field);
         case TransferMethod::tpic:
         case TransferMethod::aflip: // They differ on the way back only.
           return add_points<n, TransferMethod::tpic>(body, field);

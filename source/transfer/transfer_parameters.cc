@@ -14,8 +14,8 @@ namespace scree
     prm.enter_subsection("Transfer");
     prm.add_parameter("Method",
                       method,
-                      "Transfer of velocity between points and nodes: FLIP, APIC, TPIC or AFLIP.",
-                      Patterns::Selection("FLIP|APIC|TPIC|AFLIP"));
+                      "Transfer of velocity between points and nodes: FLIP, TPIC or AFLIP.",
+                      Patterns::Selection("FLIP|TPIC|AFLIP"));
     prm.add_parameter(
         "PIC rate",
         rate,
@@ -67,7 +67,6 @@ namespace scree
   TransferMethod TransferParameters::transfer_method() const
   {
     static const std::map<std::string, TransferMethod> table{ { "FLIP", TransferMethod::flip },
-                                                              { "APIC", TransferMethod::apic },
                                                               { "TPIC", TransferMethod::tpic },
                                                               { "AFLIP", TransferMethod::aflip } };
     return table.at(method);
@@ -82,9 +81,7 @@ namespace scree
 
   double TransferParameters::affine_inertia(const double cell_size) const
   {
-    const double inertia = cell_size * cell_size / 4.;
-    const auto kind      = transfer_method();
-    return kind == TransferMethod::aflip ? inertia : kind == TransferMethod::apic ? 1. / inertia : 0.;
+    return transfer_method() == TransferMethod::aflip ? cell_size * cell_size / 4. : 0.;
   }
 
 

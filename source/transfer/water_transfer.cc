@@ -280,8 +280,6 @@ namespace scree
     const auto dispatch = [&](auto n) {
       switch (method)
         {
-        case TransferMethod::apic:
-          return add_water<n, TransferMethod::apic>(water, mixture, field, excess, pores);
         case TransferMethod::tpic:
         case TransferMethod::aflip: // They differ on the way back only.
           return add_water<n, TransferMethod::tpic>(water, mixture, field, excess, pores);
@@ -308,8 +306,6 @@ namespace scree
         {
         case TransferMethod::flip:
           return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, time_step);
-        case TransferMethod::apic:
-          return move_water<n, TransferMethod::apic>(water, nodes, mixture, pressure, time_step);
         case TransferMethod::aflip:
           return move_water<n, TransferMethod::aflip>(water, nodes, mixture, pressure, time_step);
         default:

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/tensor/invariants.h>
 #include <scree/transfer/cell_sums.h>
 #include <scree/viscosity/viscous_force.h>
 
@@ -42,64 +41,21 @@ namespace scree
 
 
   template <int dim>
-  ViscousForce<dim>::ViscousForce(const BackgroundGrid<dim> &grid, const WaterParameters &water)
+  ViscousForce<dim>::ViscousForce(const BackgroundGrid<dim> &grid, const double viscosity)
       : grid(grid)
-      , viscosity(water.viscosity)
-      , suspension(water.suspension, water.viscosity)
+      , viscosity(viscosity)
   {
-  }
-
-
-  template <int dim>
-  std::vector<double> ViscousForce<dim>::coefficients(const WaterPhase<dim> &water) const
-  {
-    std::vector<double> result;
-    result.reserve(water.points().n_points());
-    for_each_point(water.points(),
-                   [&](const auto &point) { result.push_back(viscosity * point.properties[water.layout.volume]); });
-    return result;
-  }
-
-
-  template <int dim>
-  std::vector<double> ViscousForce<dim>::coefficients(const SoilBody<dim> &soil) const
-  {
-    std::vector<double> result;
-    if (!suspension.any() || soil.is_rigid)
-      return result;
-    result.reserve(soil.points.n_points());
-    bool any = false;
-    for_each_point(soil.points, [&](const auto &point) {
-      const double *properties = point.properties;
-      const double part        = suspension.suspended_part(mean_effective_stress(properties + soil.layout.stress));
-      result.push_back(0.);
-      if (part == 0.)
-        return;
-      any                   = true;
-      const double porosity = std::max(soil.porosity(properties), 0.);
-      result.back() =
-          part * (suspension.viscosity(1. - porosity) - porosity * viscosity) * properties[soil.layout.volume];
-    });
-    return any ? result : std::vector<double>();
   }
 
 
   template <int dim>
   template <int n>
-  void ViscousForce<dim>::add_points(const PointSet<dim> &points,
-                                     const std::vector<double> &coefficients,
+  void ViscousForce<dim>::add_points(const WaterPhase<dim> &water,
                                      const NodalField<dim> &motion,
                                      NodalField<dim> &field) const
   {
-    auto coefficient = coefficients.begin();
-    for (const auto &cell : points.cells())
+    for (const auto &cell : water.points().cells())
       {
-        const auto end = coefficient + cell.n_points;
-        if (std::all_of(coefficient, end, [](const double number) { return number == 0.; }))
-          {
-            coefficient = end;
-            continue;
-          }
         const OpenKnots open      = grid.open_knots(cell.cell);
         const unsigned int *nodes = grid.nodes(cell.cell);
         const CellVelocity<dim, n> velocity(nodes, motion, grid.cell_size());
@@ -116,10 +72,11 @@ namespace scree
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
                   gradient[c][d] = at_points.gradient[c * dim + d][l];
-              sums.add_force(shape, coefficient[indices[l]], twice_deviatoric_rate(gradient));
+              sums.add_force(shape,
+                             viscosity * cell.properties_of(indices[l])[water.layout.volume],
+                             twice_deviatoric_rate(gradient));
             }
         });
-        coefficient = end;
         field.activate_cell(cell.cell);
         sums.scatter(nodes, field);
       }
@@ -128,46 +85,34 @@ namespace scree
 
   template <int dim>
   template <int n>
-  double ViscousForce<dim>::bound(const PointSet<dim> &points,
-                                  const std::vector<double> &coefficients,
-                                  const unsigned int mass_slot) const
+  double ViscousForce<dim>::bound(const WaterPhase<dim> &water) const
   {
-    double largest   = 0;
-    auto coefficient = coefficients.begin();
-    for (const auto &cell : points.cells())
+    double largest = 0;
+    for (const auto &cell : water.points().cells())
       for_each_point(cell, [&, open = grid.open_knots(cell.cell)](const auto &point) {
-        if (const double number = *coefficient++; number > 0.)
+        if (const double product = viscosity * point.properties[water.layout.volume]; product > 0.)
           largest = std::max(largest,
-                             number / point.properties[mass_slot] * stiffness<dim, n>(point.reference_location, open));
+                             product / point.properties[water.layout.mass] *
+                                 stiffness<dim, n>(point.reference_location, open));
       });
     return 2. * largest / (grid.cell_size() * grid.cell_size());
   }
 
 
   template <int dim>
-  void ViscousForce<dim>::add(const PointSet<dim> &points,
-                              const std::vector<double> &coefficients,
-                              const NodalField<dim> &motion,
-                              NodalField<dim> &field) const
+  void ViscousForce<dim>::add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const
   {
-    if (coefficients.empty())
-      return;
     if (grid.n_nodes_1d() == 2)
-      add_points<2>(points, coefficients, motion, field);
+      add_points<2>(water, motion, field);
     else
-      add_points<3>(points, coefficients, motion, field);
+      add_points<3>(water, motion, field);
   }
 
 
   template <int dim>
-  double ViscousForce<dim>::largest_rate(const PointSet<dim> &points,
-                                         const std::vector<double> &coefficients,
-                                         const unsigned int mass_slot) const
+  double ViscousForce<dim>::largest_rate(const WaterPhase<dim> &water) const
   {
-    if (coefficients.empty())
-      return 0.;
-    return grid.n_nodes_1d() == 2 ? bound<2>(points, coefficients, mass_slot)
-                                  : bound<3>(points, coefficients, mass_slot);
+    return grid.n_nodes_1d() == 2 ? bound<2>(water) : bound<3>(water);
   }
 
   template class ViscousForce<2>;

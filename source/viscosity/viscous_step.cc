@@ -36,18 +36,16 @@ namespace scree
   template <int dim>
   ViscousStep<dim>::ViscousStep(const BackgroundGrid<dim> &grid,
                                 const WaterParameters &parameters,
-                                const std::list<SoilBody<dim>> &bodies,
                                 const std::list<WaterPhase<dim>> &water,
                                 TimerOutput &timer)
       : grid(grid)
-      , bodies(bodies)
       , water(water)
       , water_viscosity(parameters.viscosity)
       , timer(timer)
-      , force(grid, parameters)
+      , force(grid, parameters.viscosity)
   {
     if (water_viscosity > 0.)
-      for (std::optional<NodalField<dim>> *field : { &soil_motion, &water_motion, &soil_impulses, &water_impulses })
+      for (std::optional<NodalField<dim>> *field : { &motion, &impulses })
         field->emplace(grid);
   }
 
@@ -55,20 +53,9 @@ namespace scree
   template <int dim>
   void ViscousStep<dim>::reinit()
   {
-    for (std::optional<NodalField<dim>> *field : { &soil_motion, &water_motion, &soil_impulses, &water_impulses })
+    for (std::optional<NodalField<dim>> *field : { &motion, &impulses })
       if (*field)
         (*field)->reinit();
-  }
-
-
-  template <int dim>
-  void ViscousStep<dim>::find_points()
-  {
-    viscous.clear();
-    for (const auto &part : water)
-      viscous.push_back({ part.points(), part.layout.mass, force.coefficients(part), false });
-    for (const auto &body : bodies)
-      viscous.push_back({ body.points, body.layout.mass, force.coefficients(body), true });
   }
 
 
@@ -76,35 +63,27 @@ namespace scree
   double ViscousStep<dim>::largest_rate() const
   {
     double largest = 0;
-    for (const Viscous &one : viscous)
-      largest = std::max(largest, force.largest_rate(one.points, one.coefficients, one.mass_slot));
+    for (const auto &part : water)
+      largest = std::max(largest, force.largest_rate(part));
     return Utilities::MPI::max(largest, grid.communicator());
   }
 
 
   template <int dim>
-  void ViscousStep<dim>::find_impulses(const NodalField<dim> &soil_velocity,
-                                       const NodalField<dim> &water_velocity,
+  void ViscousStep<dim>::find_impulses(const NodalField<dim> &velocity,
                                        const CutCellContact<dim> *bed,
                                        const double ground_share,
                                        const double time_step)
   {
-    soil_impulses->clear();
-    water_impulses->clear();
-    for (const Viscous &one : viscous)
-      force.add(one.points,
-                one.coefficients,
-                one.is_soil ? soil_velocity : water_velocity,
-                one.is_soil ? *soil_impulses : *water_impulses);
+    impulses->clear();
+    for (const auto &part : water)
+      force.add(part, velocity, *impulses);
     if (bed)
-      bed->add_viscous_force(water_velocity, ground_share, water_viscosity, *water_impulses);
-    for (NodalField<dim> *field : { &*soil_impulses, &*water_impulses })
-      {
-        field->add_contributions();
-        for (const unsigned int node : active)
-          for (unsigned int c = 0; c < dim; ++c)
-            (*field)[node][NodalField<dim>::force + c] *= time_step;
-      }
+      bed->add_viscous_force(velocity, ground_share, water_viscosity, *impulses);
+    impulses->add_contributions();
+    for (const unsigned int node : active)
+      for (unsigned int c = 0; c < dim; ++c)
+        (*impulses)[node][NodalField<dim>::force + c] *= time_step;
   }
 
 
@@ -113,19 +92,15 @@ namespace scree
   {
     for (unsigned int i = 0; i < active.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
-        {
-          (*soil_motion)[active[i]][NodalField<dim>::velocity + c]  = velocity[i].soil[c];
-          (*water_motion)[active[i]][NodalField<dim>::velocity + c] = velocity[i].water[c];
-        }
-    soil_motion->update_ghosts();
-    water_motion->update_ghosts();
+        (*motion)[active[i]][NodalField<dim>::velocity + c] = velocity[i].water[c];
+    motion->update_ghosts();
   }
 
 
   template <int dim>
   SoilAndWater<dim> ViscousStep<dim>::impulses_at(const unsigned int node) const
   {
-    return { part(*soil_impulses, node, NodalField<dim>::force), part(*water_impulses, node, NodalField<dim>::force) };
+    return { Tensor<1, dim>(), part(*impulses, node, NodalField<dim>::force) };
   }
 
 
@@ -161,7 +136,7 @@ namespace scree
                     ExcMessage("The viscous stress of a step was not found in 5000 iterations. Remedies: a smaller "
                                "'Viscosity' in subsection Water, or a smaller 'Maximum time step'."));
         set_motion(direction);
-        find_impulses(*soil_motion, *water_motion, bed, 0., time_step);
+        find_impulses(*motion, bed, 0., time_step);
         Vector image(active.size()); // (A + dt K) direction
         for (unsigned int i = 0; i < active.size(); ++i)
           {
@@ -198,14 +173,13 @@ namespace scree
     if (water_viscosity == 0.)
       return;
     const TimedPart part(timer, TimerSection::nodes);
-    find_points();
     active = nodes.pores.active_nodes();
     pairs.clear();
     for (const unsigned int node : active)
       pairs.push_back(step.drag_block_at(nodes, node));
     constexpr double stable = 2.; // beyond, an explicit step turns the fastest motion round and makes it grow
     const bool is_long      = time_step * largest_rate() > stable;
-    find_impulses(nodes.soil, nodes.water, is_long ? &bed : nullptr, 1., time_step);
+    find_impulses(nodes.water, is_long ? &bed : nullptr, 1., time_step);
     if (is_long)
       {
         Vector velocity;
@@ -216,14 +190,14 @@ namespace scree
           balance.n_viscous_iterations += n_iterations;
         // What the solve leaves would not add up to nothing.
         set_motion(velocity);
-        find_impulses(*soil_motion, *water_motion, &bed, 1., time_step);
-        bed.take_viscous_force(*water_motion, water_viscosity, time_step);
+        find_impulses(*motion, &bed, 1., time_step);
+        bed.take_viscous_force(*motion, water_viscosity, time_step);
       }
     for (const unsigned int node : active)
       step.push(nodes, node, impulses_at(node), balance);
     nodes.update_velocity_ghosts();
     if (is_long && bed.no_slip()) // which counts its own impulses
-      find_impulses(*soil_motion, *water_motion, nullptr, 1., time_step);
+      find_impulses(*motion, nullptr, 1., time_step);
   }
 
 
@@ -232,12 +206,11 @@ namespace scree
   {
     for (const unsigned int node : active)
       {
-        const SoilAndWater<dim> impulses = impulses_at(node), after = velocities(nodes, node);
-        const Tensor<1, dim> soil_change  = part(nodes.soil, node, NodalField<dim>::velocity_change);
+        const Tensor<1, dim> impulse      = part(*impulses, node, NodalField<dim>::force);
+        const Tensor<1, dim> after        = part(nodes.water, node, NodalField<dim>::velocity);
         const Tensor<1, dim> water_change = part(nodes.water, node, NodalField<dim>::velocity_change);
         // The work of an impulse is its product with the mean velocity.
-        balance.viscous_dissipation -=
-            impulses.soil * (after.soil - 0.5 * soil_change) + impulses.water * (after.water - 0.5 * water_change);
+        balance.viscous_dissipation -= impulse * (after - 0.5 * water_change);
       }
   }
 

@@ -1,12 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# disk_full.sh SCREE LAUNCHER: a checkpoint that finds no room stops the run with an error, or not, as the case says; the older ones
+# disk_full.sh SCREE LAUNCHER: a checkpoint that finds no room stops the run with an error; the older ones
 # stay whole, and the run can be resumed as if nothing had happened. A limit on the size of files stands for the full disk.
 set -e
 cases=$(dirname -- "$0")
 scree=$1
 printf '%s\n' "$(cat "$cases/column_short.prm")" 'subsection Output' '  set Checkpoint interval = 0.03' 'end' >case.prm
-printf '%s\n' "$(cat case.prm)" 'subsection Output' '  set Checkpoint failure = go on' 'end' >go_on.prm
 printf '%s\n' "$(cat case.prm)" 'set End time = 0.08' >begin.prm
 
 rm -rf results whole
@@ -43,13 +42,6 @@ grep -q "bytes are needed" error
 grep -q "Still whole: results/checkpoint/step-[0-9]* and results/checkpoint/step-[0-9]*.$" error
 [ "$(echo results/checkpoint/*)" = "$newest" ]
 "$scree" case.prm --resume >screen
-"$PYTHON" "$cases/compare_statistics.py" whole results/statistics 1e-12
-
-begin
-full go_on.prm 200 --resume
-[ "$(cat code)" -eq 0 ]
-[ "$(grep -c "^No checkpoint at t = .* s: .*Still whole" results/log.txt)" -eq 2 ] # at 0.09 and 0.12 s
-[ "$(echo results/checkpoint/*)" = "$newest" ]
 "$PYTHON" "$cases/compare_statistics.py" whole results/statistics 1e-12
 
 printf '%s\n' "$(cat case.prm)" 'subsection Output' '  set Graphics = points' 'end' 'subsection Soil' '  set Points per cell = 5' 'end' >pictures.prm

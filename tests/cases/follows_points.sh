@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# follows_points.sh SCREE LAUNCHER CASE TOLERANCE OTHER: fine cells that follow the points change nothing but time and memory. Results
-# are those of fine cells everywhere, to the TOLERANCE; two and three ranks agree with one to OTHER; a box of twice the height and width
-# takes no more fine cells.
+# follows_points.sh SCREE LAUNCHER CASE TOLERANCE: fine cells that follow the points change nothing but time and memory: two and three
+# ranks agree with one to the TOLERANCE; a box of twice the height and width takes no more fine cells.
 set -e
 cases=$(dirname -- "$0")
 scree=$1
@@ -23,15 +22,12 @@ compare()
   "$PYTHON" "$cases/compare_statistics.py" "$1"/results/statistics "$2"/results/statistics "$3"
 }
 
-sed 's/set Cell size/set Fine cells = everywhere\n  set Cell size/' "$case" >everywhere.prm
 run around 1 "$case"
-run everywhere 1 "$PWD/everywhere.prm"
-compare around everywhere "$4"
 grep -q 'followed the points [1-9] times' around/results/log.txt
 
 for ranks in 2 3; do
   run $ranks $ranks "$case"
-  compare around $ranks "$5"
+  compare around $ranks "$4"
 done
 
 "$PYTHON" - "$case" >wide.prm <<END

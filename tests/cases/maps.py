@@ -16,7 +16,7 @@ from scree.results import read_raster, read_table
 
 from case_tools import HERE, check, run
 
-NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "largest_impact_pressure", "scour_depth", "arrival_time"]
+NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "largest_impact_pressure", "arrival_time"]
 MAPS = """
 subsection Output
   subsection Maps
@@ -25,7 +25,6 @@ subsection Output
   end
 end
 """
-SCOUR = "subsection Probes\n  set Displacement = true\nend\n"
 BLOCK = """
 set Dimension = 3
 set Gravity   = 0, 0, 0
@@ -102,7 +101,6 @@ def slide():
     """A block on an oblique bed: the maps hold its mass; two ranks and a resumed run have those of one that did not stop."""
     text = (HERE / "bed_short_3d.prm").read_text(encoding="utf-8") + MAPS
     text += "subsection Soil\n  set Initial velocity = 1; 0.3; -0.46\nend\n"  # along the bed
-    text += SCOUR
     one = run("one", text)
     first = {name: read_map(one, name) for name in NAMES}
     statistics = read_table(one / "statistics")
@@ -112,7 +110,6 @@ def slide():
     check(np.all(first["largest_thickness"][there] >= first["thickness"][there]), "largest thickness below the last one")
     check(np.nanmax(first["arrival_time"]) > 0.05, "nothing arrives after the checkpoint")
     check(np.nanmax(first["largest_speed"]) > 0.1, "nothing moves")
-    check(np.nanmax(first["scour_depth"]) > 0.05, "nothing has left its place")
 
     def compare(results, what):
         for name in NAMES:
@@ -125,23 +122,6 @@ def slide():
     for folder, ranks in (("one", 1), ("two", 1), ("two", 2)):
         shutil.rmtree(pathlib.Path(folder, "results", "maps"))
         compare(run(folder, text, "--resume", ranks=ranks), f"resumed from {folder} on {ranks}")
-
-
-def scour():
-    """A block flies over another at rest: it leaves a depth of scour at its start, and none where it comes to."""
-    flying = BLOCK.replace("subsection Soil", "set Bodies = Rest, Flow\nsubsection Rest").replace("3; 0; 1", "0; 0; 0")
-    flying = flying.replace("z > 1000.2 && z < 1000.6", "z > 1000.2 && z < 1000.4")
-    flying += flying[flying.index("subsection Rest") :].replace("subsection Rest", "subsection Flow").replace("0; 0; 0", "3; 0; 0").replace(
-        "z > 1000.2 && z < 1000.4", "z > 1000.6 && z < 1000.7"
-    )
-    along_x, along_y = np.zeros(12), np.zeros(8)
-    along_x[1:6] = 0.125, 0.875, 1, 0.875, 0.125
-    along_y[:4] = 0.125, 0.875, 0.875, 0.125
-    for ranks in (1, 2):
-        results = run(f"scour_{ranks}", flying + MAPS + SCOUR, ranks=ranks)
-        # All that has left is the flow's layer of one cell, from where it was at the start.
-        depth = 0.1 * np.outer(along_y, along_x)
-        close_map(results, "scour_depth", depth, depth, "scour depth")
 
 
 def profile():
@@ -201,4 +181,4 @@ def geo_tiff():
     check(abs(np.nansum(first) / np.nansum(second) - 1) < 0.05, "thickness of the soil from its own map")
 
 
-{"block": block, "geo_tiff": geo_tiff, "slide": slide, "scour": scour, "profile": profile}[sys.argv[3]]()
+{"block": block, "geo_tiff": geo_tiff, "slide": slide, "profile": profile}[sys.argv[3]]()

@@ -83,9 +83,9 @@ refused "$(in_subsection Soil 'Material = linear elastic')" 'subsection Soil, en
 refused "$(in_subsection Boundaries 'Bottom = free slip')" 'subsection Boundaries, entry "Bottom" = free slip'
 refused "$(in_subsection Water 'Region = same')" "subsection Water: $of_run"
 refused "$(in_subsection Stabilisation 'F-bar = none')" 'subsection Stabilisation, entry "F-bar" = none'
-# APIC reads no PIC rate.
+# TPIC reads no PIC rate.
 refused "$(in_subsection Transfer 'PIC rate = auto')
-$(in_subsection Transfer 'Method = APIC')" 'subsection Transfer, entry "Method" = APIC'
+$(in_subsection Transfer 'Method = TPIC')" 'subsection Transfer, entry "Method" = TPIC'
 refused "$(in_subsection 'Time step' 'Mass scaling = 2')" 'subsection Time step, entry "Mass scaling" = 2'
 refused "$(in_subsection Transfer 'Method = AFLIP')" 'subsection Transfer, entry "Method" = AFLIP'
 refused "set End time = 0.004" 'entry "End time" = 0.004: the checkpoint results/checkpoint/step-'

@@ -21,17 +21,11 @@ subsection Bed
   set Type = fixed
   set Level set expression = if(x < 1 && y > -1, y - 0.1*x^2, max(y, 0))
 end
-subsection Obstacle Sphere
-  set Type = free slip
-  set Closed surface = tetrahedron.stl
-end
 subsection Obstacle Hill
   set Type = free slip
   set Raster = hill.asc
 end
 """
-TETRAHEDRON = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))  # outward
-CORNERS = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
 def lattice(dim, stretch=1.):
@@ -80,14 +74,10 @@ def check_areas():
 
 def check_ground(run):
     (run / "parameters.prm").write_text(PLANE, encoding="utf-8")
-    facets = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*CORNERS[i]) for i in facet) + "endloop\nendfacet\n"
-                     for facet in TETRAHEDRON)
-    (run / "tetrahedron.stl").write_text(f"solid t\n{facets}endsolid t\n", encoding="utf-8")
     (run / "hill.asc").write_text("ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\ncellsize 1\n3 4 5\n0 1 2\n", encoding="utf-8")
     places = [np.array([0.5, 0.1]), np.array([0.5, 0.1]), np.array([0.5, 0.1])]
     surfaces = {surface.name: surface.level_set for surface in rigid.rigid_surfaces(run, places, 0.)}
     assert np.allclose(surfaces["Bed"], [0.475, 0.099]), surfaces
-    assert np.allclose(surfaces["Obstacle Sphere"], [0.5 / 3 ** 0.5, -0.1], atol=1e-6), surfaces
     assert np.allclose(surfaces["Obstacle Hill"], [0.5 - (0.5 + 1.5), 0.1 - (0.1 + 0.3)]), surfaces
 
 

@@ -456,25 +456,13 @@ def log_header():
     print(log())
 
 
-TRIANGLES = [((0, 0, 0), (1, 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 1, 0), (0, 0, 1)), ((0, 0, 0), (0, 0, 1), (1, 0, 0)), ((1, 0, 0), (0, 0, 1), (0, 1, 0))]
-
-
-def solid(x, y, z, size):
-    """A small tetrahedron as STL."""
-    corner = "vertex %g %g %g\n"
-    facets = ["facet normal 0 0 0\nouter loop\n" + "".join(corner % (x + size * a, y + size * b, z + size * c) for a, b, c in reversed(one)) +
-              "endloop\nendfacet\n" for one in TRIANGLES]
-    return "solid\n" + "".join(facets) + "endsolid\n"
-
-
 def grid(value):
     return "ncols 3\nnrows 3\nxllcenter 0\nyllcenter 0\ncellsize 1\n" + ("%g %g %g\n" % (value, value, value)) * 3
 
 
 # Contents and changed ones of each file that a case names.
-FILES_3D = {"raster.asc": (grid(0.2), grid(0.25)), "angles.asc": (grid(30), grid(31)), "thickness.asc": (grid(0.5), grid(0.4)),
-            "lower.asc": (grid(0.3), grid(0.35)), "outline.csv": ("0, 0\n1, 0\n1, 1\n0, 1\n", "0, 0\n1, 0\n1, 1.1\n0, 1\n"),
-            "wall.stl": (solid(1.5, 1.5, 1, 0.3), solid(1.5, 1.5, 1, 0.31)),
+FILES_3D = {"raster.asc": (grid(0.2), grid(0.25)), "thickness.asc": (grid(0.5), grid(0.4)),
+            "outline.csv": ("0, 0\n1, 0\n1, 1\n0, 1\n", "0, 0\n1, 0\n1, 1.1\n0, 1\n"),
             "record.csv": ("0, 0, 0, 0\n1, 1, 0, 0\n", "0, 0, 0, 0\n1, 2, 0, 0\n")}
 CASE_3D = """set Dimension = 3
 set Gravity = 0, 0, -9.81
@@ -488,11 +476,11 @@ end
 subsection Bed
   set Type = friction
   set Raster = FOLDER/raster.asc
-  set Friction angles = FOLDER/angles.asc
+  set Friction angle = 30
 end
 subsection Obstacle Wall
   set Type = free slip
-  set Closed surface = FOLDER/wall.stl
+  set Level set expression = (x - 1.5)^2 + (y - 1.5)^2 + (z - 1)^2 - 0.3^2
 end
 subsection Base motion
   set Acceleration record = FOLDER/record.csv
@@ -500,7 +488,6 @@ end
 subsection Soil
   set Points per cell = 2
   set Thickness = FOLDER/thickness.asc
-  set Lower surface = FOLDER/lower.asc
   set Outline = FOLDER/outline.csv
 end
 subsection Output

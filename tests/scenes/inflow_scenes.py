@@ -25,7 +25,7 @@ def check_books(name, table, scale):
 def inflow_jet(scree):
     """A jet without gravity: discharge times time to a layer, and it flies on with its speed, straight and oblique."""
     spacing = 0.05 / 4
-    for name, entries, end in (("FLIP", {}, (0.4, 0)), ("APIC", {"Transfer/Method": "APIC"}, (0.4, 0)),
+    for name, entries, end in (("FLIP", {}, (0.4, 0)), ("TPIC", {"Transfer/Method": "TPIC"}, (0.4, 0)),
                                ("oblique", {"Inflow Jet/Direction": "2, 1", "Inflow Jet/Speed": "10*t", "Transfer/Method": "AFLIP"}, (0.2 / 5**0.5 * 2, 0.1 * 2 / 5**0.5)),
                                ("section", {"Inflow Jet/Face": "Right", "Inflow Jet/Section": "0.9"}, (-0.4, 0))):
         table = run(scree, "inflow/jet", "jet_" + name, entries)

@@ -36,7 +36,7 @@ def full_pores(scree):
     for ground in 1., 0.99:
         name = "ground_%g" % ground
         run(scree, "seepage/capillary_fringe", name, {
-            "Soil/Region": "y < %g" % ground, "Water/Air entry pressure": "6000", "Water/Hydraulic conductivity": "1e-5", "Settling/Type": "drained",
+            "Soil/Region": "y < %g" % ground, "Water/Air entry pressure": "6000", "Water/Hydraulic conductivity": "1e-5",
             "Settling/Maximum time": "1", "End time": "0.2", "Output/Graphics": "points"})
         soil = read_points(name, None)
         y = soil.positions[:, 1]

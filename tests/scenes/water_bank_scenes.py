@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """water_bank_scenes.py SCREE SCENE [FIRST LAST [METHOD]]: random scenes with water, by seeds; none may gain energy.
 
-Nothing is tuned to them. The test runs a few; more by hand, as in water_bank_scenes.py build/scree water_bank 100 140 APIC.
+Nothing is tuned to them. The test runs a few; more by hand, as in water_bank_scenes.py build/scree water_bank 100 140 FLIP.
 """
 
 import random
@@ -38,11 +38,11 @@ def scene_of(seed):
     entries = {
         "Mesh/Upper corner": "1.5, 1.6", "Mesh/Cell size": "%g" % cell, "End time": "0.5", "Output/Statistics interval": "0.005",
         "Time step/Maximum time step": "auto", "Time step/Courant number": "%.2f" % rng.uniform(0.2, 0.7),
-        "Water/Region": water, "Water/Points per cell": "%d" % points, "Water/Jitter": "%.2f" % rng.choice((0., 0.15, 0.3)),
+        "Water/Region": water, "Water/Points per cell": "%d" % points,
         "Water/Initial pressure": "none", "Water/Initial velocity": velocity}
     if has_soil:
         conductivity = 10 ** rng.uniform(-5, -1)
-        entries.update({"Soil/Region": soil, "Soil/Points per cell": "%d" % points, "Soil/Jitter": entries["Water/Jitter"],
+        entries.update({"Soil/Region": soil, "Soil/Points per cell": "%d" % points,
                         "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
                         "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": "%.3g" % conductivity})
         if is_elastic:

@@ -10,7 +10,7 @@
 
 namespace scree
 {
-  /// Error that a run is to have if nobody says.
+  /// Default of the error that a run is to have.
   constexpr double default_accuracy = 0.05;
 
   /// Writes what a case is, what it will cost and what would serve it better, from its points and its first steps; its

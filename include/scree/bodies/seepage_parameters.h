@@ -9,8 +9,7 @@ namespace scree
   /// What a body of soil does to water that flows through it, where it differs from what subsection Water says.
   struct SeepageParameters
   {
-    double conductivity   = 0; ///< m/s, at the initial porosity; 0: subsection Water tells
-    double grain_diameter = 0; ///< m; 0: subsection Water tells
+    double conductivity = 0; ///< m/s, at the initial porosity; 0: that of subsection Water
 
     /// Declares the entries in the body's subsection.
     void add_parameters(dealii::ParameterHandler &prm);

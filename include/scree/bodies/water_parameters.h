@@ -3,7 +3,6 @@
 #define scree_bodies_water_parameters_h
 
 #include <scree/bodies/seepage_start.h>
-#include <scree/bodies/suspension.h>
 #include <scree/geometry/level_set.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -43,7 +42,6 @@ namespace scree
     std::string region            = "same";        ///< as the soil, or an expression
     std::string point_sets        = "double";      ///< double | single, see PointSets
     unsigned int points_per_cell  = 3;             ///< along each axis
-    double jitter                 = 0;             ///< over the points' spacing
     double density                = 1000;          ///< kg/m^3
     double conductivity           = 1e-3;          ///< m/s, at the initial porosity; NaN: the entry is no number
     std::string conductivity_text = "auto";        ///< the entry
@@ -51,17 +49,14 @@ namespace scree
     double grain_diameter         = 0;             ///< m; 0: the conductivity says what the drag is
     double viscosity              = 0;             ///< Pa s
     double bulk_modulus           = 0;             ///< Pa; 0: incompressible
-    double fluidisation_porosity  = 1;             ///< soil looser than this bears no stress
     double volume_correction_rate = 0;             ///< of free water, 1/s
     std::string initial_pressure  = "hydrostatic"; ///< hydrostatic | none
     std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
     bool is_fed                   = false;         ///< as SeedingParameters::is_fed
-    SuspensionParameters suspension;               ///< viscosity of water with grains
-    std::string phreatic_surface = "";             ///< expression of its elevation, m; empty: not given
-    std::string phreatic_file    = "";             ///< profile (2D) or raster (3D) of it; empty: not given
-    std::string reservoir_level  = "";             ///< expression of the elevation, m; empty: no reservoir
-    double air_entry_pressure    = 0;              ///< suction at which air enters the soil, Pa; 0: none
-    double fringe                = 0;              ///< height above given levels up to which it fills the pores, m
+    std::string phreatic_surface  = "";            ///< expression of its elevation, m; empty: not given
+    std::string reservoir_level   = "";            ///< expression of the elevation, m; empty: no reservoir
+    double air_entry_pressure     = 0;             ///< suction at which air enters the soil, Pa; 0: none
+    double fringe                 = 0;             ///< height above given levels up to which it fills the pores, m
     SeepageStart seepage_start;                    ///< steady flow at the start
 
     /// Declares the entries in the subsection that is open.
@@ -79,11 +74,6 @@ namespace scree
 
     /// Entry `Conductivity law` as an enum.
     ConductivityLaw conductivity_law_kind() const;
-
-    /// Throws EntryError unless a grain diameter alone, of subsection Water or of a body, says what the drag is.
-    /// @param conductivity of the same subsection, as text; empty: not given
-    void
-    check_grain_diameter(const std::string &subsection, const double diameter, const std::string &conductivity) const;
 
     /// Whether the region is wherever soil is, and not an expression.
     bool is_where_soil_is() const;
@@ -107,7 +97,7 @@ namespace scree
     /// Whether a phreatic surface, a reservoir level or steady seepage say where water is, in place of the region.
     bool has_levels() const;
 
-    /// Entry and value of what tells where water is, for messages.
+    /// Entry and value that place the water, for messages.
     std::pair<std::string, std::string> place() const;
 
     /// Where water is in pores, as an expression; a table() is asked besides.
@@ -116,15 +106,8 @@ namespace scree
     /// Where water is outside the soil, as an expression; empty: nowhere.
     std::string region_outside(const unsigned int dim) const;
 
-    /// Reads the file of the phreatic surface if there is one; throws EntryError if it is none.
-    /// @param map_origin where the map has the origin of the case's coordinates, m
-    void read_table(const unsigned int dim,
-                    const dealii::Point<2> &map_origin,
-                    const std::vector<double> &lower,
-                    const std::vector<double> &upper);
-
-    /// What bounds the water in soil, as a surface whose open is dry: that of the file, or of steady seepage once it is
-    /// known. Null without.
+    /// What bounds the water in soil, as a surface whose open is dry: that of steady seepage once it is known. Null
+    /// without.
     template <int dim>
     const std::shared_ptr<const LevelSet<dim>> &table() const
     {
@@ -141,6 +124,7 @@ namespace scree
   private:
     void add_level_parameters(dealii::ParameterHandler &prm);
     void add_drag_parameters(dealii::ParameterHandler &prm);
+    void check_grain_diameter() const; // alone it gives the drag
     void check_air_entry(const unsigned int n_bodies) const;
     void check_single_point() const;
     void check_without_soil() const;

@@ -57,7 +57,7 @@ namespace scree
     /// BackgroundGrid::node_faces().
     std::vector<NodeConstraint<dim>> constraints(const std::uint8_t faces) const;
 
-    /// Which of these faces bear what they do to the soil.
+    /// Which of these faces take the impulses on the soil.
     BearingFaces<dim> bearing_faces(const std::uint8_t faces) const;
 
     /// One wall a face of the box, in deal.II's numbering.

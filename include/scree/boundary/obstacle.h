@@ -51,7 +51,7 @@ namespace scree
     /// Sets velocity() to the mean of the step, s, that comes.
     void begin_step(const double time, const double time_step);
 
-    /// Moves on by the step that begin_step() has told. Collective; throws if it crosses more than a cell.
+    /// Moves on by the step of begin_step(). Collective; throws if it crosses more than a cell.
     void end_step(const double time_step);
 
     /// In the current step, m/s.

@@ -19,8 +19,7 @@ namespace scree
   /// Subsection Rain.
   struct RainParameters
   {
-    std::string rate;         ///< m/s, of t; empty: no rain
-    std::string region = "1"; ///< where it falls, an expression
+    std::string rate; ///< m/s, of t; empty: no rain
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -176,8 +175,7 @@ namespace scree
     std::unique_ptr<Expression<1>> rate;
     std::array<unsigned int, dim - 1> n; // columns along the axes
     unsigned int n_slots;                // of a column, one spacing high
-    std::vector<char> is_open;
-    std::vector<double> due; // depth of rain that has not become a drop, m
+    std::vector<double> due;             // depth of rain that has not become a drop, m
     RainBooks books;
     std::map<CellPlace<dim>, CellIterator> own_cells;
   };

@@ -9,14 +9,14 @@
 
 namespace scree
 {
-  /// For each axis, the face of the box (in deal.II's numbering) that bears what walls do along it at a node; `none`
+  /// For each axis, the face of the box (in deal.II's numbering) that takes the impulses of walls along it; `none`
   /// where no wall does. At edges a component belongs to the wall across it.
   template <int dim>
   struct BearingFaces
   {
     static constexpr unsigned int none = 2 * dim; ///< stands for no face
 
-    std::array<unsigned int, dim> of_axis; ///< by axis: the face that bears it, in deal.II's numbering
+    std::array<unsigned int, dim> of_axis; ///< by axis: the face that takes it, in deal.II's numbering
 
     BearingFaces()
     {
@@ -48,7 +48,7 @@ namespace scree
   {
     std::array<dealii::Tensor<1, dim>, 2 * dim> of_face; ///< by face, in deal.II's numbering
 
-    /// Adds an impulse on soil or water at a node, N s, each component to the face that bears it.
+    /// Adds an impulse on soil or water at a node, N s, each component to the face that takes it.
     void add(const BearingFaces<dim> &faces, const dealii::Tensor<1, dim> &impulse)
     {
       for (unsigned int a = 0; a < dim; ++a)

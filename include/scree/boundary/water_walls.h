@@ -55,7 +55,7 @@ namespace scree
     /// The directions along which the water of a node on these faces may not move.
     ConstrainedDirections<dim> held_directions(const std::uint8_t faces) const;
 
-    /// Which of these faces bear what they do to the water.
+    /// Which of these faces take the impulses on the water.
     BearingFaces<dim> bearing_faces(const std::uint8_t faces) const;
 
     /// Whether any of the faces is drained.

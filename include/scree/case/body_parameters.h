@@ -15,7 +15,7 @@ namespace scree
   {
     std::string name;                     ///< name of its subsection
     SeedingParameters seeding;            ///< where it is, and its points
-    SeepageParameters seepage;            ///< hydraulic conductivity or grain diameter
+    SeepageParameters seepage;            ///< hydraulic conductivity
     MaterialParameters material;          ///< law and its entries
     InitialStateParameters initial_state; ///< stress before the first step
 

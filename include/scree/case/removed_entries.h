@@ -6,7 +6,8 @@
 
 namespace scree
 {
-  /// What to write instead of an entry, or of a value of it, that earlier versions had; empty if there was none.
+  /// What to write instead of an entry or subsection, or of a value, that earlier versions had; empty if there was
+  /// none.
   std::string removed_entry_remedy(const std::string &subsection, const std::string &entry, const std::string &value);
 } // namespace scree
 

@@ -33,7 +33,6 @@ namespace scree
     std::string for_water = "impermeable";     ///< impermeable | no slip
     double friction_angle = 0;                 ///< degrees
     std::map<std::string, std::string> shapes; ///< values by entries, see rigid_shapes(); empty: not given
-    std::string friction_angles;               ///< file; of the bed only
     double turbulent_friction = 0;             ///< xi of Voellmy's law, m/s^2; 0: none; of the bed only
 
     /// Declares the subsection and its entries.
@@ -72,11 +71,6 @@ namespace scree
     /// File of the ground's heights; empty without one.
     std::string raster() const;
   };
-
-  /// The coefficients of friction of a raster of angles, which covers the box.
-  /// @param lower, upper corners of the box, m
-  Raster
-  read_friction(const BedParameters &parameters, const std::vector<double> &lower, const std::vector<double> &upper);
 
   /// The surface; null if there is none. Reads its file; throws EntryError if that is no ground for the box.
   /// @param lower, upper corners of the box, m

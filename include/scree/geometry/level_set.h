@@ -30,7 +30,7 @@ namespace scree
     /// normal is any unit vector.
     virtual SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const = 0;
 
-    /// What the log should tell of the surface; empty: nothing.
+    /// Remark on the surface for the log; empty: none.
     virtual std::string remark() const
     {
       return "";

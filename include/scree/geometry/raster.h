@@ -45,7 +45,7 @@ namespace scree
     /// Smallest and largest value; infinity and minus infinity if all are missing.
     std::pair<double, double> range() const;
 
-    /// What the log should tell of heights, in lines: their range and where its ends are, how many are missing, and
+    /// Remark on heights for the log, in lines: their range and where its ends are, how many are missing, and
     /// questions about heights that no ground has and about steps steeper than 80 degrees.
     /// @param name of what has the heights, such as `Bed`
     /// @param where_missing a sentence on what is where heights are missing

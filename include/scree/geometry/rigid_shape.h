@@ -12,7 +12,7 @@
 
 namespace scree
 {
-  /// Where a rigid surface is wanted, and the entry that tells its shape.
+  /// Place of a rigid surface, and the entry of its shape.
   struct ShapeRequest
   {
     std::string subsection;      ///< Bed, or Obstacle NAME

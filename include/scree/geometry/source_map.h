@@ -20,11 +20,9 @@ namespace scree
   /// Where a body is, by maps: entries of its subsection.
   struct SourceMapParameters
   {
-    std::string thickness, ///< file of thicknesses, m, above bed or lower surface
+    std::string thickness, ///< file of thicknesses, m, above the bed
         upper_surface,     ///< file of heights, m
-        lower_surface,     ///< file of heights, m, in place of the bed
-        outline,           ///< file of polygons on the map, m
-        closed_surface;    ///< file (STL) of a solid
+        outline;           ///< file of polygons on the map, m
 
     /// Declares the entries in the subsection that the handler is in.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -35,22 +33,21 @@ namespace scree
     /// Whether any of the files is given.
     bool is_set() const
     {
-      return !thickness.empty() || !upper_surface.empty() || !lower_surface.empty() || !outline.empty() ||
-             !closed_surface.empty();
+      return !thickness.empty() || !upper_surface.empty() || !outline.empty();
     }
 
     /// Whether they bound the body below and above, so that it needs no expression.
     bool is_region() const
     {
-      return !thickness.empty() || !upper_surface.empty() || !closed_surface.empty();
+      return !thickness.empty() || !upper_surface.empty();
     }
 
     /// Entry and value of the first that is given, for messages.
     std::pair<std::string, std::string> first() const;
   };
 
-  /// The part of space that a body's maps tell: above its bed or a lower surface, by less than a thickness or up to an
-  /// upper surface, within an outline, inside a closed surface. Between their values rasters are bilinear; where a
+  /// The part of space that a body's maps bound: above its bed, by less than a thickness or up to an upper surface,
+  /// within an outline. Between their values rasters are bilinear; where a
   /// thickness is missing it is 0, where a height is missing the body is not.
   class SourceMap
   {
@@ -73,7 +70,7 @@ namespace scree
     /// Whether maps alone bound the body below and above, so that part_of_line() may be asked.
     bool is_layer() const
     {
-      return (thickness || upper_surface) && !solid;
+      return thickness || upper_surface;
     }
 
     /// The heights, m, between which the body is above x, y of the map and above ground, as far as they are between two
@@ -81,7 +78,7 @@ namespace scree
     std::pair<double, double>
     part_of_line(const double x, const double y, const double lower, const double upper) const;
 
-    /// What the log should tell of the heights of its surfaces, in lines; empty: nothing.
+    /// Remarks on the heights of its surfaces for the log, in lines; empty: none.
     /// @param body its name
     std::string remark(const std::string &body) const;
 
@@ -96,8 +93,7 @@ namespace scree
     double ground_between(const double x, const double y, const double lower, const double upper) const;
 
     const std::shared_ptr<const LevelSet<3>> ground;
-    std::optional<Raster> thickness, upper_surface, lower_surface;
-    std::unique_ptr<LevelSet<3>> solid; // null without
+    std::optional<Raster> thickness, upper_surface;
     std::optional<Outline> outline;
   };
 } // namespace scree

@@ -93,7 +93,7 @@ namespace scree
   };
 
   /// Gives the points the geostatic stress of their depth: vertical from the weight above, horizontal K0 times that.
-  /// Collective; throws EntryError if the law cannot bear that.
+  /// Collective; throws EntryError if the law cannot carry that.
   /// @param modulus entry and value of the soil's stiffness, for messages
   /// @param suction that adds to the weight; empty: none
   template <int dim>
@@ -104,7 +104,7 @@ namespace scree
                      const SuctionAbove<dim> &suction = {});
 
   /// Gives the points an isotropic stress, Pa, compression positive. Collective; throws EntryError if the law cannot
-  /// bear that.
+  /// carry that.
   /// @param modulus entry and value of the soil's stiffness, for messages
   template <int dim>
   void set_isotropic_stress(SoilBody<dim> &body,

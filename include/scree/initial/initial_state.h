@@ -2,8 +2,6 @@
 #ifndef scree_initial_initial_state_h
 #define scree_initial_initial_state_h
 
-#include <scree/bodies/drainage.h>
-
 #include <deal.II/base/parameter_handler.h>
 
 #include <optional>
@@ -41,13 +39,13 @@ namespace scree
     double k0_ratio(const std::optional<double> &sine_of_friction) const;
   };
 
-  /// Subsection Settling: motion under gravity with damping, before the release at t = 0.
+  /// Subsection Settling: motion under gravity with damping, before the release at t = 0. Water keeps its place and its
+  /// initial pressure.
   struct SettlingParameters
   {
-    std::string type        = "undrained"; ///< undrained | drained
-    double maximum_time     = 0;           ///< s; 0: no settling
-    double unbalanced_force = 1e-3;        ///< ends below this part of the weight
-    std::string gate;                      ///< nodes where this is true are held until the release
+    double maximum_time     = 0;    ///< s; 0: no settling
+    double unbalanced_force = 1e-3; ///< ends below this part of the weight
+    std::string gate;               ///< nodes where this is true are held until the release
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -55,9 +53,6 @@ namespace scree
     /// Throws EntryError at impossible combinations.
     /// @param gravity m/s^2
     void check(const std::vector<double> &gravity) const;
-
-    /// Entry `Type` as an enum.
-    Drainage drainage() const;
   };
 } // namespace scree
 

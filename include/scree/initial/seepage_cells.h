@@ -37,7 +37,7 @@ namespace scree
     double head;                 ///< that is given, m; NaN in air, where water only leaves
   };
 
-  /// What flow through soil needs to know of it.
+  /// Properties of the soil that the flow depends on.
   struct SeepageSoil
   {
     std::vector<SoilRegion> bodies;     ///< where they are

@@ -19,7 +19,7 @@ namespace scree
   };
 
   /// Declares an entry that names a file to be read; `path` gets its path from the working folder. All such entries are
-  /// declared so: their paths count from the case, and a checkpoint knows the contents.
+  /// declared so: their paths count from the case, and a checkpoint holds a checksum.
   void add_file_entry(dealii::ParameterHandler &prm,
                       const std::string &entry,
                       std::string &path,

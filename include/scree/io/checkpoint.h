@@ -27,7 +27,7 @@ namespace scree
 
   /// Gathers `entries`, the points of all `sets` and the `state` of a run at `time` s. The job writes them to a new
   /// checkpoint of the run, which gets its name when all of it has been read again and found whole; before that no
-  /// older one is touched. If that fails, the job throws EntryError on all ranks: it tells the file, what the
+  /// older one is touched. If that fails, the job throws EntryError on all ranks: it names the file, what the
   /// checkpoint needs and what is still there. Collective.
   template <int dim>
   FileJob checkpoint_files(const std::string &run_folder,

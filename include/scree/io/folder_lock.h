@@ -11,7 +11,7 @@ namespace scree
   class FolderLock
   {
   public:
-    /// Takes the lock, if nobody else has it.
+    /// Takes the lock, if no other process has it.
     explicit FolderLock(const std::string &file);
     ~FolderLock();
     FolderLock(const FolderLock &)            = delete;

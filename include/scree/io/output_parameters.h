@@ -53,14 +53,13 @@ namespace scree
   /// Subsection Output.
   struct OutputParameters
   {
-    double interval                = 0.1;               ///< s, of pictures
-    double statistics_interval     = 0;                 ///< s; 0: as pictures
-    double checkpoint_interval     = 0;                 ///< s; 0: none
-    double wall_time_limit         = 0;                 ///< s of the clock on the wall; 0: none
-    std::string checkpoint_failure = "stop";            ///< stop | go on, if a checkpoint cannot be written
-    std::string graphics           = "points and grid"; ///< points and grid | points | none
-    std::string screen             = "progress";        ///< progress | statistics | nothing
-    MapParameters maps;                                 ///< subsection Maps
+    double interval            = 0.1;               ///< s, of pictures
+    double statistics_interval = 0;                 ///< s; 0: as pictures
+    double checkpoint_interval = 0;                 ///< s; 0: none
+    double wall_time_limit     = 0;                 ///< s of the clock on the wall; 0: none
+    std::string graphics       = "points and grid"; ///< points and grid | points | none
+    std::string screen         = "progress";        ///< progress | statistics | nothing
+    MapParameters maps;                             ///< subsection Maps
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -70,12 +69,6 @@ namespace scree
 
     /// Entry `Screen` as an enum.
     Screen screen_kind() const;
-
-    /// Whether a checkpoint that cannot be written ends the run.
-    bool stops_without_checkpoint() const
-    {
-      return checkpoint_failure == "stop";
-    }
 
     /// Entry `Graphics` as an enum.
     Pictures graphics_kind() const;

@@ -31,11 +31,11 @@ namespace scree
     /// Throws EntryError on all ranks if somebody has removed the folder. Collective.
     void require_presence() const;
 
-    /// Lets `write` write a file that can wait. If the disk does not take it, standard error tells so once, and the run
+    /// Lets `write` write a file that can wait. If the disk does not take it, standard error has that once, and the run
     /// goes on.
     void try_to_write(const std::string &name, const std::function<void()> &write);
 
-    /// Adds lines to `log.txt` and, if wanted, to the screen.
+    /// Adds lines to `log.txt` and, if asked, to the screen.
     void log(const std::string &lines);
 
     /// Adds lines to `log.txt` alone: details that the screen leaves out.

@@ -20,7 +20,7 @@ namespace scree
     signal_terminate  ///< SIGTERM
   };
 
-  /// The reason, as the log tells it.
+  /// The reason, as in the log.
   std::string text_of(const StopReason reason);
 
   /// Hears signals, looks for a file, and watches the wall time, so that a run can end with a checkpoint. All of it
@@ -36,7 +36,7 @@ namespace scree
     /// Before, they end the program, which has nothing to save yet.
     void listen();
 
-    /// What this rank has been asked for. To be called once a step: the longest time between two calls tells how much
+    /// What this rank has been asked for. To be called once a step: the longest time between two calls gives how much
     /// of the wall time limit has to be left for the checkpoint. A file that is found is removed.
     StopReason reason();
 

@@ -37,7 +37,7 @@ namespace scree
     TableFile(RunFolder &folder, const std::string &name);
 
     /// Adds rows, below the names of the columns if they are the first ones. If the disk does not take them, standard
-    /// error tells so once, and they are written with the next ones.
+    /// error has that once, and they are written with the next ones.
     void append(const std::vector<std::string> &columns, const std::vector<std::vector<double>> &rows);
 
     /// Brings the rows to the disk, before a checkpoint counts on them.

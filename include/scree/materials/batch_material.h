@@ -142,9 +142,7 @@ namespace scree
       TrialState states[2] = { returns.states.read(places[0][0]), returns.states.read(places[1][0]) };
       const Mask todo[2]   = { simd::first_lanes(n[0]), simd::first_lanes(n[1]) };
       Answer answers[2];
-      const Batch step          = simd::broadcast<Batch>(motion.time_step);
-      const Batch time_steps[2] = { step, step };
-      response.respond(states, todo, time_steps, motion.grain_density, answers);
+      response.respond(states, todo, answers);
       for (unsigned int h = 0; h < 2; ++h)
         store_returned(returns.points.named(places[h]), n[h], states[h], answers[h], points, others, report);
     });
@@ -154,7 +152,7 @@ namespace scree
                                             Records::read(indices[1], 0, points, motion) };
       BatchSubsteps<dim, Law> halves[2] = { { law, response, inputs[0], largest_change },
                                             { law, response, inputs[1], largest_change } };
-      BatchSubsteps<dim, Law>::advance(halves, motion.time_step, motion.grain_density, report);
+      BatchSubsteps<dim, Law>::advance(halves, report);
       for (unsigned int h = 0; h < 2; ++h)
         store_advanced(indices[h], n[h], halves[h], inputs[h].reference_volume, points, others, report);
     });
@@ -185,7 +183,7 @@ namespace scree
 
     const Mask is_served  = is_possible & in_one_step & strain.is_valid;
     const Mask is_elastic = is_served & law.is_admissible(state);
-    // As many sub-steps as the other way would take; its message tells of more.
+    // As many sub-steps as the other way would take; its message covers more.
     const Mask is_cut = is_possible & !in_one_step & (change <= 1000. * largest_change);
 
     const unsigned int elastic = simd::bits_of(is_elastic) & used;

@@ -53,13 +53,7 @@ namespace scree
 
     /// Returns the points `todo` of two batches, with their internal variables, if it can (`is_plastic`); of the others
     /// the trial strain stands. Two, because the steps of Newton's method wait for each other.
-    /// @param time_steps s
-    /// @param grain_density kg/m^3
-    void respond(TrialState (&states)[2],
-                 const Mask (&todo)[2],
-                 const Batch (&time_steps)[2],
-                 const double grain_density,
-                 Answer (&answers)[2]) const;
+    void respond(TrialState (&states)[2], const Mask (&todo)[2], Answer (&answers)[2]) const;
 
     /// Cauchy stress of a mean Kirchhoff stress and a factor on the elastic deviator.
     void set_stress(const Strain &strain,
@@ -87,11 +81,7 @@ namespace scree
 
 
   template <int dim, typename Law>
-  void BatchReturn<dim, Law>::respond(TrialState (&states)[2],
-                                      const Mask (&todo)[2],
-                                      const Batch (&time_steps)[2],
-                                      const double grain_density,
-                                      Answer (&answers)[2]) const
+  void BatchReturn<dim, Law>::respond(TrialState (&states)[2], const Mask (&todo)[2], Answer (&answers)[2]) const
   {
     const auto trial = simd::join<typename Law::template Trial<BatchPair>>(states[0].trial, states[1].trial);
     BatchPair internal[n_internal + 1];
@@ -107,29 +97,12 @@ namespace scree
         const Strain &strain                = states[h].strain;
         const InvariantReturn<Batch> &found = results[h];
         const Mask plastic                  = h == 0 ? is_plastic.first : is_plastic.second;
-        Batch factor = simd::select<Batch>(plastic, found.deviator_factor, simd::broadcast<Batch>(1.));
-        Batch mean   = simd::select<Batch>(plastic, found.mean_stress, law.mean_stress(states[h].trial));
-        Batch volume = simd::select<Batch>(plastic, found.volume_strain, strain.volume);
-        Batch after[n_internal + 1];
+        const Batch factor = simd::select<Batch>(plastic, found.deviator_factor, simd::broadcast<Batch>(1.));
+        const Batch mean   = simd::select<Batch>(plastic, found.mean_stress, law.mean_stress(states[h].trial));
+        const Batch volume = simd::select<Batch>(plastic, found.volume_strain, strain.volume);
         for (unsigned int i = 0; i < n_internal; ++i)
-          after[i] = h == 0 ? internal[i].first : internal[i].second;
-        if constexpr (HasInertialFriction<Law>())
-          if (law.inertial_friction.is_active())
-            {
-              const Batch part =
-                  law.inertial_friction.template kept_part<Batch>((1. - factor) * simd::sqrt<Batch>(2. * strain.square),
-                                                                  shear,
-                                                                  -1. * mean,
-                                                                  grain_density,
-                                                                  time_steps[h]);
-              factor += part * (1. - factor);
-              volume += part * (strain.volume - volume);
-              mean = simd::select<Batch>(part > 0., law.template mean_stress_of<Batch>(volume), mean);
-              for (unsigned int i = 0; i < n_internal; ++i)
-                after[i] += part * (states[h].internal_variables[i] - after[i]);
-            }
-        for (unsigned int i = 0; i < n_internal; ++i)
-          states[h].internal_variables[i] = simd::select<Batch>(plastic, after[i], states[h].internal_variables[i]);
+          states[h].internal_variables[i] = simd::select<Batch>(
+              plastic, h == 0 ? internal[i].first : internal[i].second, states[h].internal_variables[i]);
         const Batch lost = mean * (strain.volume - volume) + 2. * shear * factor * (1. - factor) * strain.square;
         answers[h]       = { volume,  factor,
                              mean,    simd::select<Batch>(plastic, lost, simd::broadcast<Batch>(0.)),

@@ -30,10 +30,7 @@ namespace scree
     BatchSubsteps(const Law &law, const Return &answers, const Input &input, const double largest_change);
 
     /// The parts of two batches.
-    /// @param time_step of the whole, s
-    /// @param grain_density kg/m^3
-    static void
-        advance(BatchSubsteps (&halves)[2], const double time_step, const double grain_density, UpdateReport &report);
+    static void advance(BatchSubsteps (&halves)[2], UpdateReport &report);
 
     const IncrementParts<dim> parts; ///< one return map each
 
@@ -82,13 +79,9 @@ namespace scree
 
 
   template <int dim, typename Law>
-  void BatchSubsteps<dim, Law>::advance(BatchSubsteps (&halves)[2],
-                                        const double time_step,
-                                        const double grain_density,
-                                        UpdateReport &report)
+  void BatchSubsteps<dim, Law>::advance(BatchSubsteps (&halves)[2], UpdateReport &report)
   {
-    const Batch time_steps[2] = { time_step * halves[0].parts.part, time_step * halves[1].parts.part };
-    const auto goes_on        = [](const BatchSubsteps &half, const unsigned int k) {
+    const auto goes_on = [](const BatchSubsteps &half, const unsigned int k) {
       return simd::any(half.is_served & (k < half.parts.n));
     };
     for (unsigned int k = 0; goes_on(halves[0], k) || goes_on(halves[1], k); ++k)
@@ -96,7 +89,7 @@ namespace scree
         TrialState trials[2];
         Answer answers[2];
         const Mask todo[2] = { halves[0].prepare(k, trials[0]), halves[1].prepare(k, trials[1]) };
-        halves[0].returns.respond(trials, todo, time_steps, grain_density, answers);
+        halves[0].returns.respond(trials, todo, answers);
         for (unsigned int h = 0; h < 2; ++h)
           halves[h].finish(trials[h], answers[h], report);
       }

@@ -33,11 +33,6 @@ namespace scree
   /// @param angle degrees
   /// @param dilation_angle psi, degrees
   double sine_of_mohr_coulomb(const double angle, const double dilation_angle, const FrictionAngleKind kind);
-
-  /// Ratio M = q/p at critical state of a surface that does not depend on the Lode angle: 6 sin/(3 - sin) of triaxial
-  /// compression, sqrt(3) sin of plane strain, sqrt(3) tan of direct shear.
-  /// @param angle degrees
-  double critical_stress_ratio(const double angle, const FrictionAngleKind kind);
 } // namespace scree
 
 #endif

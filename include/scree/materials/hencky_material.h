@@ -276,7 +276,7 @@ namespace scree
                                         const MaterialMotion<dim> &motion,
                                         UpdateReport &report) const
   {
-    UpdateReport own; // The compiler keeps what nobody else points to in registers.
+    UpdateReport own; // The compiler keeps what nothing else points to in registers.
     for (unsigned int p = 0; p < points.n_points; ++p)
       update_point(p, points, motion, own);
     own.n_updates = points.n_points;

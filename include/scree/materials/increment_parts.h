@@ -17,7 +17,7 @@ namespace scree
   {
   public:
     /// @param input of BatchRecords
-    /// @param wanted number of parts, rounded up here
+    /// @param wanted smallest number of parts, rounded up here
     template <typename Input>
     IncrementParts(const Input &input, const Batch &wanted)
         : n(wanted)

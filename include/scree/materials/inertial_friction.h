@@ -19,14 +19,11 @@ namespace scree
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
-
-    /// See LawEntries.
-    void append_usual_ranges(std::vector<UsualRange> &ranges) const;
   };
 
 
   /// Friction of grains that flow: tau/p = mu_s + Delta mu/(1 + I_0/I) with the inertial number
-  /// I = gamma_dot d sqrt(rho_s/p) (@source{jop2006}), where mu_s is the friction of the law that does not know rates.
+  /// I = gamma_dot d sqrt(rho_s/p) (@source{jop2006}), where mu_s is the friction of the law without a rate.
   ///
   /// The overstress is that of Duvaut & Lions (@source{simo1998}, 2.7): of the change that a return map makes to
   /// elastic strain and internal variables, a part x is taken back. With tau_o = G gamma, the overstress before the

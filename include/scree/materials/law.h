@@ -35,7 +35,6 @@ namespace scree
   /// also has
   ///   friction_pressure(stress)                                     p of that friction, Pa, of a principal stress
   ///   stress_of(strain)                                             elastic principal stress, Pa
-  ///   mean_stress_of(volume strain)                                 of laws in invariants
   ///
   /// A law with a member nonlocal_variable() may have an internal variable that is averaged over space, one with
   /// place_variable() an internal variable that each point has from its place. The return map of a law with a member

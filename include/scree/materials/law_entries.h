@@ -13,25 +13,11 @@
 
 namespace scree
 {
-  /// As the log writes them where it questions a value.
-  constexpr char unit_of_angle[]    = "degrees (1 rad = 57.3 degrees)";      ///< unit of angles
-  constexpr char unit_of_pressure[] = "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)"; ///< unit of stresses and moduli
-
   /// An entry of a law and its value.
   struct LawEntry
   {
     std::string name; ///< name of the entry
     double value;     ///< value in the unit of the entry
-  };
-
-  /// An entry, its value, and the range beyond which the log questions its unit.
-  struct UsualRange
-  {
-    std::string entry; ///< name of the entry
-    double value,      ///< value of the entry
-        lowest,        ///< smallest usual value
-        highest;       ///< largest usual value
-    std::string unit;  ///< unit of the three, as the log writes it
   };
 
   /// The entries of a law for one body, and the law that they make. Each law registers its own by RegisterLaw.
@@ -56,12 +42,6 @@ namespace scree
     virtual LawEntry stiffest() const
     {
       return modulus();
-    }
-
-    /// Entries whose values the log questions outside a usual range.
-    virtual std::vector<UsualRange> usual_ranges() const
-    {
-      return {};
     }
 
     /// Divides the strength by a factor, for a safety of slopes. Returns whether the law has any.
@@ -109,10 +89,6 @@ namespace scree
     std::optional<double> sine_of_friction() const override
     {
       return sine_of(parameters, 0);
-    }
-    std::vector<UsualRange> usual_ranges() const override
-    {
-      return parameters.usual_ranges();
     }
     bool divide_strength(const double factor) override
     {
@@ -177,7 +153,7 @@ namespace scree
     }
   };
 
-  /// A law that entry "Material" knows.
+  /// A law that entry "Material" can name.
   struct RegisteredLaw
   {
     std::string name;                    ///< value of the entry

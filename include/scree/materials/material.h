@@ -143,7 +143,7 @@ namespace scree
     /// State of one point that has the Cauchy stress `wanted_stress` (Pa, components) at J = 1: fills
     /// `left_cauchy_green`, `stress` and `internal_variables`, of which that of place_variable() is set before.
     /// `stress` may be `wanted_stress`, and equals it but where the law holds it for separated (no stress). Throws
-    /// dealii::ExcMessage if the law cannot bear the stress.
+    /// dealii::ExcMessage if the law cannot carry the stress.
     virtual void initialise(const double *wanted_stress,
                             double *left_cauchy_green,
                             double *stress,

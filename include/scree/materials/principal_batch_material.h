@@ -13,7 +13,7 @@ namespace scree
 {
   /// A law in principal values (see law.h), several points at a time, elastic ones and others in one pass: a return
   /// that is a few linear equations costs less than to gather the points that need it. Increments that HenckyMaterial
-  /// refuses are left to it, so that its messages tell of them. Those beyond the law's sub-step strain are gathered to
+  /// refuses are left to it, so that its messages name them. Those beyond the law's sub-step strain are gathered to
   /// full batches where the law depends on the volume, else left to it, too.
   template <int dim, typename Law>
   class PrincipalBatchMaterial : public HenckyMaterial<dim, Law>
@@ -114,7 +114,7 @@ namespace scree
       Records::template write<n_components>(b, indices, served, points, points.left_cauchy_green);
       Records::template write<n_components>(stress, indices, served, points, points.stress);
 
-      // As many sub-steps as the other way would take; its message tells of more.
+      // As many sub-steps as the other way would take; its message covers more.
       const Mask is_cut = is_possible & (change > largest_change) & (change <= 1000. * largest_change);
       update_others(indices, used & ~served, simd::bits_of(is_cut), points, motion, in_substeps, report);
     }

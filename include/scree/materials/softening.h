@@ -34,9 +34,6 @@ namespace scree
     /// Throws EntryError at entries without effect.
     void check(const std::string &subsection) const;
 
-    /// See LawEntries.
-    void append_usual_ranges(std::vector<UsualRange> &ranges) const;
-
   private:
     static constexpr double as_peak = -1;
   };

@@ -19,10 +19,8 @@ namespace scree
   {
     std::vector<double> lower_corner{ 0., 0. }, ///< of the box, m
         upper_corner{ 1., 1. };                 ///< of the box, m
-    std::string box   = "corners";              ///< corners | from raster
     double cell_size  = 0.1;                    ///< m
     std::string basis = "spline";               ///< spline | linear
-    std::string fine  = "around points";        ///< around points | everywhere
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -75,7 +73,7 @@ namespace scree
     /// Fine cells everywhere. Collective.
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm communicator);
 
-    /// Fine cells where points are; everywhere if the parameters say so or the box has few cells. Collective.
+    /// Fine cells where points are; everywhere if the box has few cells. Collective.
     BackgroundGrid(const GridParameters &parameters, const PlacesOfPoints<dim> &places, const MPI_Comm communicator);
 
     /// Builds the nodes for the current mesh and partition. Collective; called again after a repartition and after
@@ -198,7 +196,10 @@ namespace scree
 
   private:
     /// Without fine cells.
-    BackgroundGrid(const GridParameters &parameters, const unsigned int n_levels, const MPI_Comm communicator);
+    BackgroundGrid(const GridParameters &parameters,
+                   const unsigned int n_levels,
+                   const bool follows,
+                   const MPI_Comm communicator);
 
     /// Flags cells for the next step to these blocks; returns whether any rank refines.
     bool set_flags(const Blocks &blocks);

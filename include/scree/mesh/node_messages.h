@@ -22,7 +22,7 @@ namespace scree
     /// Fits the messages to the current nodes; until begin(), they have none.
     void reinit();
 
-    /// Sets the ghosts that messages are about, in any order, and tells their owners. Collective with neighbours, as
+    /// Sets the ghosts that messages are about, in any order, and informs their owners. Collective with neighbours, as
     /// are the following.
     void begin(const std::vector<unsigned int> &ghosts);
 

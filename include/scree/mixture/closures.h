@@ -42,7 +42,7 @@ namespace scree
     /// patch's. Inside a body it is some hundredths, from the scatter of points.
     constexpr double least_area_of_surface = 0.25;
 
-    /// V/V_0 from which on soil has come apart: no node tells its points of their neighbours.
+    /// V/V_0 from which on soil has come apart: no node connects its points.
     constexpr double loose = 1.2;
   } // namespace closures
 

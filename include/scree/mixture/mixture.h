@@ -115,7 +115,7 @@ namespace scree
     /// and has no other effect.
     void add_entering(const unsigned int cell, const dealii::Point<dim> &place, const double volume);
 
-    /// What add_entering() has been told.
+    /// Sums of add_entering().
     const std::vector<EnteringWater<dim>> &entering() const
     {
       return entering_water;

@@ -106,7 +106,7 @@ namespace scree
     /// From here on, displacements count.
     void mark_start();
 
-    /// What the run calls a point where it tells its speed.
+    /// Name of a point in the report of the speed.
     std::string name_of_a_point() const
     {
       return water.empty() ? "point" : "soil or water point";
@@ -117,17 +117,16 @@ namespace scree
     BoundaryConditions<dim> walls;                             ///< faces of the box acting on the soil
     std::unique_ptr<WaterBoundaryConditions<dim>> water_walls; ///< null in a dry scene
     Constraints<dim> constraints;                              ///< constraints of the nodes
-    std::unique_ptr<Constraints<dim>> walls_alone; ///< without rigid bodies, for what slides on them; null without it
-    BodyForces<dim> forcing;                       ///< gravity, body force and motion of the base
-    std::list<SoilBody<dim>> bodies;               ///< bodies of soil, in the order of the case
-    std::list<WaterPhase<dim>> water;              ///< empty in a dry scene; one with points of its own, or one a body
-    std::list<SurfaceLoad<dim>> loads;             ///< surface loads, in the order of the case
-    std::list<Obstacle<dim>> obstacles;            ///< obstacles, in the order of the case
-    std::list<Inflow<dim>> inflows;                ///< inflows, in the order of the case
-    std::optional<Rain<dim>> rain;                 ///< on the soil; nothing if it does not rain
-    std::optional<Raster> bed_friction;         ///< coefficients of friction; nothing if they are the same everywhere
-    std::unique_ptr<LevelSet<dim>> ground;      ///< null without a bed
-    std::unique_ptr<DiscreteLevelSet<dim>> bed; ///< the same as the mesh sees it
+    std::unique_ptr<Constraints<dim>> walls_alone;  ///< without rigid bodies, for what slides on them; null without it
+    BodyForces<dim> forcing;                        ///< gravity, body force and motion of the base
+    std::list<SoilBody<dim>> bodies;                ///< bodies of soil, in the order of the case
+    std::list<WaterPhase<dim>> water;               ///< empty in a dry scene; one with points of its own, or one a body
+    std::list<SurfaceLoad<dim>> loads;              ///< surface loads, in the order of the case
+    std::list<Obstacle<dim>> obstacles;             ///< obstacles, in the order of the case
+    std::list<Inflow<dim>> inflows;                 ///< inflows, in the order of the case
+    std::optional<Rain<dim>> rain;                  ///< on the soil; nothing if it does not rain
+    std::unique_ptr<LevelSet<dim>> ground;          ///< null without a bed
+    std::unique_ptr<DiscreteLevelSet<dim>> bed;     ///< the same as the mesh sees it
     std::unique_ptr<LevelSet<dim>> union_level_set; ///< bed and obstacles as one; null without water or obstacles
     std::unique_ptr<LevelSet<dim>> joined_at_rest;  ///< those at rest; null if there is no more than the bed
     std::unique_ptr<DiscreteLevelSet<dim>> joined_samples; ///< the same as the mesh sees it

@@ -14,7 +14,7 @@ namespace scree
   /// What a point of each of this rank's cells costs, measured around the cells in some passes over them; and what its
   /// contacts with the ground cost, measured in the same steps.
   ///
-  /// Costs belong to active cell indices: reinit() forgets them when the mesh is partitioned anew.
+  /// Costs belong to active cell indices: reinit() clears them when the mesh is partitioned anew.
   class CellCosts
   {
   public:

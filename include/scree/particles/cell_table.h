@@ -40,9 +40,9 @@ namespace scree
     std::array<unsigned int, 2 * dim> neighbours; ///< their numbers in the table, face by face, as far as known
   };
 
-  /// The cells that a set of points has met: what deal.II tells in a walk over faces is asked once for each of them.
+  /// The cells that a set of points has met: the walk over their faces is done once for each.
   ///
-  /// Cells belong to one mesh: clear() forgets them.
+  /// Cells belong to one mesh: clear() removes them.
   template <int dim>
   class CellTable
   {
@@ -64,7 +64,7 @@ namespace scree
     }
 
     /// The cell one or no step along each axis from cell `number` that holds the location `x`, m; none if this rank
-    /// knows of none.
+    /// has none.
     unsigned int neighbour_with(const unsigned int number, const dealii::Point<dim> &x);
 
   private:

@@ -8,7 +8,7 @@ namespace scree
   enum class CellUse : unsigned int
   {
     inner,  ///< of the finest size, as all its neighbours in the box are
-    edge,   ///< of the finest size, beside a larger one: a point that gets there wants a larger fine part
+    edge,   ///< of the finest size, beside a larger one: a point that gets there makes the fine part grow
     coarse, ///< larger, without nodes
     outside ///< beyond the walls of the box, which need not fill the mesh
   };

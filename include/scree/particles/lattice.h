@@ -20,7 +20,7 @@ namespace scree
     double filled;               ///< part of the cube that its region covers, m^3 (2D: m^2)
     double volume;               ///< of the material itself there: less than `filled` in pores
     dealii::Point<dim> location; ///< centroid of the volume, m
-    bool stays = false;          ///< in its cell, however little it is: free water bears pressure there
+    bool stays = false;          ///< in its cell, however little it is: free water has a pressure there
   };
 
   /// A point to be.
@@ -50,26 +50,17 @@ namespace scree
     }
   };
 
-  /// The lattice of a set of points.
-  struct Lattice
-  {
-    unsigned int n;    ///< points along each axis of a cell
-    double jitter = 0; ///< largest move of a point along an axis, over the lattice's spacing; below 1/2
-    /// Sets with other numbers are moved independently of each other.
-    unsigned int sequence = 0;
-  };
-
   /// What lies in the cube with this lower corner, m, and width, m.
   template <int dim>
   using PartOfCube = std::function<CubePart<dim>(const dealii::Point<dim> &lower, const double width)>;
 
   /// The seeds of this rank's cells on a lattice of cubes. Cubes covered by less than a quarter join the nearest fuller
-  /// one of their cell. Jitter moves a seed within its cell by a random amount, the same on any number of ranks, and
-  /// leaves it its volume.
+  /// one of their cell.
+  /// @param n points along each axis of a cell
   template <int dim>
   std::vector<Seed<dim>> lattice_seeds(const dealii::Triangulation<dim> &triangulation,
                                        const double cell_size,
-                                       const Lattice &lattice,
+                                       const unsigned int n,
                                        const PartOfCube<dim> &part_of_cube);
 
   /// Throws ValueError if the velocity of a seed is no number.

@@ -37,7 +37,7 @@ namespace scree
     /// All sets of points that live on the mesh. Both are kept by reference.
     Partition(dealii::parallel::distributed::Triangulation<dim> &mesh, const std::vector<PointSet<dim> *> &sets);
 
-    /// A step begins; what happened since the last one is nobody's work.
+    /// Starts timing of a step; time since the last one is not attributed.
     void begin_step();
 
     /// The processor's time of this rank since the last call, or begin_step(), or resume(), was this work.

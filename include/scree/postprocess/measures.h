@@ -48,7 +48,7 @@ namespace scree
                         const MPI_Comm communicator);
 
   /// Oscillation of P: the rms, over the points of all bodies, of P minus a linear fit of P over the 3^dim cells around
-  /// the point's cell, over the mean of P. 0 where the soil bears no stress. Collective.
+  /// the point's cell, over the mean of P. 0 where the soil has no stress. Collective.
   template <int dim>
   double stress_oscillation(const std::list<SoilBody<dim>> &bodies, const BackgroundGrid<dim> &grid);
 

@@ -99,7 +99,7 @@ namespace scree
     std::vector<std::vector<double>> vertical_places; // in the order of the verticals
     std::list<Line> lines;
     Table *front = nullptr, *walls = nullptr;
-    std::unique_ptr<WallForces<dim>> wall_forces; // null if nobody asks for them
+    std::unique_ptr<WallForces<dim>> wall_forces; // null without that entry
   };
 } // namespace scree
 

@@ -80,7 +80,7 @@ namespace scree
     };
     using Suspects = std::array<Suspect, n_checks>;
 
-    /// Looks at the points of a set: calls `look(point, name)`, where name() tells which one it is.
+    /// Looks at the points of a set: calls `look(point, name)`, where name() is that of the point.
     template <class Look>
     static void for_each_named(const std::string &set, const PointSet<dim> &points, const Look &look);
 

@@ -21,7 +21,7 @@ namespace scree
   /// Watches mass, momentum and energy of a run from its start. The energy gain is the largest fall of the numerical
   /// dissipation or of that of a channel (walls, bed, an obstacle, ...), over the released energy: that of the start
   /// which the run has turned into motion or stored, and work done on it. With mass scaling, momentum and energy are
-  /// those of the scaled masses, and the kinetic energy over the work W tells whether the motion was slow: its integral
+  /// those of the scaled masses, and the kinetic energy over the work W shows whether the motion was slow: its integral
   /// over time, over that of W(end) - W. So it depends neither on the rows nor on the time after the motion.
   template <int dim>
   class BalanceChecks

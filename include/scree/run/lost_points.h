@@ -6,7 +6,7 @@
 
 namespace scree
 {
-  /// Adds what left the box through open walls to `totals`, and forgets it. Throws if a point left through a closed
+  /// Adds what left the box through open walls to `totals`, and clears it. Throws if a point left through a closed
   /// one.
   /// @param time s, for the message
   template <int dim>

@@ -87,8 +87,7 @@ namespace scree
     /// run was asked to stop.
     /// @param is_over of the clock and the length of the step before, s
     /// @return the clock
-    TimeStepper relax(const Drainage drainage,
-                      const double maximum_time,
+    TimeStepper relax(const double maximum_time,
                       const unsigned int steps_between_looks,
                       const std::function<bool(const TimeStepper &, double)> &is_over);
 

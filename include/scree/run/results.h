@@ -44,9 +44,9 @@ namespace scree
     /// Pictures, lines and maps of the state as it is: gathered here, and written while the run goes on. Collective.
     void write_picture(const RunState<dim> &state);
 
-    /// Writes the files of a checkpoint of `time`, s, while the run goes on; if that fails, it stops or tells, as the
+    /// Writes the files of a checkpoint of `time`, s, while the run goes on; if that fails, the run stops, as the
     /// case says. Collective.
-    void write_checkpoint(FileJob job, const double time);
+    void write_checkpoint(FileJob job);
 
     /// What writes pictures, maps and checkpoints.
     BackgroundWriter &writer()
@@ -66,7 +66,7 @@ namespace scree
       found.insert(found.end(), results.begin(), results.end());
     }
 
-    /// At the end of a run: tells where the results are, and writes rows that the disk did not take. Throws FileError
+    /// At the end of a run: reports where the results are, and writes rows that the disk did not take. Throws FileError
     /// if it still refuses them.
     void complete();
 

@@ -32,7 +32,7 @@ namespace scree
     stopped   ///< before, as it was asked to
   };
 
-  /// A run: a scene, the scheme that moves it, and what is written of it. Owns everything, and nobody knows it.
+  /// A run: a scene, the scheme that moves it, and its output. Top-level class; no other class depends on it.
   template <int dim>
   class Simulation
   {

@@ -2,7 +2,6 @@
 #ifndef scree_schemes_scheme_h
 #define scree_schemes_scheme_h
 
-#include <scree/bodies/drainage.h>
 #include <scree/momentum/nodal_forces.h>
 #include <scree/step/step_report.h>
 #include <scree/transfer/water_view.h>
@@ -48,8 +47,8 @@ namespace scree
     /// What pictures show of the water; null in a dry scene.
     virtual std::unique_ptr<WaterView<dim>> water_view() const = 0;
 
-    /// Lets the water flow, or keeps its place and pressure from the next step on.
-    virtual void set_drainage(const Drainage)
+    /// Keeps place and pressure of the water from the next step on, or lets it flow.
+    virtual void hold_water(const bool)
     {
     }
 

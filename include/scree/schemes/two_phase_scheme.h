@@ -38,7 +38,7 @@ namespace scree
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
     void to_points(const double time_step, StepReport<dim> &report) override;
-    void set_drainage(const Drainage drainage) override;
+    void hold_water(const bool holds) override;
     NodalForces nodal_forces(const double time_step) const override;
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override;
@@ -74,13 +74,9 @@ namespace scree
     /// Takes points back that have left through the box or the ground.
     void project_to_boundary(const double time_step, const double largest_speed);
 
-    /// Takes the stress from soil that is looser than entry Fluidisation porosity.
-    void fluidise();
-
     const BackgroundGrid<dim> &grid;
     const BodyForces<dim> &forces;
-    const double fluidisation_porosity;
-    Drainage drainage = Drainage::undrained;
+    bool holds_water = false;
     std::list<WaterPhase<dim>> &water;
     const std::uint8_t faces_closed_to_soil, faces_closed_to_water; // of the box
     const std::list<Inflow<dim>> &inflows;

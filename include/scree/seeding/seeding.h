@@ -22,7 +22,6 @@ namespace scree
     SourceMapParameters source;           ///< maps that bound the region, too
     std::shared_ptr<const SourceMap> map; ///< of them, once they are read; null without
     unsigned int points_per_cell = 3;     ///< along each axis
-    double jitter                = 0;     ///< over the points' spacing
     double grain_density         = 2500;  ///< kg/m^3
     double initial_porosity      = -1;    ///< below 0: as the law says
     std::string initial_velocity = "";    ///< m/s, one expression an axis; empty: at rest
@@ -36,10 +35,10 @@ namespace scree
     /// Throws EntryError if an expression does not read; `body` is the name of the subsection.
     void check(const std::string &body, const unsigned int dim) const;
 
-    /// The expression of the region; true everywhere if maps alone tell where the body is.
+    /// The expression of the region; true everywhere if maps alone bound the body.
     std::string expression() const;
 
-    /// Entry and value of what tells where the body is, for messages.
+    /// Entry and value that place the body, for messages.
     std::pair<std::string, std::string> place() const;
 
     /// Whether unit weights say how heavy it is.

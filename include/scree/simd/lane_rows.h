@@ -8,7 +8,7 @@
 
 namespace scree
 {
-  /// The lanes of batches that are wanted later, one behind the other, so that they fill batches again. `Batches` is a
+  /// The lanes of batches that are used later, one behind the other, so that they fill batches again. `Batches` is a
   /// struct of batches and masks, each of which gets a row; there is room for `capacity` lanes.
   template <typename Batches, unsigned int capacity>
   class LaneRows

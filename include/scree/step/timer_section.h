@@ -9,7 +9,7 @@
 
 namespace scree
 {
-  /// The parts of a step whose time is told.
+  /// The parts of a step whose time is reported.
   enum class TimerSection
   {
     nonlocal, ///< averages over space
@@ -27,7 +27,7 @@ namespace scree
     output
   };
 
-  /// All of them, in the order in which they are told.
+  /// All of them, in the order in which they are reported.
   constexpr std::array<TimerSection, 13> step_parts{ { TimerSection::nonlocal,
                                                        TimerSection::points_to_grid,
                                                        TimerSection::nodes,

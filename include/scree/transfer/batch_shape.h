@@ -37,8 +37,7 @@ namespace scree
   };
 
 
-  /// phi_i (x_i - x) along each axis, m: what takes the place of an axis' shape functions in sum phi_i v_i (x_i - x)^T,
-  /// which APIC stores.
+  /// phi_i (x_i - x) along each axis, m.
   ///
   /// @param x places in the cell
   template <int dim, int n>

@@ -42,7 +42,7 @@ namespace scree
     add_momentum(const Shape &shape, const double mass, const double *velocity, const double *affine)
     {
       add<true, false, carries_affine(method)>(
-          shape, momentum_of(mass, velocity), affine_momentum<method, dim, n>(shape, width, mass, affine), no_stress);
+          shape, momentum_of(mass, velocity), affine_momentum<method, dim, n>(shape, mass, affine), no_stress);
     }
 
     /// Adds -V sigma grad phi_i.
@@ -65,7 +65,7 @@ namespace scree
     {
       add<true, true, carries_affine(method)>(shape,
                                               momentum_of(mass, velocity),
-                                              affine_momentum<method, dim, n>(shape, width, mass, affine),
+                                              affine_momentum<method, dim, n>(shape, mass, affine),
                                               force_of(volume, stress));
     }
 

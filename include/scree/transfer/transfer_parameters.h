@@ -12,27 +12,20 @@ namespace scree
   enum class TransferMethod
   {
     flip, ///< points keep their velocity and take the nodes' change; it relaxes to the nodes' at a rate in 1/s
-    apic, ///< points take the nodes' velocity, and an affine field that keeps angular momentum (@source{jiang2015})
     tpic, ///< points take the nodes' velocity and its gradient (Taylor expansion)
     aflip ///< as FLIP, and the nodes get the points' velocity gradient, too, as in TPIC (@source{fei2021})
   };
 
-  /// Whether points keep a velocity of their own, which they forget at a rate.
+  /// Whether points keep a velocity of their own, which relaxes at a rate.
   constexpr bool keeps_velocity(const TransferMethod method)
   {
     return method == TransferMethod::flip || method == TransferMethod::aflip;
   }
 
-  /// Whether points carry the nodes' velocity gradient.
-  constexpr bool carries_gradient(const TransferMethod method)
-  {
-    return method == TransferMethod::tpic || method == TransferMethod::aflip;
-  }
-
-  /// Whether points carry an affine velocity field, in whatever form.
+  /// Whether points carry the nodes' velocity gradient, an affine velocity field.
   constexpr bool carries_affine(const TransferMethod method)
   {
-    return method == TransferMethod::apic || carries_gradient(method);
+    return method == TransferMethod::tpic || method == TransferMethod::aflip;
   }
 
   /// Treatment of volumetric locking and stress oscillation.
@@ -46,7 +39,7 @@ namespace scree
   /// Subsection Transfer.
   struct TransferParameters
   {
-    std::string method = "AFLIP"; ///< FLIP | APIC | TPIC | AFLIP
+    std::string method = "AFLIP"; ///< FLIP | TPIC | AFLIP
     std::string rate   = "auto";  ///< entry "PIC rate": a number in 1/s, or auto
     double pic_rate    = 1;       ///< 1/s, what choose_rate() has made of the entry
 
@@ -63,7 +56,7 @@ namespace scree
     /// @param cell_size h, m
     void choose_rate(const double gravity, const double wave_speed, const double cell_size);
 
-    /// The method, and its rate if it has one, as the log tells it.
+    /// The method, and its rate if it has one, as in the log.
     std::string text() const;
 
     /// Entry `Method` as an enum.
@@ -72,9 +65,9 @@ namespace scree
     /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
 
-    /// Twice the energy of a point's affine velocity field over its mass and the square of the field as it is stored:
-    /// h^2/4 with AFLIP, whose field is a gradient, 4/h^2 with APIC; 0 with others, as TPIC sets it anew in each step.
-    /// h^2/4 is the inertia of quadratic splines about a point, @source{jiang2015}.
+    /// Twice the energy of a point's affine velocity field over its mass and the square of the field: h^2/4 with AFLIP,
+    /// the inertia of quadratic splines about a point, @source{jiang2015}; 0 with others, as TPIC sets it anew in each
+    /// step.
     /// @param cell_size h, m
     double affine_inertia(const double cell_size) const;
 

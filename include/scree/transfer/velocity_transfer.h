@@ -42,14 +42,13 @@ namespace scree
   }
 
 
-  /// What nodes say to a batch of points; what nobody reads is not set.
+  /// Values of nodes at a batch of points; what is not read is not set.
   template <int dim>
   struct NodesAtPoints
   {
     Batch velocity[dim];       ///< at the end of the step, m/s
     Batch change[dim];         ///< over the step, m/s: for methods that keep their velocity
     Batch gradient[dim * dim]; ///< of the velocity, 1/s, row-major
-    Batch moment[dim * dim];   ///< sum phi_i v_i (x_i - x)^T, m^2/s: for APIC
 
     /// Adds `factor` times others.
     template <TransferMethod method>
@@ -63,10 +62,8 @@ namespace scree
         }
       for (unsigned int c = 0; c < dim * dim; ++c)
         {
-          if constexpr (carries_gradient(method))
+          if constexpr (carries_affine(method))
             gradient[c] += factor * other.gradient[c];
-          if constexpr (method == TransferMethod::apic)
-            moment[c] += factor * other.moment[c];
         }
     }
 
@@ -86,9 +83,7 @@ namespace scree
             own_velocity[c] = velocity[c];
           square += own_velocity[c] * own_velocity[c];
         }
-      if constexpr (method == TransferMethod::apic)
-        std::copy_n(moment, dim * dim, affine);
-      if constexpr (carries_gradient(method))
+      if constexpr (carries_affine(method))
         std::copy_n(gradient, dim * dim, affine);
       if constexpr (method == TransferMethod::aflip)
         push_forward_gradient<dim>(affine, time_step, simd::first_lanes(batch_size));
@@ -133,12 +128,9 @@ namespace scree
     DEAL_II_ALWAYS_INLINE inline NodesAtPoints<dim> at(const BatchShape<dim, n> &shape) const
     {
       NodesAtPoints<dim> result;
-      [[maybe_unused]] Factors moments;
-      if constexpr (method == TransferMethod::apic)
-        moments = moment_factors<dim, n>(shape.basis, shape.x, shape.open, width);
       for (unsigned int c = 0; c < dim; ++c)
         {
-          if constexpr (with_gradient || carries_gradient(method))
+          if constexpr (with_gradient || carries_affine(method))
             {
               result.velocity[c] =
                   contract<true>(values + c, shape.basis.value, shape.basis.derivative, result.gradient + c * dim);
@@ -147,8 +139,6 @@ namespace scree
             }
           else
             result.velocity[c] = contract<false>(values + c, shape.basis.value, shape.basis.value, nullptr);
-          if constexpr (method == TransferMethod::apic)
-            contract<true>(values + c, shape.basis.value, moments, result.moment + c * dim);
           if constexpr (keeps_velocity(method))
             result.change[c] = contract<false>(values + dim + c, shape.basis.value, shape.basis.value, nullptr);
         }

@@ -2,12 +2,8 @@
 #ifndef scree_viscosity_viscous_force_h
 #define scree_viscosity_viscous_force_h
 
-#include <scree/bodies/suspension.h>
-#include <scree/bodies/water_parameters.h>
 #include <scree/bodies/water_phase.h>
 #include <scree/transfer/velocity_transfer.h>
-
-#include <vector>
 
 namespace scree
 {
@@ -15,50 +11,32 @@ namespace scree
   /// grad v) grad phi_i over the points: symmetric, and blind to motion of a rigid body, so that it changes neither
   /// momentum nor moment of momentum. The transfer between points and nodes does not matter.
   ///
-  /// Water has its viscosity in the volume that it takes. Soil that has lost contact (see Suspension) has what its
-  /// grains add, in its whole volume: mu_s less n mu, so that grains and water that move as one have mu_s.
+  /// Water has its viscosity in the volume that it takes.
   template <int dim>
   class ViscousForce
   {
   public:
     /// Keeps a reference to the grid.
-    ViscousForce(const BackgroundGrid<dim> &grid, const WaterParameters &water);
+    /// @param viscosity of the water, Pa s
+    ViscousForce(const BackgroundGrid<dim> &grid, const double viscosity);
 
-    /// Viscosity times volume of this rank's points, Pa s m^3 (2D: per m), in their order; empty if all are 0.
-    std::vector<double> coefficients(const WaterPhase<dim> &water) const;
-
-    /// The same of suspended soil.
-    std::vector<double> coefficients(const SoilBody<dim> &soil) const;
-
-    /// Adds the force of points with these coefficients, of the velocity of `motion`, whose ghosts hold values, to that
-    /// of `field`.
-    void add(const PointSet<dim> &points,
-             const std::vector<double> &coefficients,
-             const NodalField<dim> &motion,
-             NodalField<dim> &field) const;
+    /// Adds the force of the points, of the velocity of `motion`, whose ghosts hold values, to that of `field`.
+    void add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const;
 
     /// A bound on the rates, 1/s, at which viscosity slows any motion of nodes with lumped masses, for this rank's
     /// points: the largest eigenvalue of M^-1 K is at most max 2 mu V/m sum |grad phi_i|^2/phi_i, by the inequality of
     /// Cauchy and Schwarz for |sum grad phi_i v_i|^2.
-    /// @param mass_slot of the points
-    double largest_rate(const PointSet<dim> &points,
-                        const std::vector<double> &coefficients,
-                        const unsigned int mass_slot) const;
+    double largest_rate(const WaterPhase<dim> &water) const;
 
   private:
     template <int n>
-    void add_points(const PointSet<dim> &points,
-                    const std::vector<double> &coefficients,
-                    const NodalField<dim> &motion,
-                    NodalField<dim> &field) const;
+    void add_points(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const;
 
     template <int n>
-    double
-    bound(const PointSet<dim> &points, const std::vector<double> &coefficients, const unsigned int mass_slot) const;
+    double bound(const WaterPhase<dim> &water) const;
 
     const BackgroundGrid<dim> &grid;
-    const double viscosity; // of the water, Pa s
-    const Suspension suspension;
+    const double viscosity; // Pa s
   };
 } // namespace scree
 

@@ -23,7 +23,6 @@ namespace scree
     /// Keeps references to all but the parameters.
     ViscousStep(const BackgroundGrid<dim> &grid,
                 const WaterParameters &parameters,
-                const std::list<SoilBody<dim>> &bodies,
                 const std::list<WaterPhase<dim>> &water,
                 dealii::TimerOutput &timer);
 
@@ -43,29 +42,17 @@ namespace scree
     void count_dissipation(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
 
   private:
-    /// Points that are viscous in a step.
-    struct Viscous
-    {
-      const PointSet<dim> &points;
-      unsigned int mass_slot;
-      std::vector<double> coefficients;
-      bool is_soil;
-    };
-
-    void find_points();
-
     using Vector = std::vector<SoilAndWater<dim>>; // an entry an owned node on which points act
 
-    /// The impulses -dt K v into `impulses`. Collective.
+    /// The impulses -dt K v of the water's velocity at the nodes into `impulses`. Collective.
     /// @param bed that takes part, or null
     /// @param ground_share see CutCellContact
-    void find_impulses(const NodalField<dim> &soil,
-                       const NodalField<dim> &water,
+    void find_impulses(const NodalField<dim> &velocity,
                        const CutCellContact<dim> *bed,
                        const double ground_share,
                        const double time_step);
 
-    /// Sets soil_motion and water_motion, ghosts too. Collective.
+    /// Sets the water's velocity in `motion`, ghosts too. Collective.
     void set_motion(const Vector &velocity);
 
     SoilAndWater<dim> impulses_at(const unsigned int node) const;
@@ -80,16 +67,14 @@ namespace scree
     double product(const Vector &a, const Vector &b) const; // of all ranks
 
     const BackgroundGrid<dim> &grid;
-    const std::list<SoilBody<dim>> &bodies;
     const std::list<WaterPhase<dim>> &water;
     const double water_viscosity; // Pa s
     dealii::TimerOutput &timer;
     const ViscousForce<dim> force;
-    std::vector<Viscous> viscous;
-    std::vector<unsigned int> active;                             // owned nodes on which points act
-    std::vector<DragBlock<dim>> pairs;                            // A, of each of them
-    std::optional<NodalField<dim>> soil_motion, water_motion;     // velocities that K is applied to
-    std::optional<NodalField<dim>> soil_impulses, water_impulses; // N s, where NodalField has forces
+    std::vector<unsigned int> active;        // owned nodes on which points act
+    std::vector<DragBlock<dim>> pairs;       // A, of each of them
+    std::optional<NodalField<dim>> motion;   // velocity that K is applied to
+    std::optional<NodalField<dim>> impulses; // N s, where NodalField has forces; soil has none
   };
 } // namespace scree
 

@@ -97,7 +97,7 @@ namespace scree
     Contact &contact         = contacts.back();
     contact.force            = point.properties + body.layout.contact_force(candidate.surface);
     contact.surface          = candidate.surface;
-    contact.friction         = surface.friction_at(point.location);
+    contact.friction         = surface.friction_coefficient;
     contact.place            = point.reference_location;
     contact.to_foot          = -depth / grid.cell_size() * normal;
     contact.foot             = point.location - depth * normal;

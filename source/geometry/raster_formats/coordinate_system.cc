@@ -33,7 +33,7 @@ namespace scree
     }
 
 
-    /// Nothing if GDAL does not know it. Files and the network are not asked.
+    /// Nothing if GDAL does not have it. Files and the network are not asked.
     std::optional<OGRSpatialReference> known_system(const std::string &system)
     {
       const char *options[] = { "ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr };

@@ -33,7 +33,7 @@ namespace scree
 
   namespace
   {
-    /// The system of a raster, by its code if the EPSG has one for it, which other programs then know, too.
+    /// The system of a raster, by its code if the EPSG has one for it, which other programs then read, too.
     OGRSpatialReference system_of(const Raster &raster)
     {
       constexpr int confident = 90; // %, of the match

@@ -61,28 +61,12 @@ namespace scree
   void JefferiesBeenParameters::add_line(ParameterHandler &prm)
   {
     const Patterns::Double not_negative(0);
-    prm.add_parameter("Critical line",
-                      critical_line,
-                      "Void ratio at critical state. line: Gamma - lambda ln(p/1 kPa). curve: a - b (p/p_ref)^c.",
-                      Patterns::Selection("line|curve"));
-    prm.add_parameter("Critical void ratio",
-                      critical_void_ratio,
-                      "Void ratio Gamma at critical state and 1 kPa; read if \"Critical line\" is line.",
-                      not_negative);
+    prm.add_parameter(
+        "Critical void ratio", critical_void_ratio, "Void ratio Gamma at critical state and 1 kPa.", not_negative);
     prm.add_parameter("Compression index",
                       compression_index,
-                      "Slope lambda of the critical line in ln p (lambda_10/2.303); read if \"Critical line\" is line.",
+                      "Slope lambda of the critical line in ln p (lambda_10/2.303).",
                       not_negative);
-    prm.add_parameter("Curve void ratio",
-                      curve_void_ratio,
-                      "Void ratio a at critical state and p = 0; read if \"Critical line\" is curve.",
-                      not_negative);
-    prm.add_parameter("Curve coefficient",
-                      curve_coefficient,
-                      "b of the critical line; read if \"Critical line\" is curve.",
-                      not_negative);
-    prm.add_parameter(
-        "Curve exponent", curve_exponent, "c of the critical line; read if \"Critical line\" is curve.", not_negative);
   }
 
 
@@ -92,25 +76,8 @@ namespace scree
     const std::string range             = "write a void ratio above 0 and up to 5.";
     const auto is_void_ratio            = [](const double value) { return value > 0 && value <= largest_void_ratio; };
     require_entry(is_void_ratio(initial_void_ratio), subsection, "Initial void ratio", initial_void_ratio, range);
-    const bool is_curve = critical_line == "curve";
-    if (is_curve)
-      {
-        require_entry(is_void_ratio(curve_void_ratio), subsection, "Curve void ratio", curve_void_ratio, range);
-        require_entry(
-            curve_coefficient > 0, subsection, "Curve coefficient", curve_coefficient, "it must be positive.");
-        require_entry(curve_exponent > 0 && curve_exponent <= 1,
-                      subsection,
-                      "Curve exponent",
-                      curve_exponent,
-                      "write a value above 0 and up to 1.");
-      }
-    else
-      {
-        require_entry(
-            is_void_ratio(critical_void_ratio), subsection, "Critical void ratio", critical_void_ratio, range);
-        require_entry(
-            compression_index > 0, subsection, "Compression index", compression_index, "it must be positive.");
-      }
+    require_entry(is_void_ratio(critical_void_ratio), subsection, "Critical void ratio", critical_void_ratio, range);
+    require_entry(compression_index > 0, subsection, "Compression index", compression_index, "it must be positive.");
     require_entry(line().slope() * state_dilatancy < 0.9 * critical_stress_ratio,
                   subsection,
                   "State dilatancy",

@@ -34,9 +34,7 @@ namespace scree
   CriticalLine JefferiesBeenParameters::line() const
   {
     constexpr double kilopascal = 1e3;
-    if (critical_line == "curve")
-      return { true, curve_void_ratio, curve_coefficient, curve_exponent, std::log(reference_pressure) };
-    return { false, critical_void_ratio, compression_index, 1., std::log(kilopascal) };
+    return { critical_void_ratio, compression_index, std::log(kilopascal) };
   }
 
 
@@ -55,19 +53,6 @@ namespace scree
   LawEntry JefferiesBeenParameters::modulus() const
   {
     return { "Shear modulus", shear_modulus };
-  }
-
-
-  std::vector<UsualRange> JefferiesBeenParameters::usual_ranges() const
-  {
-    return { { "Shear modulus", shear_modulus, 1e5, 1e10, unit_of_pressure },
-             { "Reference pressure", reference_pressure, 1e3, 1e7, unit_of_pressure },
-             { "Critical stress ratio M",
-               critical_stress_ratio,
-               0.4,
-               2,
-               "none: q/p' at critical state, 6 sin(phi)/(3 - sin(phi)) of a friction angle phi" },
-             { "Initial void ratio", initial_void_ratio, 0.2, 1.5, "none: volume of pores over that of grains" } };
   }
 
 

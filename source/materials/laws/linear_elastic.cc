@@ -32,12 +32,6 @@ namespace scree
   }
 
 
-  std::vector<UsualRange> LinearElasticParameters::usual_ranges() const
-  {
-    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure } };
-  }
-
-
   namespace
   {
     const RegisterLaw

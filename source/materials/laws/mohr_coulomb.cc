@@ -150,7 +150,7 @@ namespace scree
   namespace
   {
     /// Divides tan(phi), of phi itself, cohesion and cut-off. The increase of inertial friction stays, as far as the
-    /// grains bear no tension.
+    /// grains take no tension.
     void divide(MohrCoulombParameters &law, const double factor)
     {
       law.friction_angle = divided_angle(std::asin(law.sine()) * 180. / numbers::PI, factor);
@@ -184,21 +184,9 @@ namespace scree
   }
 
 
-  std::vector<UsualRange> MohrCoulombParameters::usual_ranges() const
-  {
-    std::vector<UsualRange> ranges{ { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
-                                    { "Friction angle", friction_angle, 5, 60, unit_of_angle },
-                                    { "Dilation angle", dilation_angle, 0.8, 40, unit_of_angle },
-                                    { "Cohesion", cohesion, 50, 1e8, unit_of_pressure } };
-    inertial_friction.append_usual_ranges(ranges);
-    softening.append_usual_ranges(ranges);
-    return ranges;
-  }
-
-
   namespace
   {
-    /// The law without softening is another one: it knows its yield surfaces before the first step.
+    /// The law without softening is another one: its yield surfaces are constant.
     class MohrCoulombEntries : public EntriesWith<MohrCoulombParameters>
     {
     public:

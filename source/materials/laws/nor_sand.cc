@@ -22,17 +22,8 @@ namespace scree
     prm.add_parameter("Reference pressure", reference_pressure, "Pa; pressure at which v_c0 holds.", not_negative);
     prm.add_parameter("Critical stress ratio M",
                       critical_stress_ratio,
-                      "Stress ratio q/P at critical state; read if \"Critical friction angle\" is 0.",
+                      "Stress ratio q/P at critical state; 6 sin(phi)/(3 - sin(phi)) of a friction angle phi.",
                       not_negative);
-    prm.add_parameter("Critical friction angle",
-                      critical_friction_angle,
-                      "degrees; friction angle at critical state, in place of \"Critical stress ratio M\". 0: none.",
-                      Patterns::Double(0, 60));
-    prm.add_parameter("Friction angle kind",
-                      angle_kind,
-                      "Test that \"Critical friction angle\" comes from. triaxial: M = 6 sin/(3 - sin). plane strain: "
-                      "M = sqrt(3) sin. direct shear or repose: M = sqrt(3) tan.",
-                      Patterns::Selection(friction_angle_kinds));
     prm.add_parameter("Yield constant N",
                       yield_constant,
                       "Curvature N of the yield surface; 0: original Cam-Clay.",
@@ -62,22 +53,12 @@ namespace scree
                       substep_strain,
                       "Largest component of the strain increment of one return mapping.",
                       Patterns::Double(1e-6, 1));
-    inertial_friction.add_parameters(prm);
-  }
-
-
-  double NorSandParameters::critical_ratio() const
-  {
-    return critical_friction_angle > 0
-               ? scree::critical_stress_ratio(critical_friction_angle, friction_angle_kind(angle_kind))
-               : critical_stress_ratio;
   }
 
 
   double NorSandParameters::sine() const
   {
-    return critical_friction_angle > 0 ? std::sin(radians(critical_friction_angle))
-                                       : 3 * critical_stress_ratio / (6 + critical_stress_ratio);
+    return 3 * critical_stress_ratio / (6 + critical_stress_ratio);
   }
 
 
@@ -92,7 +73,7 @@ namespace scree
                   compression_index,
                   "it must exceed the swelling index, here " + number_text(swelling_index) + '.');
     require_entry(reference_pressure > 0, subsection, "Reference pressure", reference_pressure, positive);
-    require_entry(critical_ratio() > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
+    require_entry(critical_stress_ratio > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
     require_entry(potential_constant <= yield_constant,
                   subsection,
                   "Potential constant N bar",
@@ -116,8 +97,7 @@ namespace scree
 
   void NorSandParameters::divide_strength(const double factor)
   {
-    critical_stress_ratio   = critical_ratio() / factor;
-    critical_friction_angle = 0;
+    critical_stress_ratio /= factor;
   }
 
 
@@ -134,22 +114,6 @@ namespace scree
   }
 
 
-  std::vector<UsualRange> NorSandParameters::usual_ranges() const
-  {
-    std::vector<UsualRange> ranges{
-      { "Shear modulus", shear_modulus, 1e4, 1e10, unit_of_pressure },
-      { "Critical stress ratio M",
-        critical_friction_angle > 0 ? 0. : critical_stress_ratio, // 0: no question
-        0.4,
-        2,
-        "none: q/p' at critical state, 6 sin(phi)/(3 - sin(phi)) of a friction angle phi" },
-      { "Critical friction angle", critical_friction_angle, 10, 50, unit_of_angle }
-    };
-    inertial_friction.append_usual_ranges(ranges);
-    return ranges;
-  }
-
-
   namespace
   {
     const RegisterLaw registered_nor_sand("Nor-Sand",
@@ -158,13 +122,8 @@ namespace scree
   } // namespace
 
 
-  NorSand::NorSand(const NorSandParameters &entries)
-      : inertial_friction(entries.inertial_friction)
-      , parameters([&] {
-        NorSandParameters result     = entries;
-        result.critical_stress_ratio = entries.critical_ratio();
-        return result;
-      }())
+  NorSand::NorSand(const NorSandParameters &parameters)
+      : parameters(parameters)
       , inverse_swelling_index(1 / parameters.swelling_index)
       , log_minimum_pressure(std::log(parameters.minimum_pressure))
       , log_reference_pressure(std::log(parameters.reference_pressure))
@@ -203,22 +162,6 @@ namespace scree
   double NorSand::plane_friction() const
   {
     return parameters.critical_stress_ratio / std::sqrt(3.);
-  }
-
-
-  double NorSand::friction_pressure(const PrincipalValues &stress) const
-  {
-    return -(stress[0] + stress[1] + stress[2]) / 3;
-  }
-
-
-  PrincipalValues NorSand::stress_of(const PrincipalValues &strain) const
-  {
-    const double volume_strain = strain[0] + strain[1] + strain[2], mean = mean_stress_of(volume_strain);
-    PrincipalValues stress;
-    for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = mean + 2 * parameters.shear_modulus * (strain[i] - volume_strain / 3);
-    return stress;
   }
 
 

@@ -147,15 +147,6 @@ namespace scree
   }
 
 
-  std::vector<UsualRange> TrescaParameters::usual_ranges() const
-  {
-    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
-             { "Strength gradient", strength_gradient, 50, 1e5, "Pa/m (1 kPa/m = 1e3 Pa/m)" },
-             { "Sensitivity", sensitivity, 1, 1000, "-" },
-             { "Remoulding strain", remoulding_strain, 1e-2, 1e3, "- (10 % = 0.1)" } };
-  }
-
-
   TrescaParameters HerschelBulkleyParameters::tresca() const
   {
     TrescaParameters law;
@@ -216,14 +207,6 @@ namespace scree
   {
     reduction *= factor;
     tension_cut_off /= factor;
-  }
-
-
-  std::vector<UsualRange> HerschelBulkleyParameters::usual_ranges() const
-  {
-    return { { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
-             { "Yield stress", yield_stress, 1, 1e6, unit_of_pressure },
-             { "Consistency", consistency, 1e-2, 1e6, "Pa s^n" } };
   }
 
 

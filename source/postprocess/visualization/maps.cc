@@ -45,8 +45,6 @@ namespace scree
     constexpr unsigned int n_sums = dim + 2; // volume, mass and momentum of a column
     const std::size_t n_columns   = mass.size();
     std::vector<double> sums(n_sums * n_columns, 0.);
-    const bool with_start = bodies.front().layout.has_start; // all bodies have it, or none
-    Map at_rest(with_start ? n_columns : 0, 0.);
     for (const auto &body : bodies)
       if (!body.is_rigid)
         for_each_point(body.points, [&](const auto &point) {
@@ -60,22 +58,10 @@ namespace scree
               for (unsigned int a = 0; a < dim; ++a)
                 of_column[2 + a] += m * values[body.layout.velocity + a];
             }
-          if (!with_start)
-            return;
-          const Point<dim> start(vector_of<dim>(values + body.layout.start));
-          if (start.distance(point.location) <= grid.cell_size())
-            for (const auto &[column, weight] : columns.around(start))
-              at_rest[column] += weight * values[body.layout.mass] / body.density;
         });
     Utilities::MPI::sum(sums, grid.communicator(), sums);
-    Utilities::MPI::sum(at_rest, grid.communicator(), at_rest);
 
     const double area = columns.area();
-    if (scour_depth.empty())
-      first_at_rest = at_rest;
-    scour_depth.resize(at_rest.size());
-    for (std::size_t c = 0; c < at_rest.size(); ++c)
-      scour_depth[c] = std::max(0., first_at_rest[c] - at_rest[c]) / area;
     for (std::size_t c = 0; c < n_columns; ++c)
       {
         const double *of_column = sums.data() + n_sums * c;
@@ -98,8 +84,7 @@ namespace scree
   template <int dim>
   std::vector<typename Maps<dim>::Sheet> Maps<dim>::sheets() const
   {
-    const double area = columns.area();
-    Map deposit(mass.size()), now_or_first(mass.size()), arrival(arrival_time), thickness_at_start(first_at_rest);
+    Map deposit(mass.size()), now_or_first(mass.size()), arrival(arrival_time);
     for (std::size_t c = 0; c < mass.size(); ++c)
       {
         deposit[c]      = thickness[c] - first_thickness[c];
@@ -110,18 +95,13 @@ namespace scree
         arrival.end(),
         [](const double t) { return t < 0.; },
         std::numeric_limits<double>::quiet_NaN());
-    for (double &value : thickness_at_start)
-      value /= area;
-    std::vector<Sheet> result{ { "thickness", "m", thickness, thickness },
-                               { "mass", "kg/m^2", mass, thickness },
-                               { "deposit", "m", deposit, now_or_first },
-                               { "largest thickness", "m", largest_thickness, largest_thickness },
-                               { "largest speed", "m/s", largest_speed, largest_thickness },
-                               { "largest impact pressure", "Pa", largest_pressure, largest_thickness },
-                               { "arrival time", "s", arrival, largest_thickness } };
-    if (!scour_depth.empty())
-      result.push_back({ "scour depth", "m", scour_depth, thickness_at_start });
-    return result;
+    return { { "thickness", "m", thickness, thickness },
+             { "mass", "kg/m^2", mass, thickness },
+             { "deposit", "m", deposit, now_or_first },
+             { "largest thickness", "m", largest_thickness, largest_thickness },
+             { "largest speed", "m/s", largest_speed, largest_thickness },
+             { "largest impact pressure", "Pa", largest_pressure, largest_thickness },
+             { "arrival time", "s", arrival, largest_thickness } };
   }
 
 
@@ -197,7 +177,7 @@ namespace scree
       return;
     files.emplace_back(path + ".asc", ascii_grid(raster));
     const std::string system = frame.system.empty() ? "" : prj_text(frame.system);
-    if (system.empty()) // Nothing of an earlier run may tell another one.
+    if (system.empty()) // A file of an earlier run would give another one.
       std::filesystem::remove(path + ".prj");
     else
       files.emplace_back(path + ".prj", system);

@@ -16,7 +16,7 @@ from scree.variants import read_entries
 PAGE = ROOT / "prm" / "README.md"
 ROW = re.compile(r"^(\| `([\w-]+)` \|.*\| )([^|]*)( \|)$", re.MULTILINE)
 # Processor time of whole runs, s; with other programs on the machine.
-BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_lane_water": 38, "phreatic": 6, "vertical_cut": 9, "biaxial": 2, "submerged_beads": 150,
+BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_lane_water": 38, "phreatic": 6, "vertical_cut": 9, "biaxial": 2,
            "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "mountain_outline": 5, "acheron": 31, "entrainment": 3, "debris_flow": 9,
            "slope_jefferies_been": 6, "cut": 40, "graded_slope": 45, "quick_clay": 35, "mud": 32, "steady_dam": 4, "earth_dam": 1,
            "capillary_fringe": 1, "green_ampt": 1, "rain": 17, "wet_cut": 8}

@@ -153,7 +153,7 @@ def tip_change():
 
 def columns_of_grains():
     """{H/h: deviation of the front of 99 % of a column with inertial friction from its value at h = 0, over the displacement at h = 0}."""
-    group = run_out_limits.curves(rows("run_out_limits"))[1., "FLIP", run_out_limits.WITH, run_out_limits.REPOSE, 3., 0., run_out_limits.SAND]
+    group = run_out_limits.curves(rows("run_out_limits"))[1., "FLIP", run_out_limits.WITH, run_out_limits.REPOSE, 3., run_out_limits.SAND]
     limit = run_out.Limit(group, run_out_limits.TIP)
     return {round(row["cells"]): abs(row[run_out_limits.TIP] - limit.value) / (limit.value - 0.99) for row in group}
 

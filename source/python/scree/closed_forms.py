@@ -7,7 +7,7 @@
 - infiltration of a pond with suction (Green & Ampt 1911)
 - hydrostatic pressure; discharge through a dam with vertical faces; flow through a bed of grains at any speed
 - dam break on a wet bed in shallow water: Stoker 1957; of grains on a plane: Mangeney, Heinrich & Roche 2000
-- viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923), viscosity and settling of suspensions
+- viscous flow: between plates (Poiseuille), decay of vortices (Taylor 1923)
 """
 
 import math
@@ -405,20 +405,6 @@ def vortex_decay(viscosity, density, size):
     """Rate, 1/s, at which the velocity (sin kx cos ky, -cos kx sin ky), k = pi/L, decays: 2 nu k^2 (Taylor 1923). The convective
     terms are a gradient, and walls along cell borders of the pattern take no shear."""
     return 2 * viscosity / density * (math.pi / size)**2
-
-
-def krieger_dougherty(viscosity, grain_fraction, densest_packing=0.64):
-    """mu (1 - phi/phi_m)^(-5/2 phi_m): viscosity of a suspension, Pa s (Krieger & Dougherty 1959)."""
-    return viscosity * (1 - grain_fraction / densest_packing)**(-2.5 * densest_packing)
-
-
-def settling_velocity(conductivity, porosity, grain_density, density=1000):
-    """k (1 - n) (rho_s - rho_w)/rho_w: speed, m/s, at which grains that bear no stress sink in a closed column.
-
-    No volume passes, (1-n) v_s + n v_w = 0, so that v_s = -n (v_w - v_s); grad p is the weight of the mixture, and the water's balance
-    is n (rho - rho_w) g = Q (v_w - v_s) with rho - rho_w = (1-n)(rho_s - rho_w), Q = n^2 rho_w g/k.
-    """
-    return conductivity * (1 - porosity) * (grain_density - density) / density
 
 
 def _descend(function, start, step=0.2, smallest=1e-4):

@@ -4,12 +4,11 @@
 scree-maps results/mountain_dry
 scree-maps results/mountain_dry --maps largest_speed,deposit --times 5,10,20
 
-Without --maps and --times it draws the largest thickness, speed and impact pressure, the arrival time, the deposit and, if there is one, the depth of
-the scour. --times adds the thickness at the times of pictures. A map shows only places with soil: at least `Least thickness` of the case. In 2D it
+Without --maps and --times it draws the largest thickness, speed and impact pressure, the arrival time and the deposit.
+--times adds the thickness at the times of pictures. A map shows only places with soil: at least `Least thickness` of the case. In 2D it
 draws the profiles instead. Writes maps.png into the run folder; the names of --maps and --times are part of the picture's name.
 It prints the path of the run-out and the deposit, from the log.
 
---scour BODY writes the map scour_BODY, the body's thickness at the first picture less that at the last one, and prints the balance of its volume.
 """
 
 import pathlib
@@ -46,11 +45,10 @@ KINDS = {
     "largest_impact_pressure": Kind("Largest impact pressure", "kPa", 1e-3, "YlOrRd", (0.1, 1.)),
     "arrival_time": Kind("Arrival time", "s", colours="YlGnBu_r", part=(0.1, 0.9)),
     "deposit": Kind("Deposit", "m", colours="YlOrBr", part=(0.2, 0.95)),
-    "scour_depth": Kind("Scour depth", "m", colours="YlGnBu", part=(0.15, 0.95)),
     "thickness": Kind("Thickness", "m"),
     "mass": Kind("Mass per area", "kg/m^2"),
 }
-DEFAULT = ("largest_thickness", "largest_speed", "largest_impact_pressure", "arrival_time", "deposit", "scour_depth")
+DEFAULT = ("largest_thickness", "largest_speed", "largest_impact_pressure", "arrival_time", "deposit")
 TIME = re.compile(r"(?P<map>thickness|profile)_(?P<time>[-+.0-9e]+)s")
 HALO = [matplotlib.patheffects.withStroke(linewidth=2, foreground="white")]
 
@@ -92,7 +90,7 @@ def title_of(run, name, has_depletion=False):
     if match:
         return f"{kind.title} at t = {float(match['time']):g} s"
     times = map_times(run)
-    return kind.title + (" and depletion (blue)" if has_depletion else "") + (f", t = {max(times):g} s" if times and name in ("thickness", "mass", "deposit", "scour_depth") else "")
+    return kind.title + (" and depletion (blue)" if has_depletion else "") + (f", t = {max(times):g} s" if times and name in ("thickness", "mass", "deposit") else "")
 
 
 def kind_of(name):
@@ -121,7 +119,7 @@ def read_map(run, name):
     """A map without the places that had no soil."""
     raster, kind, least = results.read_raster(find_map(run, name)), kind_of(name), max(least_thickness(run), 1e-9)
     values = raster.values
-    if name.startswith("thickness") or name in ("largest_thickness", "deposit", "scour_depth"):
+    if name.startswith("thickness") or name in ("largest_thickness", "deposit"):
         shown = np.abs(values) >= least
     elif name == "arrival_time":
         shown = values >= 0
@@ -419,22 +417,7 @@ def render(run, names, output):
     (render_profiles if results.read_box(run).dim == 2 else render_maps)(run, names, output)
 
 
-def _write_scour(run, body):
-    """Writes the scour of a body and prints its balance."""
-    from scree import scour  # pylint: disable=import-outside-toplevel  # it needs this module
-    path, found = scour.write(run, body)
-    unit = "m^3" if results.read_box(run).dim == 3 else "m^3/m"
-    print(f"{body}, at its density of the start: {found.start:.6g} {unit}; taken {found.taken:.6g}, laid down elsewhere {found.laid_down:.6g}, "
-          f"left the box {found.left:.6g}")
-    print(f"Wrote {path}")
-
-
 def _draw(arguments):
-    if arguments.scour and (arguments.maps or arguments.times or arguments.output):
-        raise ValueError("--scour writes a map of its own. Remove --maps, --times and --output")
-    if arguments.scour:
-        _write_scour(arguments.run, arguments.scour)
-        return
     names = arguments.maps.split(",") if arguments.maps else []
     try:
         names += [f"thickness_{float(word):.15g}s" for word in arguments.times.split(",")] if arguments.times else []
@@ -454,6 +437,5 @@ def main():
     parser.add_argument("run", type=pathlib.Path, help="run folder with a folder maps, for instance results/mountain_dry")
     parser.add_argument("--maps", help=f"separated by commas: {', '.join(KINDS)}, or any other of the folder without its ending")
     parser.add_argument("--times", help="times of pictures in s, separated by commas: the thickness at each")
-    parser.add_argument("--scour", metavar="BODY", help="write the map of what has been taken from a body, and its balance")
     parser.add_argument("--output", type=pathlib.Path, help="picture; default: in the run folder, named after what it shows")
     parser.run(_draw)

@@ -3,9 +3,7 @@
 // Steady simple shear at a given rate: tau/p = mu_s + Delta mu/(1 + I_0/I), for any step, in lanes and point by point.
 // The part that is kept stays within 0 and 1 for any numbers.
 
-#include <scree/materials/batch_material.h>
 #include <scree/materials/laws/mohr_coulomb_return.h>
-#include <scree/materials/laws/nor_sand_return.h>
 #include <scree/materials/principal_batch_material.h>
 
 #include <iostream>
@@ -91,19 +89,6 @@ void run()
   coulomb.inertial_friction = friction;
   const MohrCoulomb faces(coulomb);
   test(PrincipalBatchMaterial<2, MohrCoulomb>(faces), HenckyMaterial<2, MohrCoulomb>(faces), 0.5, 2, "Mohr-Coulomb");
-
-  NorSandParameters sand;
-  sand.shear_modulus     = 4e7;
-  sand.compression_index = 0.0021;
-  sand.critical_state_specific_volume =
-      sand.initial_specific_volume + sand.compression_index * std::log(pressure / sand.reference_pressure);
-  sand.inertial_friction = friction;
-  const NorSand critical(sand);
-  test(BatchMaterial<2, NorSand>(critical),
-       HenckyMaterial<2, NorSand>(critical),
-       sand.critical_stress_ratio / std::sqrt(3.),
-       3,
-       "Nor-Sand at critical state");
   test_bounds();
 }
 

@@ -166,13 +166,10 @@ void run()
   for (const double exponent : { 0., 0.5, 0.9 })
     test_energy(exponent);
   RandomNumbers random;
-  JefferiesBeenParameters line, curve;
-  curve.critical_line     = "curve";
-  line.initial_void_ratio = curve.initial_void_ratio = 0.65;
+  JefferiesBeenParameters line;
+  line.initial_void_ratio = 0.65;
   test_derivatives<Law::Hardening::law>(line, random);
   test_derivatives<Law::Hardening::cap>(line, random);
-  test_derivatives<Law::Hardening::law>(curve, random);
-  test_derivatives<Law::Hardening::cap>(curve, random);
 
   constexpr unsigned int n = 100000; // the documentation has numbers of a million
   for (const double largest : { 1e-3, 1e-2, 1e-1 })
@@ -183,7 +180,6 @@ void run()
       coupled.volumetric_coupling     = 0.4;
       coupled.hardening_modulus       = 200;
       test_returns("N = 0.4" + to, coupled, largest, n, random);
-      test_returns("curve" + to, curve, largest, n, random);
     }
 }
 

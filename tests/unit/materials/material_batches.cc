@@ -224,9 +224,6 @@ void test_laws(const unsigned int n, RandomNumbers &random)
   test<dim>(sand, { "sand, yielding", 1e-6, 9e-4, 1e3, 1e5, 1, 1, 0 }, n, 1e-8, random);
   test<dim>(sand, { "sand, mixed with sub-steps", 1e-7, 9e-4, 1e3, 1e5, 1, 1.5, 0.2 }, n, 1e-7, random);
   test<dim>(sand, { "sand, pulled apart and to the vertex", 1e-5, 9e-4, 1., 1e3, 0.5, 1, 0.05 }, n, 1e-7, random);
-  parameters.inertial_friction.grain_diameter = 1e-3;
-  test<dim>(NorSand(parameters), { "sand, inertial friction", 1e-6, 9e-4, 1e2, 1e5, 1, 1, 0.2 }, n, 1e-7, random);
-  parameters.inertial_friction.grain_diameter = 0;
   parameters.potential_constant = parameters.yield_constant = 0;
   test<dim>(NorSand(parameters), { "N = 0", 1e-6, 9e-4, 1e3, 1e5, 0.5, 1, 0.05 }, n, 1e-7, random);
 }
@@ -265,8 +262,6 @@ void test_jefferies_been(const unsigned int n, RandomNumbers &random)
   test_law(parameters, { "Jefferies-Been, inside the yield surface", 1e-9, 1e-6, 1e3, 1e6, 0.3, 3, 0 });
   test_law(parameters, { "Jefferies-Been, yielding", 1e-6, 4e-4, 1e3, 1e6, 0.7, 1, 0.1 });
   test_law(parameters, { "Jefferies-Been, pulled apart and to the vertex", 1e-5, 4e-4, 1., 1e3, 0.5, 1, 0.1 });
-  parameters.critical_line = "curve";
-  test_law(parameters, { "Jefferies-Been, curve", 1e-6, 4e-4, 1e3, 1e6, 0.7, 1, 0.1 });
 }
 
 

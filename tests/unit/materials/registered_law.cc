@@ -38,10 +38,6 @@ struct ModuliParameters
   {
     return { "Bulk modulus", bulk_modulus };
   }
-  std::vector<UsualRange> usual_ranges() const
-  {
-    return { { "Shear modulus", shear_modulus, 1e4, 1e12, unit_of_pressure } };
-  }
 };
 
 struct Moduli : LinearElastic
@@ -71,8 +67,6 @@ void run()
   const auto plane = make_material<2>(parameters);
   const auto solid = make_material<3>(parameters);
   out << '\n' << parameters.modulus_text("Soil") << '\n';
-  for (const UsualRange &range : parameters.chosen().usual_ranges())
-    out << range.entry << " from " << range.lowest << " to " << range.highest << '\n';
   out << 1e-6 * plane->shear_modulus() << ' ' << 1e-6 * solid->shear_modulus() << ' '
       << 1e-6 * solid->initial_bulk_modulus(0.) << '\n';
   prm.parse_input_from_string("subsection Moduli\n set Bulk modulus = 0\nend");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The viscous force on the nodes, for every basis, on one rank and on two, of water and of suspended soil that fill a
+// The viscous force on the nodes, for every basis, on one rank and on two, of water that fills a
 // part of the box with oblique edges: it is symmetric, takes energy, adds up to nothing with its moments, does not feel
 // rigid motion, dissipates mu V of unit shear, and no motion is slowed faster than largest_rate() says.
 
@@ -12,7 +12,6 @@
 #include <functional>
 #include <iostream>
 
-#include "../elastic_soil.h"
 #include "../expect.h"
 #include "../pattern.h"
 
@@ -38,29 +37,23 @@ struct Nodes
 {
   const BackgroundGrid<dim> &grid;
   const ViscousForce<dim> &force;
-  const PointSet<dim> &points;
-  const std::vector<double> coefficients;
+  const WaterPhase<dim> &water;
   NodalField<dim> masses, motion, forces;
 
-  Nodes(const BackgroundGrid<dim> &grid,
-        const ViscousForce<dim> &force,
-        const PointSet<dim> &points,
-        const std::vector<double> &coefficients,
-        const unsigned int mass_slot)
+  Nodes(const BackgroundGrid<dim> &grid, const ViscousForce<dim> &force, const WaterPhase<dim> &water)
       : grid(grid)
       , force(force)
-      , points(points)
-      , coefficients(coefficients)
+      , water(water)
       , masses(grid)
       , motion(grid)
       , forces(grid)
   {
     masses.clear();
-    for_each_point(points, [&](const auto &point) {
+    for_each_point(water.points(), [&](const auto &point) {
       masses.activate_cell(point.cell);
       for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
         masses[grid.nodes(point.cell)[i]][NodalField<dim>::mass] +=
-            point.properties[mass_slot] * shape(i, point.reference_location, grid.open_knots(point.cell));
+            point.properties[water.layout.mass] * shape(i, point.reference_location, grid.open_knots(point.cell));
     });
     masses.add_contributions();
   }
@@ -86,7 +79,7 @@ struct Nodes
   {
     motion.update_ghosts();
     forces.clear();
-    force.add(points, coefficients, motion, forces);
+    force.add(water, motion, forces);
     forces.add_contributions();
   }
 
@@ -190,37 +183,15 @@ void test(const std::string &basis, std::ostream &out)
   parameters.region          = "x + 0.7 * y < 0.5";
   parameters.points_per_cell = 3;
   parameters.viscosity       = 2.;
-  parameters.suspension.law  = "Krieger-Dougherty";
   WaterPhase<dim> water(1000., false, grid.triangulation(), grid.mapping());
   seed_water(water, parameters, {}, grid.triangulation(), grid.cell_size());
 
-  ElasticSoil<dim> soil(grid, parameters.region, 2, 0.6);
-  double water_volume = 0, part = 0;
+  double water_volume = 0;
   for_each_point(water.points(), [&](const auto &point) { water_volume += point.properties[water.layout.volume]; });
-  for_each_point(soil.points, [&](const auto &point) {
-    // Half of it bears a stress: some of that is at the contact pressure, some at half of it.
-    const double pressure = point.location[0] > 0.25 ? 0. : point.location[1] > 0.2 ? 100. : 50.;
-    for (unsigned int c = 0; c < 3; ++c)
-      point.properties[soil.layout.stress + c] = -pressure;
-    part += point.properties[soil.layout.volume] * (1. - pressure / 100.);
-  });
 
-  const ViscousForce<dim> force(grid, parameters);
-  const double of_grains =
-      2. * (std::pow(1. - 0.4 / 0.64, -1.6) - 0.6); // Krieger and Dougherty, less the water's share
+  const ViscousForce<dim> force(grid, parameters.viscosity);
   out << dim << "D " << basis << ": water";
-  const auto test_points = [&](const PointSet<dim> &points,
-                               const std::vector<double> &coefficients,
-                               const unsigned int mass_slot,
-                               const double all) {
-    examine(Nodes<dim>(grid, force, points, coefficients, mass_slot),
-            all,
-            force.largest_rate(points, coefficients, mass_slot),
-            out);
-  };
-  test_points(water.points(), force.coefficients(water), water.layout.mass, 2. * sum(water_volume));
-  out << "; soil";
-  test_points(soil.points, force.coefficients(soil), soil.layout.mass, of_grains * sum(part));
+  examine(Nodes<dim>(grid, force, water), parameters.viscosity * sum(water_volume), force.largest_rate(water), out);
   out << std::endl;
 }
 

@@ -26,10 +26,10 @@ using namespace scree;
 template <int dim>
 struct Block : SoilScene<dim>
 {
-  Block(const std::string &region, const double jitter)
+  explicit Block(const std::string &region)
       : SoilScene<dim>(-0.3, 0.9)
   {
-    SoilBody<dim> &soil = this->add_wet_soil(region, 0.5, 3, jitter);
+    SoilBody<dim> &soil = this->add_wet_soil(region, 0.5, 3);
     const auto &layout  = this->water.back().layout;
     for_each_point(soil.points, [&](const auto &point) {
       double *properties                     = point.properties;
@@ -62,7 +62,7 @@ Point<dim> place(const double x, const double y)
 template <int dim>
 void test_places(std::ostream &out)
 {
-  const Block<dim> block("x < 0.5 && y < 0.3", 0.2);
+  const Block<dim> block("x < 0.5 && y < 0.3");
   const std::vector<Point<dim>> places{ place<dim>(0.123, 0.1), place<dim>(0.2, -0.3), place<dim>(-0.3, -0.3),
                                         place<dim>(0.1, 0.3),   place<dim>(0.7, 0.1),  place<dim>(0.1, 0.4) };
   const PlaceValues<dim> values(block.grid, places);
@@ -90,7 +90,7 @@ void test_places(std::ostream &out)
 template <int dim>
 void test_columns(std::ostream &out)
 {
-  const Block<dim> block("x < 0.5 && " + std::string(dim == 2 ? "y" : "z") + " < 0.3", 0.);
+  const Block<dim> block("x < 0.5 && " + std::string(dim == 2 ? "y" : "z") + " < 0.3");
   std::vector<std::vector<double>> places{ { 0.123 }, { -0.3 }, { 0.8 } };
   if (dim == 3)
     for (auto &one : places)
@@ -118,7 +118,7 @@ void test_columns(std::ostream &out)
 /// A wedge from 0.6 m at x = -0.3 m to nothing at x = 0.9 m: thickness, height and front follow its slope.
 void test_wedge(std::ostream &out)
 {
-  const Block<2> block("y < -0.3 + 0.5 * (0.9 - x)", 0.);
+  const Block<2> block("y < -0.3 + 0.5 * (0.9 - x)");
   const auto lumps  = lumps_of(block.bodies);
   const auto column = ground_columns(lumps, { { 0.3 } }, block.grid)[0];
   expect(column.thickness, 0.3, 0.005, "thickness");
@@ -132,7 +132,7 @@ void test_wedge(std::ostream &out)
 template <int dim>
 void test_ids(std::ostream &out)
 {
-  Block<dim> block("x < 0.5 && y < 0.3", 0.);
+  Block<dim> block("x < 0.5 && y < 0.3");
   auto &points     = block.bodies.back().points;
   const auto slot  = block.water.back().layout.pressure; // keeps x at the start
   const auto check = [&]() {

@@ -27,17 +27,15 @@ struct SoilScene
   /// A body without pores.
   void add_soil(const std::string &region)
   {
-    add_body(region, 1000., 0, 2, 0.);
+    add_body(region, 1000., 0, 2);
   }
 
   /// A body whose points carry water that is `part` of their volume.
-  scree::SoilBody<dim> &add_wet_soil(const std::string &region,
-                                     const double part,
-                                     const unsigned int points_per_cell = 2,
-                                     const double jitter                = 0.)
+  scree::SoilBody<dim> &
+  add_wet_soil(const std::string &region, const double part, const unsigned int points_per_cell = 2)
   {
     const unsigned int n_water = scree::WaterLayout<dim>(0, false).n_properties();
-    auto &soil                 = add_body(region, 2000., n_water, points_per_cell, jitter);
+    auto &soil                 = add_body(region, 2000., n_water, points_per_cell);
     water.emplace_back(1000., false, soil);
     const auto &layout = water.back().layout;
     for_each_point(soil.points, [&](const auto &point) {
@@ -59,8 +57,7 @@ private:
   scree::SoilBody<dim> &add_body(const std::string &region,
                                  const double grain_density,
                                  const unsigned int n_water,
-                                 const unsigned int points_per_cell,
-                                 const double jitter)
+                                 const unsigned int points_per_cell)
   {
     scree::MaterialParameters material;
     material.law = "linear elastic";
@@ -74,7 +71,6 @@ private:
     scree::SeedingParameters seeding;
     seeding.region          = region;
     seeding.points_per_cell = points_per_cell;
-    seeding.jitter          = jitter;
     scree::seed(bodies.back(), seeding, grid.triangulation(), grid.cell_size());
     return bodies.back();
   }

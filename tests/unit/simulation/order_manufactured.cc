@@ -45,7 +45,7 @@ void run()
   const double time = 0.6;
   double orders[2]  = { 0, 0 };
   for (const bool more_points : { false, true })
-    for (const std::string method : { "FLIP", "APIC", "TPIC" })
+    for (const std::string method : { "FLIP", "TPIC" })
       {
         std::vector<double> velocity_errors, stress_errors;
         for (const unsigned int n : { 8, 16, 32 })
@@ -74,8 +74,8 @@ void run()
             stress_errors.push_back(stresses.norm());
           }
         const std::string name = method + (more_points ? ", 4, 8, 16 points" : ", 4 points");
-        orders[more_points] += print_orders(name + ", velocity", velocity_errors) / 6;
-        orders[more_points] += print_orders(name + ", stress", stress_errors) / 6;
+        orders[more_points] += print_orders(name + ", velocity", velocity_errors) / 4;
+        orders[more_points] += print_orders(name + ", stress", stress_errors) / 4;
       }
   AssertThrow(orders[1] > 1.5, dealii::ExcMessage("The error must fall with the cell if the points grow denser, too."));
 }

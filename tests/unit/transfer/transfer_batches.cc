@@ -57,18 +57,17 @@ Reference<dim> moved(const CellPoints<dim> &cell,
   const OpenKnots open = grid.open_knots(cell.cell);
   const CellBasis<dim, n> basis(x, open);
   Tensor<1, dim> velocity, change;
-  Tensor<2, dim> gradient, moment;
+  Tensor<2, dim> gradient;
   for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
     {
       const double *node    = field[grid.nodes(cell.cell)[i]];
       unsigned int place[3] = { i % n, i / n % n, i / n / n };
       double value          = 1.;
-      Tensor<1, dim> slope, offset;
+      Tensor<1, dim> slope;
       for (unsigned int a = 0; a < dim; ++a)
         {
           value *= basis.value[a][place[a]];
-          offset[a] = grid.cell_size() * (CellBasis<dim, n>::node_positions(open, a)[place[a]] - x[a]);
-          slope[a]  = 1. / grid.cell_size();
+          slope[a] = 1. / grid.cell_size();
           for (unsigned int b = 0; b < dim; ++b)
             slope[a] *= a == b ? basis.derivative[b][place[b]] : basis.value[b][place[b]];
         }
@@ -78,7 +77,6 @@ Reference<dim> moved(const CellPoints<dim> &cell,
           velocity[c] += value * v;
           change[c] += value * node[NodalField<dim>::velocity_change + c];
           gradient[c] += v * slope;
-          moment[c] += value * v * offset;
         }
     }
   const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
@@ -89,7 +87,7 @@ Reference<dim> moved(const CellPoints<dim> &cell,
   const double keep = std::exp(-pic_rate * time_step);
   for (unsigned int c = 0; c < dim; ++c)
     point.properties[c] = keeps ? keep * (old[c] + change[c]) + (1 - keep) * velocity[c] : velocity[c];
-  Tensor<2, dim> affine = method == "APIC" ? moment : gradient;
+  Tensor<2, dim> affine = gradient;
   const bool is_loose   = density * point.properties[layout.volume] > 1.2 * point.properties[layout.mass];
   if (method == "AFLIP" || (method == "TPIC" && is_loose))
     {
@@ -97,7 +95,7 @@ Reference<dim> moved(const CellPoints<dim> &cell,
       if (carried.norm() < gradient.norm())
         affine = carried;
     }
-  if (method == "APIC" || method == "TPIC" || method == "AFLIP")
+  if (method == "TPIC" || method == "AFLIP")
     for (unsigned int c = 0; c < dim * dim; ++c)
       point.properties[layout.affine + c] = affine[c / dim][c % dim];
   return point;
@@ -325,7 +323,7 @@ void test_all(RandomNumbers &random)
     {
       Visited visited;
       double largest = 0;
-      for (const std::string method : { "FLIP", "APIC", "TPIC", "AFLIP" })
+      for (const std::string method : { "FLIP", "TPIC", "AFLIP" })
         for (const std::string basis : { "spline", "linear" })
           for (const std::string f_bar : { "none", "standard", "modified" })
             if (basis == "spline" || f_bar == "modified")

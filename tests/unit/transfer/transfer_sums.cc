@@ -58,7 +58,7 @@ void test(const std::string &basis, const std::string &method, std::ostream &out
     for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
       properties[body.layout.stress + c] = random.uniform(-1e4, 1e4);
     for (unsigned int c = 0; affine && c < dim * dim; ++c)
-      properties[body.layout.affine + c] = random.uniform(-1, 1) * (method == "APIC" ? 1e-2 : 1.);
+      properties[body.layout.affine + c] = random.uniform(-1, 1);
     points_mass += properties[body.layout.mass];
     for (unsigned int a = 0; a < dim; ++a)
       {
@@ -106,7 +106,7 @@ void run()
   std::ostream silent(nullptr);
   std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
   for (const std::string basis : { "spline", "linear" })
-    for (const std::string method : { "FLIP", "APIC", "TPIC", "AFLIP" })
+    for (const std::string method : { "FLIP", "TPIC", "AFLIP" })
       {
         test<2>(basis, method, out);
         test<3>(basis, method, out);

@@ -47,7 +47,7 @@ namespace scree
     /// Sets velocity() to the mean of the step, s, that comes.
     void begin_step(const double time, const double time_step);
 
-    /// Moves the front by the step that begin_step() has told; returns how many layers have entered with it.
+    /// Moves the front by the step of begin_step(); returns how many layers have entered with it.
     unsigned int end_step();
 
     /// How far the layer that entered last but `back` is beyond its place, m: along the normal.

@@ -57,7 +57,7 @@ namespace scree
       return body == "Water";
     }
 
-    /// Whether the file tells m^3/s (2D: m^2/s) in place of m/s.
+    /// Whether the file has m^3/s (2D: m^2/s) in place of m/s.
     bool tells_discharge() const
     {
       return !hydrograph.empty() && hydrograph_of == "discharge";

@@ -20,17 +20,10 @@ namespace scree
   {
     const DiscreteLevelSet<dim> *samples;      ///< the surface, sampled on the mesh
     double friction_coefficient;               ///< infinite: soil that presses does not slip
-    const Raster *friction_map      = nullptr; ///< coefficients in place of it; null: the same everywhere
     bool no_slip                    = false;   ///< whether free water does not slip
     const Obstacle<dim> *obstacle   = nullptr; ///< whose surface it is; null: the bed
     dealii::Tensor<1, dim> velocity = {};      ///< in the current step, m/s
     double turbulent_friction       = 0;       ///< xi of TurbulentFriction, m/s^2; 0: none
-
-    /// Coefficient of friction at a place, m.
-    double friction_at(const dealii::Point<dim> &x) const
-    {
-      return friction_map ? friction_map->value_at(x[0], x[1]) : friction_coefficient;
-    }
   };
 
   /// Contact of points of dry soil with rigid surfaces, the bed and obstacles, by impulses on the nodes between their

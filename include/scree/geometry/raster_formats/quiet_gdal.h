@@ -6,7 +6,7 @@
 
 namespace scree
 {
-  /// Keeps GDAL from writing on the screen what a message tells in any case, as long as it lives.
+  /// Keeps GDAL from writing on the screen what a message contains in any case, as long as it lives.
   class QuietGdal
   {
   public:

@@ -8,7 +8,7 @@
 
 namespace scree
 {
-  /// Stands for missing values in files, as most programs of maps know it.
+  /// Stands for missing values in files, as in most programs of maps.
   constexpr double missing_value = -9999.;
 
   /// The content of an ESRI ASCII grid.

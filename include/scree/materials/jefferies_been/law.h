@@ -15,25 +15,21 @@ namespace scree
   /// (@source{been1991}).
   struct JefferiesBeenParameters
   {
-    double shear_modulus             = 80e6;   ///< G at the reference pressure, Pa
-    double poisson_ratio             = 0.2;    ///< of the moduli at q = 0
-    double modulus_exponent          = 0.5;    ///< n: moduli grow with (p/p_ref)^n
-    double reference_pressure        = 100e3;  ///< p_ref, Pa
-    std::string critical_line        = "line"; ///< line in ln p, or curve
-    double critical_void_ratio       = 0.816;  ///< Gamma, at 1 kPa
-    double compression_index         = 0.015;  ///< lambda, in ln p
-    double curve_void_ratio          = 0.934;  ///< a
-    double curve_coefficient         = 0.019;  ///< b
-    double curve_exponent            = 0.7;    ///< c
-    double critical_stress_ratio     = 1.188;  ///< M_tc, q/p at critical state in triaxial compression
-    double volumetric_coupling       = 0.05;   ///< N
-    double state_dilatancy           = 4.3;    ///< chi_tc
-    double hardening_modulus         = 77.7;   ///< H_0
-    double hardening_slope           = 633;    ///< H_psi
-    double initial_void_ratio        = 0.65;   ///< e_0
-    double initial_overconsolidation = 1;      ///< image pressure over that of the yield surface through the stress
-    double minimum_pressure          = 1;      ///< Pa; no stress below it
-    double substep_strain            = 5e-4;   ///< largest component of dF - I in one return map
+    double shear_modulus             = 80e6;  ///< G at the reference pressure, Pa
+    double poisson_ratio             = 0.2;   ///< of the moduli at q = 0
+    double modulus_exponent          = 0.5;   ///< n: moduli grow with (p/p_ref)^n
+    double reference_pressure        = 100e3; ///< p_ref, Pa
+    double critical_void_ratio       = 0.816; ///< Gamma, at 1 kPa
+    double compression_index         = 0.015; ///< lambda, in ln p
+    double critical_stress_ratio     = 1.188; ///< M_tc, q/p at critical state in triaxial compression
+    double volumetric_coupling       = 0.05;  ///< N
+    double state_dilatancy           = 4.3;   ///< chi_tc
+    double hardening_modulus         = 77.7;  ///< H_0
+    double hardening_slope           = 633;   ///< H_psi
+    double initial_void_ratio        = 0.65;  ///< e_0
+    double initial_overconsolidation = 1;     ///< image pressure over that of the yield surface through the stress
+    double minimum_pressure          = 1;     ///< Pa; no stress below it
+    double substep_strain            = 5e-4;  ///< largest component of dF - I in one return map
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -52,9 +48,6 @@ namespace scree
 
     /// See LawEntries. Divides M; dilatancy and hardening are as before.
     void divide_strength(const double factor);
-
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
 
   private:
     void add_line(dealii::ParameterHandler &prm);

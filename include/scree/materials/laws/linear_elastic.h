@@ -27,9 +27,6 @@ namespace scree
 
     /// See LawEntries.
     LawEntry modulus() const;
-
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
   };
 
   /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (@source{hencky1928};
@@ -43,7 +40,7 @@ namespace scree
     /// Computes bulk and shear modulus, Pa, from E and nu.
     explicit LinearElastic(const LinearElasticParameters &parameters);
 
-    /// Largest strain of one return map: no limit, elasticity knows no path.
+    /// Largest strain of one return map: no limit, as elasticity has no path.
     double substep_strain() const;
 
     /// Pa.
@@ -98,7 +95,7 @@ namespace scree
     /// J per m^3 of reference volume.
     double energy(const PrincipalValues &strain) const;
 
-    /// Zero: the law knows no pores.
+    /// Zero: the law has no pores.
     double initial_porosity() const;
 
     /// From trial to returned `strain` and internal variables, at J = `volume_ratio`; sets `stress`, counts in

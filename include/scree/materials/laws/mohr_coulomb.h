@@ -41,9 +41,6 @@ namespace scree
     /// See LawEntries. Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
     void divide_strength(const double factor);
 
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
-
   private:
     void check_softening(const std::string &subsection) const;
   };
@@ -79,7 +76,7 @@ namespace scree
     /// J per m^3 of reference volume; a gap stores none.
     double energy(const PrincipalValues &strain) const;
 
-    /// Zero: the law knows no pores.
+    /// Zero: the law has no pores.
     double initial_porosity() const;
 
     /// tau/sigma on a plane of shear, sin(phi) cos(psi)/(1 - sin(phi) sin(psi)); infinite with cohesion.

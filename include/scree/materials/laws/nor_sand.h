@@ -3,8 +3,6 @@
 #ifndef scree_materials_laws_nor_sand_h
 #define scree_materials_laws_nor_sand_h
 
-#include <scree/materials/friction_angle.h>
-#include <scree/materials/inertial_friction.h>
 #include <scree/materials/law.h>
 #include <scree/materials/law_entries.h>
 
@@ -31,14 +29,8 @@ namespace scree
     double initial_overconsolidation      = 1;      ///< the yield surface passes through the initial stress times this
     double minimum_pressure               = 1;      ///< Pa; no stress below it
     double substep_strain                 = 1e-3;   ///< largest component of dF - I in one return map
-    double critical_friction_angle        = 0;      ///< degrees; gives M unless it is 0
-    std::string angle_kind                = "triaxial"; ///< what that angle was measured in
-    InertialFrictionParameters inertial_friction;       ///< of grains that flow
 
-    /// M, from the critical friction angle if there is one.
-    double critical_ratio() const;
-
-    /// Sine of the critical friction angle: of the entry, or of triaxial compression at M.
+    /// Sine of the friction angle at critical state in triaxial compression.
     double sine() const;
 
     /// Declares the entries in the subsection that is open.
@@ -55,9 +47,6 @@ namespace scree
 
     /// See LawEntries. Divides M, from whichever entry; dilatancy is as before, so that the peak falls with M.
     void divide_strength(const double factor);
-
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
   };
 
 
@@ -75,7 +64,7 @@ namespace scree
   /// isotropic compression hardens.
   ///
   /// No tension: a point whose trial or returned P is below the minimum pressure has no stress. Its b_e becomes
-  /// isotropic and keeps eps_v: the gap, to be closed before it bears again; grains apart do not dilate. Pi becomes
+  /// isotropic and keeps eps_v: the gap, to be closed before stress returns; grains apart do not dilate. Pi becomes
   /// Pi* of the minimum pressure.
   class NorSand
   {
@@ -183,10 +172,8 @@ namespace scree
     /// (zeta q - P eta)/P of a state, for tests; negative inside.
     double yield(const PrincipalValues &strain, const double image_pressure) const;
 
-    const InertialFriction inertial_friction; ///< friction that grows with the rate of shear
-
   private:
-    /// zeta. The data know no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
+    /// zeta. The data show no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
     static constexpr double lode_factor = 1;
 
     /// Invariants after the return.

@@ -7,7 +7,7 @@
 
 namespace scree
 {
-  /// Soil that does not move: a filter, a rockfill dam, an obstacle. It bears any stress, which is not computed and
+  /// Soil that does not move: a filter, a rockfill dam, an obstacle. It carries any stress, which is not computed and
   /// reads 0; no wave runs in it. Its points are not updated, so that update() must not be called.
   template <int dim>
   class Rigid : public Material<dim>

@@ -44,9 +44,6 @@ namespace scree
 
     /// See LawEntries. Divides the strength of the law, not that which points have from their place, and the cut-off.
     void divide_strength(const double factor);
-
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
   };
 
 
@@ -81,9 +78,6 @@ namespace scree
 
     /// See TrescaParameters.
     void divide_strength(const double factor);
-
-    /// See LawEntries.
-    std::vector<UsualRange> usual_ranges() const;
   };
 
 

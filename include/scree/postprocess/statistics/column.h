@@ -86,7 +86,7 @@ namespace scree
     {
     }
 
-    /// Columns of scenes that `exists` tells.
+    /// Columns of scenes for which `exists` is true.
     template <typename Exists, typename First, typename... Others>
     RegisterColumns(const ColumnTopic topic, const Exists &exists, const First &first, const Others &...others)
     {

@@ -51,7 +51,6 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &thickness &first_thickness &mass &largest_thickness &largest_speed &largest_pressure &arrival_time;
-      archive &first_at_rest &scour_depth;
     }
 
   private:
@@ -88,9 +87,6 @@ namespace scree
     Map largest_speed;              // of a column's momentum over its mass, m/s
     Map largest_pressure;           // momentum flux over thickness: bulk density times square of that speed, Pa
     Map arrival_time;               // s; negative: not yet
-    // With the points' starts only: volume of what has not left its start, by the column of the start, m^3 (2D: m^2),
-    // and thickness of what has left it, m.
-    Map first_at_rest, scour_depth;
   };
 } // namespace scree
 

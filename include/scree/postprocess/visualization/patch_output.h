@@ -26,7 +26,7 @@ namespace scree
     virtual std::string record(const std::vector<std::string> &pieces) const = 0;
   };
 
-  /// Patches with their names, as deal.II's writers want them: points are patches of dimension 0.
+  /// Patches with their names, as deal.II's writers take them: points are patches of dimension 0.
   template <int patch_dim, int dim>
   class PatchOutput : public Picture, public dealii::DataOutInterface<patch_dim, dim>
   {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Rigid ground of a run: level sets of its bed and obstacles, from their expressions, profiles, rasters and closed surfaces."""
+"""Rigid ground of a run: level sets of its bed and obstacles, from their expressions, profiles and rasters."""
 
 import pathlib
 import re
@@ -48,25 +48,6 @@ def _raster(file, places, origin):
     return np.where(np.isnan(distance), np.nanmax(places[2]) - np.nanmin(places[2]) + 1., distance)
 
 
-def _closed_surface(file, places):
-    """Signed distance from a closed STL surface."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # pylint: disable=import-outside-toplevel
-    from vtkmodules.vtkCommonCore import vtkDoubleArray  # pylint: disable=import-outside-toplevel
-    from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance  # pylint: disable=import-outside-toplevel
-    from vtkmodules.vtkIOGeometry import vtkSTLReader  # pylint: disable=import-outside-toplevel
-
-    reader = vtkSTLReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    distance = vtkImplicitPolyDataDistance()
-    distance.SetInput(reader.GetOutput())
-    shape = np.broadcast_shapes(*(np.shape(place) for place in places))
-    asked = np.ascontiguousarray(np.stack([np.broadcast_to(place, shape).ravel() for place in places], axis=1), dtype=float)
-    found = vtkDoubleArray()
-    distance.FunctionValue(numpy_to_vtk(asked), found)
-    return vtk_to_numpy(found).reshape(shape).copy()
-
-
 def displacement(run, subsection, time, dim):
     """How far an obstacle has moved, m, from the statistics of the run."""
     file = pathlib.Path(run) / "statistics"
@@ -83,8 +64,7 @@ def _report(subsection, error, reported=set()):  # pylint: disable=dangerous-def
 
 def _level_set(prm, entries, subsection, here, origin):
     """The level set that an expression or a file gives."""
-    for ending, read in (("Profile", lambda file: _profile(file, here)), ("Raster", lambda file: _raster(file, here, origin)),
-                         ("Closed surface", lambda file: _closed_surface(file, here))):
+    for ending, read in (("Profile", lambda file: _profile(file, here)), ("Raster", lambda file: _raster(file, here, origin))):
         name = entries.get(f"{subsection}/{ending}", "")
         if name:
             return read(pathlib.Path(prm).parent / name)

@@ -33,7 +33,6 @@ METHODS = {
     "PIC rate 0": {"Transfer/PIC rate": 0},
     "PIC rate 5": {"Transfer/PIC rate": 5},
     "PIC rate 20": {"Transfer/PIC rate": 20},
-    "APIC": {"Transfer/Method": "APIC"},
     "TPIC": {"Transfer/Method": "TPIC"},
     "Courant number 0.3": {"Time step/Courant number": 0.3},
     "Courant number 0.9": {"Time step/Courant number": 0.9},

@@ -34,7 +34,6 @@ METHODS = {
     "3 x 3 points": points(3),
     "6 x 6 points": points(6),
     "FLIP": {"Transfer/Method": "FLIP"},
-    "APIC": {"Transfer/Method": "APIC"},
     "Courant number 0.2": {"Time step/Courant number": 0.2},
     "Courant number 0.9": {"Time step/Courant number": 0.9},
 }
@@ -85,9 +84,9 @@ def verdict(rows):
               at_finest(rows, "6 x 6 points") > best, quick=False),
         Claim(f"F-bar is not needed and has little influence: {ratio(rows, 'modified F-bar'):.2g} times the error with the modified one.",
               0.8 < ratio(rows, "modified F-bar") < 1.4, quick=False),
-        Claim(f"The transfer has little influence (APIC {ratio(rows, 'APIC'):.2g}, FLIP {ratio(rows, 'FLIP'):.2g} times the error of AFLIP, the default), nor has the time step: Courant number 0.2 "
+        Claim(f"The transfer has little influence (FLIP {ratio(rows, 'FLIP'):.2g} times the error of AFLIP, the default), nor has the time step: Courant number 0.2 "
               f"{ratio(rows, 'Courant number 0.2'):.2g}, 0.9 {ratio(rows, 'Courant number 0.9'):.2g} times.",
-              0.8 < ratio(rows, "APIC") < 1.1 and 0.8 < ratio(rows, "FLIP") < 1.4 and ratio(rows, "Courant number 0.9") < 1.1, quick=False),
+              0.8 < ratio(rows, "FLIP") < 1.4 and ratio(rows, "Courant number 0.9") < 1.1, quick=False),
         Claim(f"Core-seconds for the same error: the order is only {order(rows):.2g}, so that these numbers are approximate.", costs(rows)["3 x 3 points"] > 1.1, quick=False),
     ]
 

@@ -23,7 +23,6 @@ METHODS = {
     "linear": {"Mesh/Basis": "linear"},
     "PIC rate 0": {"Transfer/PIC rate": 0},
     "PIC rate 5": {"Transfer/PIC rate": 5},
-    "APIC": {"Transfer/Method": "APIC"},
     "TPIC": {"Transfer/Method": "TPIC"},
     "2 x 2 points": {"Soil/Points per cell": 2},
     "3 x 3 points": {"Soil/Points per cell": 3},
@@ -82,7 +81,7 @@ def verdict(rows):
               f"{ratio(rows, '6 x 6 points'):.2g} times, for {ratio(rows, '6 x 6 points', 'core-seconds'):.2g} times the time. Use the default 4 x 4.",
               ratio(rows, "3 x 3 points") > 1.2 and few[-1] > few[0] and ratio(rows, "6 x 6 points") > 0.7, quick=False),
         Claim(f"Of the transfers TPIC is best on fine meshes, {at_finest(rows, 'TPIC') / fine:.2g} times the defaults' error at h = 1/64 m "
-              f"(APIC {at_finest(rows, 'APIC') / fine:.2g}, FLIP with a PIC rate of 0 and 5 1/s {at_finest(rows, 'PIC rate 0') / fine:.2g} and {at_finest(rows, 'PIC rate 5') / fine:.2g}).",
+              f"(FLIP with a PIC rate of 0 and 5 1/s {at_finest(rows, 'PIC rate 0') / fine:.2g} and {at_finest(rows, 'PIC rate 5') / fine:.2g}).",
               at_finest(rows, "TPIC") < 0.9 * fine, quick=False),
         Claim(f"Courant number 0.9 is as good as 0.6 down to h = 1/32 m and diverges on the finest mesh (error there {at_finest(rows, 'Courant number 0.9'):.2g}; "
               f"mean over the meshes {large:.2g} times the error).", at_finest(rows, "Courant number 0.9") > 3 * fine, quick=False),

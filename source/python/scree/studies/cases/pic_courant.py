@@ -12,7 +12,7 @@ from scree.studies.charts import StabilityMap
 from scree.studies.study import Claim, Study, Variant, axis, product, transfer
 
 TRANSFERS = {**{f"FLIP, {rate}/s": {"Transfer/Method": "FLIP", "Transfer/PIC rate": rate} for rate in (0, 1, 5, 20, 100)},
-             **{method: transfer(method) for method in ("APIC", "TPIC")}}
+             "TPIC": transfer("TPIC")}
 
 DEFAULT = "FLIP, 1/s"  # of the program, not of the cases, which have 5/s
 SCATTER = "oscillation of p'"

@@ -13,7 +13,7 @@ Plan, fixed before the runs:
 - Angle: 31 degrees of kind "direct shear or repose", which is 36.9 degrees of Mohr-Coulomb; "triaxial" for comparison.
 - Friction: that of the law alone, and with mu(I) of textbook values: I_0 = 0.3, increase 0.26, d = 0.011 L0.
 - Base fixed, L0 = 1 m, Young's modulus 1e6 Pa per metre of height, time 8 sqrt(H0/g).
-- Transfers: FLIP with a PIC rate of 1/s, AFLIP, TPIC. 3 x 3 points per cell; 2 x 2, 4 x 4 and jitters of 0.1, 0.2 and 0.3 of the spacing for FLIP.
+- Transfers: FLIP with a PIC rate of 1/s, AFLIP, TPIC. 3 x 3 points per cell; 2 x 2 and 4 x 4 for FLIP.
 - Cells per L0: 12, 16, 24, 32, 48 at a = 1; 12, 16, 24, 32 at a = 0.6, 1.7, 3, 4.
 - Quantities: front where the deposit is 0.02 L0 deep (over a width of 0.05 L0), as an experiment sees it; fronts of 90 and 99 % of the mass;
   height at the axis (mean depth from 0 to 0.1 L0).
@@ -62,14 +62,14 @@ def law(source, quantity, aspect):
     return math.nan
 
 
-def variant(aspect, cells, transfer="FLIP", friction=WITH, kind=REPOSE, points=3, jitter=0., grains=SAND):
-    labels = {"grains": grains, "a": float(aspect), "cells": cells, "transfer": transfer, "friction": friction, "angle": kind, "points": points, "jitter": jitter}
+def variant(aspect, cells, transfer="FLIP", friction=WITH, kind=REPOSE, points=3, grains=SAND):
+    labels = {"grains": grains, "a": float(aspect), "cells": cells, "transfer": transfer, "friction": friction, "angle": kind, "points": points}
     reach = 1 + 1.7 * law("Lajeunesse", "run-out", aspect)  # the far wall must not be touched
     time = 8 * math.sqrt(aspect / GRAVITY)
     return Variant(labels, {
         **TRANSFERS[transfer], "Mesh/Cell size": f"{1 / cells:.12g}", "Boundaries/Bottom": "fixed",
         "Mesh/Upper corner": ", ".join(f"{math.ceil(length * cells - 1e-9) / cells:.12g}" for length in (reach, aspect + 0.2)),
-        "Soil/Region": f"x < 1 && y < {aspect:g}", "Soil/Points per cell": points, "Soil/Jitter": jitter,
+        "Soil/Region": f"x < 1 && y < {aspect:g}", "Soil/Points per cell": points,
         "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * aspect:g}", "Soil/Mohr-Coulomb/Friction angle": GRAINS[grains][0], "Soil/Mohr-Coulomb/Friction angle kind": kind,
         "Soil/Mohr-Coulomb/Grain diameter": DIAMETER if friction == WITH else 0, "End time": f"{time:.4f}", "Output/Interval": f"{time / 8:.4f}",
         "Output/Graphics": "points"})
@@ -80,8 +80,7 @@ def variants():
     found += [variant(aspect, cells, friction=friction) for aspect in ASPECTS if aspect != 1 for friction in (WITH, WITHOUT) for cells in SHORT_SIZES]
     found += [variant(1, cells, kind=TRIAXIAL, friction=friction) for friction in (WITH, WITHOUT) for cells in SHORT_SIZES]
     found += [variant(1, cells, points=points) for points in (2, 4) for cells in SHORT_SIZES]
-    found += [variant(aspect, cells, grains=BEADS) for aspect in (0.6, 1, 1.7, 3) for cells in SHORT_SIZES]
-    return found + [variant(1, cells, jitter=jitter) for jitter in (0.1, 0.2, 0.3) for cells in (24, 32)]
+    return found + [variant(aspect, cells, grains=BEADS) for aspect in (0.6, 1, 1.7, 3) for cells in SHORT_SIZES]
 
 
 def volume_below(coordinate, volume, dim):
@@ -113,10 +112,10 @@ def measure(run):
 
 
 def curves(rows):
-    """{(a, transfer, friction, angle, points, jitter, grains): rows from the largest cells to the smallest}."""
+    """{(a, transfer, friction, angle, points, grains): rows from the largest cells to the smallest}."""
     found = {}
     for row in sorted(rows, key=lambda row: row["cells"]):
-        found.setdefault(tuple(row[name] for name in ("a", "transfer", "friction", "angle", "points", "jitter", "grains")), []).append({**row, "h": 1 / row["cells"]})
+        found.setdefault(tuple(row[name] for name in ("a", "transfer", "friction", "angle", "points", "grains")), []).append({**row, "h": 1 / row["cells"]})
     return found
 
 
@@ -141,7 +140,7 @@ def compared_with_law(group, name):
 def table(rows):
     groups, found = curves(rows), [["a", "grains", "run-out, h = 0", "law", "deviation", "height, h = 0", "law", "deviation"]]
     for grains, aspect in ((grains, aspect) for grains in GRAINS for aspect in ASPECTS):
-        group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0., grains), [])
+        group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, grains), [])
         if len(group) > 2:
             texts = [text for name in (FRONT, HEIGHT) for limit, exact, deviation in [compared_with_law(group, name)]
                      for text in (number(limit), *((f"{exact:.3f}", f"{100 * deviation:+.1f} %") if (grains, name) != (BEADS, HEIGHT) else ("-", "-")))]
@@ -169,7 +168,7 @@ def verdict(rows):
     groups = curves(rows)
 
     def of(a=1., transfer="FLIP", friction=WITH, angle=REPOSE, points=3, grains=SAND):
-        return groups[float(a), transfer, friction, angle, points, 0., grains]
+        return groups[float(a), transfer, friction, angle, points, grains]
 
     beads = [compared_with_law(of(a=aspect, grains=BEADS), FRONT)[2] for aspect in (0.6, 1, 1.7, 3)]
     claims = [Claim(f"Beads of 22 degrees: the run-out at h = 0 deviates from the law of Lajeunesse et al. by {100 * min(beads):+.0f} to {100 * max(beads):+.0f} %. Bound: 10 %.",
@@ -194,9 +193,8 @@ def verdict(rows):
                         f"{triaxial:.2f}; triaxial and without mu(I) {Limit(of(friction=WITHOUT, angle=TRIAXIAL), FRONT).value - 1:.2f}. Law: {law('Lube', 'run-out', 1):.2f}.",
                         constant > 1.05 * law("Lube", "run-out", 1) and triaxial > 1.05 * law("Lube", "run-out", 1), quick=False))
     at_32 = {points: next(row for row in of(points=points) if row["cells"] == 32) for points in (2, 3, 4)}
-    jitter = [row[TIP] for row in rows if row["jitter"] > 0 and row["cells"] == 32]
     claims.append(Claim("Points, 32 cells: the front of 99 % is at " + ", ".join(f"{row[TIP]:.3f} ({points} x {points})" for points, row in at_32.items()) +
-                        f" L0; with jitter {min(jitter):.3f} to {max(jitter):.3f}.", abs(at_32[3][TIP] / at_32[4][TIP] - 1) < 0.02, quick=False))
+                        " L0.", abs(at_32[3][TIP] / at_32[4][TIP] - 1) < 0.02, quick=False))
     claims.append(rest(rows))
     return claims
 
@@ -207,7 +205,7 @@ def draw(figure, rows):
     shown = {"FLIP, mu(I)": ("FLIP", WITH, "C0-"), "TPIC, mu(I)": ("TPIC", WITH, "C1-"), "AFLIP, mu(I)": ("AFLIP", WITH, "C2-"),
              "FLIP, constant": ("FLIP", WITHOUT, "C0--"), "TPIC, constant": ("TPIC", WITHOUT, "C1--")}
     for label, (transfer, friction, style) in shown.items():
-        group = groups.get((1., transfer, friction, REPOSE, 3, 0., SAND), [])
+        group = groups.get((1., transfer, friction, REPOSE, 3, SAND), [])
         left.plot([row["cells"] for row in group], [row[TIP] for row in group], style, marker="o", markersize=4, label=label)
     left.set(xlabel="cells per L0 (a = 1)", ylabel="front of 99 % of the mass over L0")
     name_lines(left)
@@ -215,7 +213,7 @@ def draw(figure, rows):
     for quantity, source, color, name in ((FRONT, "run-out", "C0", "run-out"), (HEIGHT, "height", "C1", "height")):
         right.plot(aspects, [law("Lube", source, aspect) for aspect in aspects], color=color, label=f"{name},\nLube et al.")
         for aspect in ASPECTS:
-            group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, 0., SAND), [])
+            group = groups.get((float(aspect), "FLIP", WITH, REPOSE, 3, SAND), [])
             if len(group) > 2:
                 limit = compared_with_law(group, quantity)[0]
                 right.errorbar(aspect, limit.value, limit.uncertainty, color=color, marker="o", markersize=4, capsize=3)

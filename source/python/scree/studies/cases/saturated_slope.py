@@ -31,7 +31,6 @@ METHODS = {
     "FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5},
     "FLIP, PIC rate 20": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 20},
     "FLIP, 3 x 3 points": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5, **points(3)},
-    "APIC": {"Transfer/Method": "APIC"},
     "tolerance 1e-3": {"Water/Pressure/Relative tolerance": 1e-3},
     "Courant number 0.3": {"Time step/Courant number": 0.3},
     "Courant number 0.9": {"Time step/Courant number": 0.9},
