@@ -84,6 +84,24 @@ namespace scree
     }
 
 
+    /// Cohesive soil that opens without tension in water, which then sucks at it.
+    void ask_of_cut_off(const MaterialParameters &material, const std::string &body, Questions &questions)
+    {
+      double cohesion = 0., cut_off = 0.;
+      for (const UsualRange &range : material.chosen().usual_ranges())
+        if (range.entry == "Cohesion" || range.entry == "Tension cut-off")
+          (range.entry == "Cohesion" ? cohesion : cut_off) = range.value;
+      if (cohesion > 0. && cut_off == 0.)
+        questions.list.push_back("Unusual value: " +
+                                 entry_message(material.path(body),
+                                               "Tension cut-off",
+                                               "0",
+                                               "with cohesion, here " + number_text(cohesion) +
+                                                   " Pa, soil in water opens in small waves, and the suction of the "
+                                                   "pores slows it. Write a cut-off above 0, such as the cohesion."));
+    }
+
+
     /// Rain in mm/h; the largest rate of its time.
     void ask_of_rain(const Parameters &parameters, Questions &questions)
     {
@@ -143,6 +161,8 @@ namespace scree
         questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, unit_of_pressure);
         ask_of_law(body.material, body.name, questions);
         ask_of_length(body, parameters.grid.cell_size, questions);
+        if (parameters.has_water)
+          ask_of_cut_off(body.material, body.name, questions);
         questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
         questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
       }

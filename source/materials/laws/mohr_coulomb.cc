@@ -189,7 +189,8 @@ namespace scree
     std::vector<UsualRange> ranges{ { "Young's modulus", young_modulus, 1e4, 1e12, unit_of_pressure },
                                     { "Friction angle", friction_angle, 5, 60, unit_of_angle },
                                     { "Dilation angle", dilation_angle, 0.8, 40, unit_of_angle },
-                                    { "Cohesion", cohesion, 50, 1e8, unit_of_pressure } };
+                                    { "Cohesion", cohesion, 50, 1e8, unit_of_pressure },
+                                    { "Tension cut-off", tension_cut_off, 50, 1e8, unit_of_pressure } };
     inertial_friction.append_usual_ranges(ranges);
     softening.append_usual_ranges(ranges);
     return ranges;
@@ -247,6 +248,7 @@ namespace scree
     using namespace mohr_coulomb_surfaces;
     for (unsigned int s = 0; s < n_surfaces; ++s)
       surfaces.push_back({ direction(s, sine),
+                           direction(s, dilation),
                            relaxation(direction(s, dilation), bulk, shear),
                            s < cut_1 ? limit : largest_principal_stress });
 
@@ -293,10 +295,16 @@ namespace scree
 
   double MohrCoulomb::energy(const PrincipalValues &strain) const
   {
-    const double gap = strain[0] + strain[1] + strain[2] - vertex / bulk;
-    if (gap <= 0)
-      return elastic.energy(strain);
-    return elastic.energy({ { strain[0] - gap / 3, strain[1] - gap / 3, strain[2] - gap / 3 } });
+    PrincipalValues closed = strain; // closes one axis after the other
+    std::sort(closed.rbegin(), closed.rend());
+    const auto sum    = [](const PrincipalValues &values) { return values[0] + values[1] + values[2]; };
+    const double lame = bulk - 2. / 3. * shear;
+    for (unsigned int n = 1; n <= 3 && lame * sum(closed) + 2 * shear * closed[n - 1] > largest_principal_stress; ++n)
+      {
+        const double rest = std::accumulate(closed.begin() + n, closed.end(), 0.);
+        std::fill_n(closed.begin(), n, (largest_principal_stress - lame * rest) / (n * lame + 2 * shear));
+      }
+    return elastic.energy(closed) + largest_principal_stress * (sum(strain) - sum(closed));
   }
 
 

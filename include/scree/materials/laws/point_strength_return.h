@@ -32,14 +32,16 @@ namespace scree
                         const double bulk,
                         const double shear);
 
-    /// Returns a sorted stress of the points `todo`; those that meet no set of surfaces stay in it.
-    void return_sorted(PrincipalNumbers<Number> &stress, simd::Mask<Number> &todo) const;
+    /// Returns a sorted stress of the points `todo` and sets their plastic strain; those that meet no set of surfaces
+    /// stay in it.
+    void
+    return_sorted(PrincipalNumbers<Number> &stress, PrincipalNumbers<Number> &plastic, simd::Mask<Number> &todo) const;
 
   private:
     /// A plane normal . tau <= limit; relaxation: elastic stiffness times flow direction, Pa.
     struct Surface
     {
-      PrincipalNumbers<Number> normal, relaxation;
+      PrincipalNumbers<Number> normal, flow, relaxation;
       Number limit;
     };
 
@@ -54,6 +56,7 @@ namespace scree
                  const PrincipalNumbers<Number> &trial,
                  const Number &tolerance,
                  PrincipalNumbers<Number> &stress,
+                 PrincipalNumbers<Number> &plastic,
                  simd::Mask<Number> &todo) const;
 
     const double shear;
@@ -71,6 +74,7 @@ namespace scree
     using namespace mohr_coulomb_surfaces;
     for (unsigned int s = 0; s < n_surfaces; ++s)
       surfaces[s] = { direction(s, strength.sine),
+                      direction(s, strength.dilation_sine),
                       relaxation(direction(s, strength.dilation_sine), bulk, shear),
                       s < cut_1 ? strength.limit : simd::broadcast<Number>(cut_off) };
   }
@@ -82,6 +86,7 @@ namespace scree
                                                                          const PrincipalNumbers<Number> &trial,
                                                                          const Number &tolerance,
                                                                          PrincipalNumbers<Number> &stress,
+                                                                         PrincipalNumbers<Number> &plastic,
                                                                          simd::Mask<Number> &todo) const
   {
     if (!simd::any(todo))
@@ -111,23 +116,32 @@ namespace scree
       }
 
     simd::Mask<Number> is_found        = todo;
-    PrincipalNumbers<Number> candidate = trial;
+    PrincipalNumbers<Number> candidate = trial, flowed;
+    flowed.fill(simd::broadcast<Number>(0.));
     for (unsigned int a = 0; a < n; ++a)
       {
         is_found = is_found & (multiplier[a] * shear >= -tolerance);
         for (unsigned int i = 0; i < 3; ++i)
-          candidate[i] -= multiplier[a] * surfaces[set[a]].relaxation[i];
+          {
+            candidate[i] -= multiplier[a] * surfaces[set[a]].relaxation[i];
+            if (set[a] < mohr_coulomb_surfaces::cut_1)
+              flowed[i] += multiplier[a] * surfaces[set[a]].flow[i];
+          }
       }
     for (const Surface &surface : surfaces)
       is_found = is_found & (product(surface.normal, candidate) - surface.limit <= tolerance);
     for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = simd::select<Number>(is_found, candidate[i], stress[i]);
+      {
+        stress[i]  = simd::select<Number>(is_found, candidate[i], stress[i]);
+        plastic[i] = simd::select<Number>(is_found, flowed[i], plastic[i]);
+      }
     todo = todo & !is_found;
   }
 
 
   template <typename Number>
   DEAL_II_ALWAYS_INLINE inline void PointStrengthReturn<Number>::return_sorted(PrincipalNumbers<Number> &stress,
+                                                                               PrincipalNumbers<Number> &plastic,
                                                                                simd::Mask<Number> &todo) const
   {
     using namespace mohr_coulomb_surfaces;
@@ -135,16 +149,16 @@ namespace scree
     const Number tolerance =
         1e-12 * simd::max<Number>(surfaces[f13].limit,
                                   simd::max<Number>(simd::abs<Number>(trial[0]), simd::abs<Number>(trial[2])));
-    try_set({ f13 }, trial, tolerance, stress, todo);
-    try_set({ f13, f12 }, trial, tolerance, stress, todo);
-    try_set({ f13, f23 }, trial, tolerance, stress, todo);
-    try_set({ cut_1 }, trial, tolerance, stress, todo);
-    try_set({ cut_1, cut_2 }, trial, tolerance, stress, todo);
-    try_set({ f13, cut_1 }, trial, tolerance, stress, todo);
-    try_set({ f13, f12, cut_1 }, trial, tolerance, stress, todo);
+    try_set({ f13 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f12 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f23 }, trial, tolerance, stress, plastic, todo);
+    try_set({ cut_1 }, trial, tolerance, stress, plastic, todo);
+    try_set({ cut_1, cut_2 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, cut_1 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f12, cut_1 }, trial, tolerance, stress, plastic, todo);
     // The edge where four surfaces meet, as two cones.
-    try_set({ f13, cut_1, cut_2 }, trial, tolerance, stress, todo);
-    try_set({ f13, f23, cut_1 }, trial, tolerance, stress, todo);
+    try_set({ f13, cut_1, cut_2 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f23, cut_1 }, trial, tolerance, stress, plastic, todo);
     // The three cut-offs meet at the vertex, which needs no system.
   }
 } // namespace scree
