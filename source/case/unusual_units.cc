@@ -77,28 +77,25 @@ namespace scree
     constexpr char diameter_unit[]     = "m (1 mm = 1e-3 m)";
 
 
-    void ask_of_law(const MaterialParameters &material, const std::string &body, Questions &questions)
+    void
+    ask_of_law(const MaterialParameters &material, const std::string &body, const bool is_wet, Questions &questions)
     {
+      double cohesion = 0.;
       for (const UsualRange &range : material.chosen().usual_ranges())
-        questions.ask(material.path(body), range.entry, range.value, range.lowest, range.highest, range.unit);
-    }
-
-
-    /// Cohesive soil that opens without tension in water, which then sucks at it.
-    void ask_of_cut_off(const MaterialParameters &material, const std::string &body, Questions &questions)
-    {
-      double cohesion = 0., cut_off = 0.;
-      for (const UsualRange &range : material.chosen().usual_ranges())
-        if (range.entry == "Cohesion" || range.entry == "Tension cut-off")
-          (range.entry == "Cohesion" ? cohesion : cut_off) = range.value;
-      if (cohesion > 0. && cut_off == 0.)
-        questions.list.push_back("Unusual value: " +
-                                 entry_message(material.path(body),
-                                               "Tension cut-off",
-                                               "0",
-                                               "with cohesion, here " + number_text(cohesion) +
-                                                   " Pa, soil in water opens in small waves, and the suction of the "
-                                                   "pores slows it. Write a cut-off above 0, such as the cohesion."));
+        {
+          questions.ask(material.path(body), range.entry, range.value, range.lowest, range.highest, range.unit);
+          if (range.entry == "Cohesion")
+            cohesion = range.value;
+          if (range.entry == "Tension cut-off" && range.value == 0. && cohesion > 0. && is_wet)
+            questions.list.push_back(
+                "Unusual value: " +
+                entry_message(material.path(body),
+                              range.entry,
+                              "0",
+                              "with cohesion, here " + number_text(cohesion) +
+                                  " Pa, soil in water opens in small waves, and the suction of the "
+                                  "pores slows it. Write a cut-off above 0, such as the cohesion."));
+        }
     }
 
 
@@ -159,10 +156,8 @@ namespace scree
         questions.ask(
             body.name, "Grain density", body.seeding.grain_density, 500, 2e4, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
         questions.ask(body.name + "/Initial state", "Pressure", body.initial_state.pressure, 50, 1e9, unit_of_pressure);
-        ask_of_law(body.material, body.name, questions);
+        ask_of_law(body.material, body.name, parameters.has_water, questions);
         ask_of_length(body, parameters.grid.cell_size, questions);
-        if (parameters.has_water)
-          ask_of_cut_off(body.material, body.name, questions);
         questions.ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1, conductivity_unit);
         questions.ask(body.name, "Grain diameter", body.seepage.grain_diameter, 1e-7, 3, diameter_unit);
       }

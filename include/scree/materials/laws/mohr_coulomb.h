@@ -172,19 +172,6 @@ namespace scree
 
     void add_active_set(const std::vector<unsigned int> &surfaces);
 
-    /// How far a sorted stress is beyond a surface, Pa.
-    template <typename Number>
-    static Number excess(const Surface &surface, const PrincipalNumbers<Number> &stress);
-
-    /// Whether a sorted trial stress returns to the surfaces of a set, to what stress and by what plastic strain, to a
-    /// tolerance in Pa.
-    template <typename Number>
-    simd::Mask<Number> return_to(const ActiveSet &set,
-                                 const PrincipalNumbers<Number> &trial,
-                                 const Number &tolerance,
-                                 PrincipalNumbers<Number> &stress,
-                                 PrincipalNumbers<Number> &plastic) const;
-
     /// Returns a sorted stress of the points `todo` and sets their plastic strain; those that meet no set of surfaces
     /// stay in it.
     template <typename Number>

@@ -47,54 +47,11 @@ namespace scree
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::excess(const Surface &surface,
-                                                          const PrincipalNumbers<Number> &stress)
-  {
-    return surface.normal[0] * stress[0] + surface.normal[1] * stress[1] + surface.normal[2] * stress[2] -
-           surface.limit;
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number> MohrCoulomb::return_to(const ActiveSet &set,
-                                                                         const PrincipalNumbers<Number> &trial,
-                                                                         const Number &tolerance,
-                                                                         PrincipalNumbers<Number> &stress,
-                                                                         PrincipalNumbers<Number> &plastic) const
-  {
-    const unsigned int n = set.surfaces.size();
-    Number beyond[3];
-    for (unsigned int a = 0; a < n; ++a)
-      beyond[a] = excess<Number>(surfaces[set.surfaces[a]], trial);
-
-    simd::Mask<Number> is_found = tolerance == tolerance;
-    stress                      = trial;
-    plastic.fill(simd::broadcast<Number>(0.));
-    for (unsigned int a = 0; a < n; ++a)
-      {
-        Number multiplier = set.inverse[a][0] * beyond[0];
-        for (unsigned int b = 1; b < n; ++b)
-          multiplier += set.inverse[a][b] * beyond[b];
-        is_found               = is_found & (multiplier * shear >= -tolerance);
-        const Surface &surface = surfaces[set.surfaces[a]];
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            stress[i] -= multiplier * surface.relaxation[i];
-            if (set.surfaces[a] < mohr_coulomb_surfaces::cut_1)
-              plastic[i] += multiplier * surface.flow[i];
-          }
-      }
-    for (const Surface &surface : surfaces)
-      is_found = is_found & (excess<Number>(surface, stress) <= tolerance);
-    return is_found;
-  }
-
-
-  template <typename Number>
   DEAL_II_ALWAYS_INLINE inline void MohrCoulomb::return_sorted(PrincipalNumbers<Number> &stress,
                                                                PrincipalNumbers<Number> &plastic,
                                                                simd::Mask<Number> &todo) const
   {
+    using namespace mohr_coulomb_surfaces;
     const PrincipalNumbers<Number> trial = stress;
     const Number tolerance =
         1e-13 * simd::max<Number>(simd::broadcast<Number>(surfaces[0].limit),
@@ -103,14 +60,17 @@ namespace scree
       {
         if (!simd::any(todo))
           return;
-        PrincipalNumbers<Number> candidate, flowed;
-        const simd::Mask<Number> is_found = todo & return_to<Number>(set, trial, tolerance, candidate, flowed);
-        for (unsigned int i = 0; i < 3; ++i)
+        const unsigned int n = set.surfaces.size();
+        Number beyond[3], multiplier[3];
+        for (unsigned int a = 0; a < n; ++a)
+          beyond[a] = excess<Number>(surfaces[set.surfaces[a]], trial);
+        for (unsigned int a = 0; a < n; ++a)
           {
-            stress[i]  = simd::select<Number>(is_found, candidate[i], stress[i]);
-            plastic[i] = simd::select<Number>(is_found, flowed[i], plastic[i]);
+            multiplier[a] = set.inverse[a][0] * beyond[0];
+            for (unsigned int b = 1; b < n; ++b)
+              multiplier[a] += set.inverse[a][b] * beyond[b];
           }
-        todo = todo & !is_found;
+        take<Number>(surfaces, set.surfaces, n, multiplier, trial, shear, tolerance, stress, plastic, todo);
       }
   }
 

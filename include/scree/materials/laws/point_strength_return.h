@@ -89,6 +89,7 @@ namespace scree
                                                                          PrincipalNumbers<Number> &plastic,
                                                                          simd::Mask<Number> &todo) const
   {
+    using namespace mohr_coulomb_surfaces;
     if (!simd::any(todo))
       return;
     // Elimination needs no pivots: principal minors are positive for sin(psi) <= sin(phi) < 1.
@@ -96,7 +97,7 @@ namespace scree
     for (unsigned int a = 0; a < n; ++a)
       {
         const Surface &row = surfaces[set[a]];
-        multiplier[a]      = product(row.normal, trial) - row.limit;
+        multiplier[a]      = excess<Number>(row, trial);
         for (unsigned int b = 0; b < n; ++b)
           matrix[a][b] = product(row.normal, surfaces[set[b]].relaxation);
       }
@@ -115,27 +116,7 @@ namespace scree
         multiplier[a] = multiplier[a] / matrix[a][a];
       }
 
-    simd::Mask<Number> is_found        = todo;
-    PrincipalNumbers<Number> candidate = trial, flowed;
-    flowed.fill(simd::broadcast<Number>(0.));
-    for (unsigned int a = 0; a < n; ++a)
-      {
-        is_found = is_found & (multiplier[a] * shear >= -tolerance);
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            candidate[i] -= multiplier[a] * surfaces[set[a]].relaxation[i];
-            if (set[a] < mohr_coulomb_surfaces::cut_1)
-              flowed[i] += multiplier[a] * surfaces[set[a]].flow[i];
-          }
-      }
-    for (const Surface &surface : surfaces)
-      is_found = is_found & (product(surface.normal, candidate) - surface.limit <= tolerance);
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        stress[i]  = simd::select<Number>(is_found, candidate[i], stress[i]);
-        plastic[i] = simd::select<Number>(is_found, flowed[i], plastic[i]);
-      }
-    todo = todo & !is_found;
+    take<Number>(surfaces, set, n, multiplier, trial, shear, tolerance, stress, plastic, todo);
   }
 
 
