@@ -235,6 +235,7 @@ namespace scree
     using namespace mohr_coulomb_surfaces;
     for (unsigned int s = 0; s < n_surfaces; ++s)
       surfaces.push_back({ direction(s, sine),
+                           direction(s, dilation),
                            relaxation(direction(s, dilation), bulk, shear),
                            s < cut_1 ? limit : largest_principal_stress });
 
@@ -281,10 +282,16 @@ namespace scree
 
   double MohrCoulomb::energy(const PrincipalValues &strain) const
   {
-    const double gap = strain[0] + strain[1] + strain[2] - vertex / bulk;
-    if (gap <= 0)
-      return elastic.energy(strain);
-    return elastic.energy({ { strain[0] - gap / 3, strain[1] - gap / 3, strain[2] - gap / 3 } });
+    PrincipalValues closed = strain; // closes one axis after the other
+    std::sort(closed.rbegin(), closed.rend());
+    const auto sum    = [](const PrincipalValues &values) { return values[0] + values[1] + values[2]; };
+    const double lame = bulk - 2. / 3. * shear;
+    for (unsigned int n = 1; n <= 3 && lame * sum(closed) + 2 * shear * closed[n - 1] > largest_principal_stress; ++n)
+      {
+        const double rest = std::accumulate(closed.begin() + n, closed.end(), 0.);
+        std::fill_n(closed.begin(), n, (largest_principal_stress - lame * rest) / (n * lame + 2 * shear));
+      }
+    return elastic.energy(closed) + largest_principal_stress * (sum(strain) - sum(closed));
   }
 
 

@@ -52,14 +52,17 @@ namespace scree
   /// flow along (1 + sin psi) n_i - (1 - sin psi) n_j, and tau_i <= cut-off with associated flow. The return finds
   /// the face, edge or corner by trying the sets of surfaces a sorted stress can meet; each is a small linear system.
   ///
-  /// Pulled apart beyond the vertex (all tau_i at the smaller of cut-off and c cot phi), b_e becomes isotropic and
-  /// keeps eps_v as a gap to be closed, as in NorSand: forgetting it would let loose grains gain volume at every
-  /// bounce. Without cohesion, grains with a gap do not dilate: eps_v > 0 means no stress.
+  /// The strain of the cut-offs is no plastic strain: b_e keeps it as an opening along the principal axes, and the
+  /// stress stays at the cut-off until the opening has closed. So the cut-offs alone are an elastic law, whose stress
+  /// is the derivative of energy(). Soil is apart beyond the vertex (all tau_i at the smaller of cut-off and c cot
+  /// phi), without cohesion at eps_v >= 0, with cohesion at openings above `largest_opening`: b_e becomes isotropic,
+  /// keeps eps_v as a gap to be closed, as in NorSand, and does not dilate.
   class MohrCoulomb
   {
   public:
     static constexpr unsigned int n_internal_variables = 1;     ///< plastic shear strain
     static constexpr bool is_elastic                   = false; ///< the law has plastic strain
+    static constexpr double largest_opening            = 0.05;  ///< volume strain beyond which cohesive soil is apart
 
     /// Builds the yield surfaces, and the sets of them that a return can meet.
     explicit MohrCoulomb(const MohrCoulombParameters &parameters);
@@ -73,7 +76,7 @@ namespace scree
     /// Pa.
     double bulk_modulus(const double pressure) const;
 
-    /// J per m^3 of reference volume; a gap stores none.
+    /// J per m^3 of reference volume: elastic energy, and the work of the cut-off in what is open.
     double energy(const PrincipalValues &strain) const;
 
     /// Zero: the law has no pores.
@@ -127,10 +130,10 @@ namespace scree
     const InertialFriction inertial_friction; ///< friction that grows with the rate of shear
 
   protected:
-    /// Sorts the stress of the points that yield, returns it by `return_sorted(stress, todo)`, which leaves in `todo`
-    /// those that go to the vertex, and sets strain and stress. Returns the deviator of the plastic strain, 0 at the
-    /// vertex.
-    /// @param cohesionless points whose grains do not dilate while they are apart
+    /// Sorts the stress of the points that yield, returns it by `return_sorted(stress, plastic, todo)`, which adds the
+    /// plastic strain and leaves in `todo` those that go to the vertex, and sets strain and stress. Returns the
+    /// deviator of the plastic strain, 0 at the vertex.
+    /// @param cohesionless points whose grains are apart without any opening
     template <typename Number, typename ReturnSorted>
     PrincipalNumbers<Number> plastic_return(PrincipalNumbers<Number> &strain,
                                             PrincipalNumbers<Number> &stress,
@@ -153,8 +156,8 @@ namespace scree
     /// A plane of the yield surface, normal . tau <= limit.
     struct Surface
     {
-      PrincipalValues normal, relaxation; // relaxation: elastic stiffness times flow direction, Pa
-      double limit;                       // Pa
+      PrincipalValues normal, flow, relaxation; // relaxation: elastic stiffness times flow direction, Pa
+      double limit;                             // Pa
     };
 
     /// Surfaces met together, and the inverse of normal_a . relaxation_b.
@@ -166,20 +169,11 @@ namespace scree
 
     void add_active_set(const std::vector<unsigned int> &surfaces);
 
-    /// How far a sorted stress is beyond a surface, Pa.
+    /// Returns a sorted stress of the points `todo` and sets their plastic strain; those that meet no set of surfaces
+    /// stay in it.
     template <typename Number>
-    static Number excess(const Surface &surface, const PrincipalNumbers<Number> &stress);
-
-    /// Whether a sorted trial stress returns to the surfaces of a set, and to what stress, to a tolerance in Pa.
-    template <typename Number>
-    simd::Mask<Number> return_to(const ActiveSet &set,
-                                 const PrincipalNumbers<Number> &trial,
-                                 const Number &tolerance,
-                                 PrincipalNumbers<Number> &stress) const;
-
-    /// Returns a sorted stress of the points `todo`; those that meet no set of surfaces stay in it.
-    template <typename Number>
-    void return_sorted(PrincipalNumbers<Number> &stress, simd::Mask<Number> &todo) const;
+    void
+    return_sorted(PrincipalNumbers<Number> &stress, PrincipalNumbers<Number> &plastic, simd::Mask<Number> &todo) const;
 
     /// The return of the points that yield, from trial strain and stress.
     template <typename Number>

@@ -3,6 +3,7 @@
 #ifndef scree_materials_laws_mohr_coulomb_return_h
 #define scree_materials_laws_mohr_coulomb_return_h
 
+#include <scree/materials/laws/mohr_coulomb_surfaces.h>
 #include <scree/materials/laws/mohr_coulomb.h>
 
 namespace scree
@@ -46,46 +47,11 @@ namespace scree
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::excess(const Surface &surface,
-                                                          const PrincipalNumbers<Number> &stress)
-  {
-    return surface.normal[0] * stress[0] + surface.normal[1] * stress[1] + surface.normal[2] * stress[2] -
-           surface.limit;
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number> MohrCoulomb::return_to(const ActiveSet &set,
-                                                                         const PrincipalNumbers<Number> &trial,
-                                                                         const Number &tolerance,
-                                                                         PrincipalNumbers<Number> &stress) const
-  {
-    const unsigned int n = set.surfaces.size();
-    Number beyond[3];
-    for (unsigned int a = 0; a < n; ++a)
-      beyond[a] = excess<Number>(surfaces[set.surfaces[a]], trial);
-
-    simd::Mask<Number> is_found = tolerance == tolerance;
-    stress                      = trial;
-    for (unsigned int a = 0; a < n; ++a)
-      {
-        Number multiplier = set.inverse[a][0] * beyond[0];
-        for (unsigned int b = 1; b < n; ++b)
-          multiplier += set.inverse[a][b] * beyond[b];
-        is_found = is_found & (multiplier * shear >= -tolerance);
-        for (unsigned int i = 0; i < 3; ++i)
-          stress[i] -= multiplier * surfaces[set.surfaces[a]].relaxation[i];
-      }
-    for (const Surface &surface : surfaces)
-      is_found = is_found & (excess<Number>(surface, stress) <= tolerance);
-    return is_found;
-  }
-
-
-  template <typename Number>
   DEAL_II_ALWAYS_INLINE inline void MohrCoulomb::return_sorted(PrincipalNumbers<Number> &stress,
+                                                               PrincipalNumbers<Number> &plastic,
                                                                simd::Mask<Number> &todo) const
   {
+    using namespace mohr_coulomb_surfaces;
     const PrincipalNumbers<Number> trial = stress;
     const Number tolerance =
         1e-13 * simd::max<Number>(simd::broadcast<Number>(surfaces[0].limit),
@@ -94,11 +60,17 @@ namespace scree
       {
         if (!simd::any(todo))
           return;
-        PrincipalNumbers<Number> candidate;
-        const simd::Mask<Number> is_found = todo & return_to<Number>(set, trial, tolerance, candidate);
-        for (unsigned int i = 0; i < 3; ++i)
-          stress[i] = simd::select<Number>(is_found, candidate[i], stress[i]);
-        todo = todo & !is_found;
+        const unsigned int n = set.surfaces.size();
+        Number beyond[3], multiplier[3];
+        for (unsigned int a = 0; a < n; ++a)
+          beyond[a] = excess<Number>(surfaces[set.surfaces[a]], trial);
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            multiplier[a] = set.inverse[a][0] * beyond[0];
+            for (unsigned int b = 1; b < n; ++b)
+              multiplier[a] += set.inverse[a][b] * beyond[b];
+          }
+        take<Number>(surfaces, set.surfaces, n, multiplier, trial, shear, tolerance, stress, plastic, todo);
       }
   }
 
@@ -111,36 +83,32 @@ namespace scree
                               const simd::Mask<Number> &cohesionless,
                               const ReturnSorted &return_sorted) const
   {
-    const Number volume_strain             = strain[0] + strain[1] + strain[2];
-    const simd::Mask<Number> todo          = response.is_plastic;
-    const simd::Mask<Number> is_kept_apart = todo & cohesionless & (volume_strain >= 0.);
+    const Number volume_strain = strain[0] + strain[1] + strain[2];
+    const Number of_apart      = simd::select<Number>(
+        cohesionless, simd::broadcast<Number>(0.), simd::broadcast<Number>(vertex / bulk + largest_opening));
+    const simd::Mask<Number> is_kept_apart = response.is_plastic & (volume_strain >= of_apart);
 
     Sorted<Number> sorted(stress);
-    simd::Mask<Number> left = todo & !is_kept_apart;
-    return_sorted(sorted.numbers, left);
-    const PrincipalNumbers<Number> returned = sorted.unsorted(sorted.numbers);
-    const simd::Mask<Number> at_vertex      = left | is_kept_apart;
+    simd::Mask<Number> left = response.is_plastic & !is_kept_apart;
+    PrincipalNumbers<Number> plastic;
+    plastic.fill(simd::broadcast<Number>(0.));
+    return_sorted(sorted.numbers, plastic, left);
+    stress  = sorted.unsorted(sorted.numbers);
+    plastic = sorted.unsorted(plastic);
 
-    PrincipalNumbers<Number> change, plastic_deviator;
-    for (unsigned int i = 0; i < 3; ++i)
-      change[i] = stress[i] - returned[i];
-    const Number mean        = (change[0] + change[1] + change[2]) * (1. / 3.);
-    const Number corner      = simd::max<Number>(volume_strain, simd::broadcast<Number>(vertex / bulk)) * (1. / 3.);
-    const Number volume_part = mean * (1. / (3 * bulk));
+    const simd::Mask<Number> at_vertex = left | is_kept_apart;
+    const Number corner = simd::max<Number>(volume_strain, simd::broadcast<Number>(vertex / bulk)) * (1. / 3.);
+    const Number mean   = (plastic[0] + plastic[1] + plastic[2]) * (1. / 3.);
     for (unsigned int i = 0; i < 3; ++i)
       {
-        plastic_deviator[i]     = (change[i] - mean) * (1. / (2 * shear));
-        const Number on_surface = strain[i] - (volume_part + plastic_deviator[i]);
-        strain[i]               = simd::select<Number>(todo, on_surface, strain[i]);
-        strain[i]               = simd::select<Number>(at_vertex, corner, strain[i]);
-        stress[i]               = simd::select<Number>(todo, returned[i], stress[i]);
-        stress[i]               = simd::select<Number>(at_vertex, simd::broadcast<Number>(vertex), stress[i]);
-        plastic_deviator[i] = simd::select<Number>(todo & !at_vertex, plastic_deviator[i], simd::broadcast<Number>(0.));
+        strain[i] = simd::select<Number>(at_vertex, corner, strain[i] - plastic[i]);
+        stress[i] = simd::select<Number>(at_vertex, simd::broadcast<Number>(vertex), stress[i]);
+        plastic[i] -= mean;
       }
 
     response.is_unresolved = at_vertex & (volume_strain < vertex / bulk * (1 - 1e-10));
     (vertex > 0 ? response.is_vertex : response.is_separated) = at_vertex & !response.is_unresolved;
-    return plastic_deviator;
+    return plastic;
   }
 
 
@@ -172,9 +140,9 @@ namespace scree
   {
     // Grains with a gap do not dilate.
     const simd::Mask<Number> cohesionless_points = cohesionless ? response.is_plastic : simd::Mask<Number>{};
-    const PrincipalNumbers<Number> deviator      = plastic_return(
-        strain, stress, response, cohesionless_points, [&](PrincipalNumbers<Number> &sorted, simd::Mask<Number> &todo) {
-          return_sorted(sorted, todo);
+    const PrincipalNumbers<Number> deviator =
+        plastic_return(strain, stress, response, cohesionless_points, [&](auto &sorted, auto &plastic, auto &todo) {
+          return_sorted<Number>(sorted, plastic, todo);
         });
     internal_variables[0] += shear_strain_of<Number>(deviator);
   }

@@ -37,6 +37,55 @@ namespace scree
       return result;
     }
 
+    /// How far a stress is beyond a surface, a plane normal . tau <= limit, Pa.
+    template <typename Number, typename Surface>
+    DEAL_II_ALWAYS_INLINE inline Number excess(const Surface &surface, const PrincipalNumbers<Number> &stress)
+    {
+      return surface.normal[0] * stress[0] + surface.normal[1] * stress[1] + surface.normal[2] * stress[2] -
+             surface.limit;
+    }
+
+
+    /// Takes those of the points `todo` out of it that return to the `n` surfaces of a set with these multipliers, and
+    /// sets their stress and plastic strain. The strain of cut-offs is no plastic strain.
+    /// @param shear modulus, Pa
+    template <typename Number, typename Surfaces, typename Set>
+    DEAL_II_ALWAYS_INLINE inline void take(const Surfaces &surfaces,
+                                           const Set &set,
+                                           const unsigned int n,
+                                           const Number *multiplier,
+                                           const PrincipalNumbers<Number> &trial,
+                                           const double shear,
+                                           const Number &tolerance,
+                                           PrincipalNumbers<Number> &stress,
+                                           PrincipalNumbers<Number> &plastic,
+                                           simd::Mask<Number> &todo)
+    {
+      simd::Mask<Number> is_found       = todo;
+      PrincipalNumbers<Number> returned = trial, flowed;
+      flowed.fill(simd::broadcast<Number>(0.));
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          const auto &surface = surfaces[set[a]];
+          is_found            = is_found & (multiplier[a] * shear >= -tolerance);
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              returned[i] -= multiplier[a] * surface.relaxation[i];
+              if (set[a] < cut_1)
+                flowed[i] += multiplier[a] * surface.flow[i];
+            }
+        }
+      for (const auto &surface : surfaces)
+        is_found = is_found & (excess<Number>(surface, returned) <= tolerance);
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          stress[i]  = simd::select<Number>(is_found, returned[i], stress[i]);
+          plastic[i] = simd::select<Number>(is_found, flowed[i], plastic[i]);
+        }
+      todo = todo & !is_found;
+    }
+
+
     /// Elastic stiffness times a flow direction, Pa.
     template <typename Number>
     PrincipalNumbers<Number> relaxation(const PrincipalNumbers<Number> &flow, const double bulk, const double shear)

@@ -32,14 +32,16 @@ namespace scree
                         const double bulk,
                         const double shear);
 
-    /// Returns a sorted stress of the points `todo`; those that meet no set of surfaces stay in it.
-    void return_sorted(PrincipalNumbers<Number> &stress, simd::Mask<Number> &todo) const;
+    /// Returns a sorted stress of the points `todo` and sets their plastic strain; those that meet no set of surfaces
+    /// stay in it.
+    void
+    return_sorted(PrincipalNumbers<Number> &stress, PrincipalNumbers<Number> &plastic, simd::Mask<Number> &todo) const;
 
   private:
     /// A plane normal . tau <= limit; relaxation: elastic stiffness times flow direction, Pa.
     struct Surface
     {
-      PrincipalNumbers<Number> normal, relaxation;
+      PrincipalNumbers<Number> normal, flow, relaxation;
       Number limit;
     };
 
@@ -54,6 +56,7 @@ namespace scree
                  const PrincipalNumbers<Number> &trial,
                  const Number &tolerance,
                  PrincipalNumbers<Number> &stress,
+                 PrincipalNumbers<Number> &plastic,
                  simd::Mask<Number> &todo) const;
 
     const double shear;
@@ -71,6 +74,7 @@ namespace scree
     using namespace mohr_coulomb_surfaces;
     for (unsigned int s = 0; s < n_surfaces; ++s)
       surfaces[s] = { direction(s, strength.sine),
+                      direction(s, strength.dilation_sine),
                       relaxation(direction(s, strength.dilation_sine), bulk, shear),
                       s < cut_1 ? strength.limit : simd::broadcast<Number>(cut_off) };
   }
@@ -82,8 +86,10 @@ namespace scree
                                                                          const PrincipalNumbers<Number> &trial,
                                                                          const Number &tolerance,
                                                                          PrincipalNumbers<Number> &stress,
+                                                                         PrincipalNumbers<Number> &plastic,
                                                                          simd::Mask<Number> &todo) const
   {
+    using namespace mohr_coulomb_surfaces;
     if (!simd::any(todo))
       return;
     // Elimination needs no pivots: principal minors are positive for sin(psi) <= sin(phi) < 1.
@@ -91,7 +97,7 @@ namespace scree
     for (unsigned int a = 0; a < n; ++a)
       {
         const Surface &row = surfaces[set[a]];
-        multiplier[a]      = product(row.normal, trial) - row.limit;
+        multiplier[a]      = excess<Number>(row, trial);
         for (unsigned int b = 0; b < n; ++b)
           matrix[a][b] = product(row.normal, surfaces[set[b]].relaxation);
       }
@@ -110,24 +116,13 @@ namespace scree
         multiplier[a] = multiplier[a] / matrix[a][a];
       }
 
-    simd::Mask<Number> is_found        = todo;
-    PrincipalNumbers<Number> candidate = trial;
-    for (unsigned int a = 0; a < n; ++a)
-      {
-        is_found = is_found & (multiplier[a] * shear >= -tolerance);
-        for (unsigned int i = 0; i < 3; ++i)
-          candidate[i] -= multiplier[a] * surfaces[set[a]].relaxation[i];
-      }
-    for (const Surface &surface : surfaces)
-      is_found = is_found & (product(surface.normal, candidate) - surface.limit <= tolerance);
-    for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = simd::select<Number>(is_found, candidate[i], stress[i]);
-    todo = todo & !is_found;
+    take<Number>(surfaces, set, n, multiplier, trial, shear, tolerance, stress, plastic, todo);
   }
 
 
   template <typename Number>
   DEAL_II_ALWAYS_INLINE inline void PointStrengthReturn<Number>::return_sorted(PrincipalNumbers<Number> &stress,
+                                                                               PrincipalNumbers<Number> &plastic,
                                                                                simd::Mask<Number> &todo) const
   {
     using namespace mohr_coulomb_surfaces;
@@ -135,16 +130,16 @@ namespace scree
     const Number tolerance =
         1e-12 * simd::max<Number>(surfaces[f13].limit,
                                   simd::max<Number>(simd::abs<Number>(trial[0]), simd::abs<Number>(trial[2])));
-    try_set({ f13 }, trial, tolerance, stress, todo);
-    try_set({ f13, f12 }, trial, tolerance, stress, todo);
-    try_set({ f13, f23 }, trial, tolerance, stress, todo);
-    try_set({ cut_1 }, trial, tolerance, stress, todo);
-    try_set({ cut_1, cut_2 }, trial, tolerance, stress, todo);
-    try_set({ f13, cut_1 }, trial, tolerance, stress, todo);
-    try_set({ f13, f12, cut_1 }, trial, tolerance, stress, todo);
+    try_set({ f13 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f12 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f23 }, trial, tolerance, stress, plastic, todo);
+    try_set({ cut_1 }, trial, tolerance, stress, plastic, todo);
+    try_set({ cut_1, cut_2 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, cut_1 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f12, cut_1 }, trial, tolerance, stress, plastic, todo);
     // The edge where four surfaces meet, as two cones.
-    try_set({ f13, cut_1, cut_2 }, trial, tolerance, stress, todo);
-    try_set({ f13, f23, cut_1 }, trial, tolerance, stress, todo);
+    try_set({ f13, cut_1, cut_2 }, trial, tolerance, stress, plastic, todo);
+    try_set({ f13, f23, cut_1 }, trial, tolerance, stress, plastic, todo);
     // The three cut-offs meet at the vertex, which needs no system.
   }
 } // namespace scree

@@ -138,11 +138,9 @@ namespace scree
   {
     const PointStrengthReturn<Number> surfaces(strength, largest_principal_stress, bulk, shear);
     const PrincipalNumbers<Number> deviator = MohrCoulomb::plastic_return(
-        strain,
-        stress,
-        response,
-        strength.limit <= least_limit,
-        [&](PrincipalNumbers<Number> &sorted, simd::Mask<Number> &todo) { surfaces.return_sorted(sorted, todo); });
+        strain, stress, response, strength.limit <= least_limit, [&](auto &sorted, auto &plastic, auto &todo) {
+          surfaces.return_sorted(sorted, plastic, todo);
+        });
     const Number increment = plane_shear_of<Number>(deviator);
     internal_variables[plastic_shear] += shear_strain_of<Number>(deviator);
     internal_variables[own_kappa] += increment;

@@ -213,7 +213,7 @@ namespace scree
         stress,
         response,
         simd::Mask<Number>{}, // none is without strength
-        [&](PrincipalNumbers<Number> &sorted, simd::Mask<Number> &todo) { surfaces.return_sorted(sorted, todo); });
+        [&](auto &sorted, auto &plastic, auto &todo) { surfaces.return_sorted(sorted, plastic, todo); });
     const Number increment = plane_shear_of<Number>(deviator);
     internal_variables[plastic_shear] += shear_strain_of<Number>(deviator);
     internal_variables[own_kappa] += increment;
