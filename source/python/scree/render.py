@@ -61,8 +61,9 @@ def _collections(arguments):
     available = {name: fields_of(arguments.run, name) for name in wanted or ["points"]}
     chosen = {name: arguments.field for name, fields in available.items() if arguments.field in fields}
     if not chosen:
+        remedy = ' It is written with "Displacement = true" in subsection Probes.' if arguments.field == "displacement" else ""
         raise ValueError(f"No field {arguments.field}; there are: " +
-                         "; ".join(f"{', '.join(sorted(fields))} ({name})" for name, fields in available.items()) + ".")
+                         "; ".join(f"{', '.join(sorted(fields))} ({name})" for name, fields in available.items()) + "." + remedy)
     return chosen
 
 
