@@ -30,10 +30,14 @@ def run(command):
 
 
 def table(rows):
-    """The rows as a table; `run` is the last word of a single command, without prm/."""
-    lines = [COLUMNS, ("---",) * len(COLUMNS)]
-    lines += [(row["quantity"] + (f" ({row['unit']})" if row["unit"] != "-" else ""), row["reference"], row["computed"], row["deviation_percent"],
-               run(row["command"])) for row in rows]
+    """The rows as a table; the run is part of the head if it is that of all rows."""
+    runs = [run(row["command"]) for row in rows]
+    common = len(set(runs)) == 1
+    lines = [(*COLUMNS[:2], f"{COLUMNS[2]}, {runs[0]}", COLUMNS[3]) if common else COLUMNS]
+    lines += [("---",) * len(lines[0])]
+    for row, of in zip(rows, runs):
+        unit = "" if row["unit"] == "-" else f" ({row['unit']})"
+        lines.append((row["quantity"] + unit, row["reference"], row["computed"], row["deviation_percent"], *([] if common else [of])))
     return "".join(f"| {' | '.join(cells)} |\n".replace("| --- ", "|---").replace("--- |", "---|") for cells in lines)
 
 
