@@ -32,11 +32,10 @@ html_show_copyright = False
 html_show_sphinx = False
 
 
-def add_list_of_studies(_, name, source):
-    """scree-study writes studies/pages/README.md, for readers of the repository; here its pages get their place in the contents."""
-    if name == "studies/pages/README":
-        pages = re.findall(r"^\| \[[^\]]*\]\((\w+)\.md\)", source[0], re.MULTILINE)
-        source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
+def keep_beside_contents(_, name, source):
+    """Pages that their list links to and that do not stand in the contents: those of the studies, which scree-study writes."""
+    if name.startswith("studies/") and name != "studies/pages/README":
+        source[0] = "---\norphan: true\n---\n\n" + source[0]
 
 
 def hand_out_files(app, tree):
@@ -57,6 +56,6 @@ def hand_out_files(app, tree):
 
 
 def setup(app):
-    app.connect("source-read", add_list_of_studies)
+    app.connect("source-read", keep_beside_contents)
     # Before Sphinx collects the files of a page, which it does with priority 500.
     app.connect("doctree-read", hand_out_files, priority=100)
