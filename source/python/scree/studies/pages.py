@@ -180,9 +180,9 @@ def index_text(studies):
         return lines
 
     lines = ["# Studies", "", f"{n_held(claims)} claims of {len(studies)} studies hold.",
-             "Each page has charts, tables and conditions of its studies.",
+             "The pages have charts, tables and conditions.",
              "`build/scree-study NAME` repeats one; `build/scree-study all --page` writes all pages again from their tables.",
-             "What follows for a case: [choices](../../choosing.md), [defaults](../defaults.md).", "",
+             "What follows for a case: [choices](../../choosing.md), with the number of points; [defaults](../defaults.md).", "",
              *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].advice, n_held(studies[name][2])) for name in names)]), "",
              *comparison(studies.values()), *section("Claims that do not hold", FAILED),
              *section("Maps with default cells that are not stable", UNSTABLE)]

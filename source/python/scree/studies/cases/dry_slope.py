@@ -107,7 +107,7 @@ def _at(rows, method, h):
 STUDY = Study(
     title="Dry slope: error over cost",
     question="Which method gives the front of a dry slope at the least cost?",
-    advice="Use FLIP with a PIC rate of 1 1/s, modified F-bar and 3 x 3 points per cell.",
+    advice="Use FLIP with a PIC rate of 1 1/s and modified F-bar.",
     base="prm/slopes/slope_dense.prm",
     entries={"Transfer/PIC rate": "auto", "End time": 1.5, "Mesh/Upper corner": "8, 2.4", "Output/Interval": 1.5, "Output/Statistics interval": 0.1, "Output/Graphics": "none"},
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15, 1 / 10]))
