@@ -27,6 +27,8 @@ exclude_patterns = ["parameters/intro", "studies/reference"]
 
 html_theme = "furo"
 html_title = f"Scree {release}"
+html_static_path = ["site.css"]
+html_css_files = ["site.css"]
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False
@@ -44,7 +46,7 @@ def hand_out_files(app, tree):
     for link in list(tree.findall(addnodes.pending_xref)):
         is_page = link.get("refdomain") == "doc"  # MyST 2 and later name the page, and not its file
         target = FOLDER / (link["reftarget"] + ".md") if is_page else page / link["reftarget"].split("#")[0]
-        if link.get("reftype") != "myst" or not target.exists() or FOLDER in target.resolve().parents and target.suffix == ".md":
+        if link.get("reftype") != "myst" or link["reftarget"].startswith("#") or not target.exists() or FOLDER in target.resolve().parents and target.suffix == ".md":
             continue
         if target.resolve() == FOLDER.parent / "prm" / "README.md":
             link["reftarget"] = "cases" if is_page else os.path.relpath(FOLDER / "cases.md", page)
