@@ -6,12 +6,10 @@ These are the fronts of 90 and 99 % of the mass and the height of the centre of 
 Errors that all meshes share, that of the fixed base above all, are not seen.
 
 The reference has not converged.
-Sentences and table therefore add its distance to the limit, A (0.04 m)^p, from the fit error = A (h^p - (0.04 m)^p) to the four meshes of the defaults.
-This assumes that all methods tend to one limit; a method with another limit would seem worse.
+Sentences and table add its distance to the limit, A (0.04 m)^p, from the fit error = A (h^p - (0.04 m)^p) to the four meshes of the defaults.
+A method with another limit would seem worse.
 
 The defaults are splines, FLIP with a PIC rate of 1 1/s, 4 x 4 points per cell, Courant number 0.6 and modified F-bar; the case itself has 5 1/s.
-The case keeps 4 x 4 points: with 3 x 3 its front of 90 % is 0.67 % shorter at 3 s, bound 0.5 % (h = 0.05 m).
-The largest p', at a single point, then is 3.4 rho g H in place of 0.8 rho g H.
 """
 
 import math
