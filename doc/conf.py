@@ -16,7 +16,7 @@ author = "The Scree maintainers"
 release = VERSION.group(1) if VERSION else ""
 
 extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinxcontrib.bibtex"]
-myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_enable_extensions = ["dollarmath", "colon_fence", "html_image"]
 myst_heading_anchors = 3
 bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "plain"
@@ -27,16 +27,17 @@ exclude_patterns = ["parameters/intro", "studies/reference"]
 
 html_theme = "furo"
 html_title = f"Scree {release}"
+html_static_path = ["site.css"]
+html_css_files = ["site.css"]
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False
 
 
-def add_list_of_studies(_, name, source):
-    """scree-study writes studies/pages/README.md, for readers of the repository; here its pages get their place in the contents."""
-    if name == "studies/pages/README":
-        pages = re.findall(r"^\| \[[^\]]*\]\((\w+)\.md\)", source[0], re.MULTILINE)
-        source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
+def keep_beside_contents(_, name, source):
+    """Pages that their list links to and that do not stand in the contents: those of the studies, which scree-study writes."""
+    if name.startswith("studies/") and name != "studies/pages/README":
+        source[0] = "---\norphan: true\n---\n\n" + source[0]
 
 
 def hand_out_files(app, tree):
@@ -45,7 +46,7 @@ def hand_out_files(app, tree):
     for link in list(tree.findall(addnodes.pending_xref)):
         is_page = link.get("refdomain") == "doc"  # MyST 2 and later name the page, and not its file
         target = FOLDER / (link["reftarget"] + ".md") if is_page else page / link["reftarget"].split("#")[0]
-        if link.get("reftype") != "myst" or not target.exists() or FOLDER in target.resolve().parents and target.suffix == ".md":
+        if link.get("reftype") != "myst" or link["reftarget"].startswith("#") or not target.exists() or FOLDER in target.resolve().parents and target.suffix == ".md":
             continue
         if target.resolve() == FOLDER.parent / "prm" / "README.md":
             link["reftarget"] = "cases" if is_page else os.path.relpath(FOLDER / "cases.md", page)
@@ -57,6 +58,6 @@ def hand_out_files(app, tree):
 
 
 def setup(app):
-    app.connect("source-read", add_list_of_studies)
+    app.connect("source-read", keep_beside_contents)
     # Before Sphinx collects the files of a page, which it does with priority 500.
     app.connect("doctree-read", hand_out_files, priority=100)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""study_pages.py: the pages of the studies and their list are what the committed tables say, pages and sections begin with their worst result, and have no long lines."""
+"""study_pages.py: the pages of the studies and their list are what the committed tables say, sections begin with what holds and end with all that does not, and have no long lines."""
 
 import re
 import sys
@@ -28,10 +28,12 @@ for name in run.names_of_studies():
     failed = [claim for claim in module.STUDY.verdict(rows) if not claim.holds]
     page = (run.PAGES / f"{topic}.md").read_text(encoding="utf-8")
     section = page.partition(f"\n## {module.STUDY.title}\n\n")[2].partition("\n## ")[0]
-    check(f"{name}: claims that do not hold at the head of its section", section.partition("\n![")[0].count("**Does not hold.**") == len(failed))
-    check(f"{name}: no result in the first line of its section", section.startswith(("- **Does not hold.**", "- **Not stable.**", "- **Worst result.**")))
-    check(f"{name}: no result in the first line of {topic}.md", page.splitlines()[2].startswith(("**Does not hold.**", "**Not stable.**", "**Worst result.**")))
-    check(f"{topic}.md begins with a claim that does not hold", not failed or page.splitlines()[2].startswith("**Does not hold.**"))
+    tail = section.partition("\n![")[2]
+    check(f"{name}: claims that do not hold behind the chart of its section", tail.count("**Does not hold.**") == section.count("**Does not hold.**") == len(failed))
+    check(f"{name}: its map is not stable, and its section does not say so",
+          pages.headline(module.STUDY, rows) is None or pages.all_stable(rows) or "**Not stable.**" in tail)
+    check(f"{topic}.md does not say how many claims of {name} hold", re.search(rf"^\| \[{re.escape(module.STUDY.title)}\].* {pages.n_held(module.STUDY.verdict(rows))} \|$",
+                                                                        page, re.MULTILINE))
     parts = re.split(r"\n\s*\n|\n(?=- |\d+\. )", module.__doc__)
     for sentence in (sentence for part in parts for sentence in pages.SENTENCES.split(" ".join(part.split()))):
         words = len([word for word in sentence.split() if word[0].isalnum() or len(word) > 1])
@@ -59,8 +61,9 @@ class Study:
 
 
 claims = [Claim("Good.", True), Claim("Bad.", False), Claim("Worse.", False, worst=True), Claim("Limited.", True, worst=True)]
-check("order of the worst results", [text for _, text in pages.worst_results(Study, [], claims)] == ["Worse.", "Bad.", "Limited."])
-check("the first claim, if nothing is worse", pages.worst_results(Study, [], claims[:1]) == [("Worst result.", "Good.")])
+check("order of the misses", [text for _, text in pages.misses(Study, [], [*claims, Claim("Worst.", False, worst=True)])] == ["Worse.", "Worst.", "Bad."])
+check("order of the results", pages.results(Study, [], claims) == ["Limited.", "Good."])
+check("claims that hold", pages.n_held(claims) == "2 of 4")
 check("a sentence a line", pages.sentences("One. Two et al. 2005 are there. 3 are not.", "- ", "  ") == ["- One.", "  Two et al. 2005 are there.", "  3 are not."])
 check("no line begins a list", all(not pages.MARKUP.match(line.split()[0]) for line in pages.filled("word - " * 60)))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables and lists of numbers of doc/choosing.md, from the tables of the studies and from doc/verification/benchmarks.csv.
+"""Tables and lists of numbers of doc/choosing.md and doc/studies/defaults.md, from the tables of the studies and doc/verification/benchmarks.csv.
 
 PYTHONPATH=source/python python3 -m scree.choices
 
@@ -14,10 +14,10 @@ import re
 from scree import benchmarks
 from scree.command import ROOT
 from scree.studies import run as studies
-from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits
+from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio
 
-PAGE = ROOT / "doc" / "choosing.md"
+CHOICES, DEFAULTS_PAGE = ROOT / "doc" / "choosing.md", ROOT / "doc" / "studies" / "defaults.md"
 BLOCK = re.compile(r"(<!-- numbers: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 GOOD, LIMITED = 0.05, 0.2  # largest deviations of these marks
 RATIOS = 1.2, 3.  # and largest ratios to the recommended method
@@ -200,16 +200,24 @@ def table(lines):
     return "\n" + "\n".join(text) + "\n\n"
 
 
-def accuracy():
+def factors():
+    """{H/h: largest deviation of the factor of safety of a slope}."""
+    slopes = strength_reduction.scenes_of(rows("strength_reduction"))
+    return {n: max(abs(strength_reduction.deviation(row)) for row in slopes if row["H/h"] == n) for n in (10, 20)}
+
+
+@functools.lru_cache
+def accuracies():
+    """The rows of the table of accuracy: scene, points, H/h for 10 and 5 %, cost, deviation, reference."""
     def row(scene, points, series, cost, deviation, reference):
         return scene, points, reached(series, 0.1), reached(series, 0.05), cost, deviation, reference
 
     none, low, high = {1: 1.}, *peak_factors()
-    heap = "by -5.5 % with 10 cells over the height, by +18.5 % with 80"
-    large = [float(quoted("limits.md", "| 20 cells, Kozeny-Carman | 9.6 | 4.0 |", "9.6")) / 100]
+    heap = "Fronts of undrained collapses deviate by -5.5 to +18.5 %"
+    large = [float(quoted("verification/consolidation_and_seepage.md", "| the same, Kozeny-Carman | - | **1.096**; 1.037 |", "1.096")) - 1]
     mountain = "The cell size changes the reach by 15 m, the area by 1 % and the largest thickness of the deposit by 22 %"
-    return table([
-        ("scene", "points", "H/h for 10 %", "H/h for 5 %", "core-minutes (H/h)", "deviation", "measured against"),
+    return [
+        row("[factor of safety][safety]", "3", factors(), "-", at(factors(), 10, 20), "published, exact"),
         row("[dry columns][run_out], friction", "3", COLUMNS, minutes("run_out", 20, scene="column", h=0.05, treatment=run_out.LOW_PIC), at(COLUMNS, 10, 20),
             "limit of 4 sizes"),
         row("[dry slopes][run_out], friction", "2 or 3", SLOPES, minutes("run_out", 40, scene="slope", h=0.05, treatment=run_out.LOW_PIC), at(SLOPES, 20, 40),
@@ -229,7 +237,7 @@ def accuracy():
         row("[the same][grain_experiment], sand, beads", "3", none, "-", f"{span(grains_against_experiment(), True)} at h = 0", "experiment"),
         row("[aluminium bars][bars], inertial", "4", none, minutes("aluminium_bars", 40, base="fixed, mu(I)", h=0.0025), f"{span(bars(), True)} at 10 to 40", "experiment"),
         ("[flow slide, undrained][fail]", "4", "not reliable", "not reliable", "-",
-         f"{quoted('limits.md', heap, '-5.5 %')} at 10, {quoted('limits.md', heap, '+18.5 %')} at 80", "total stress"),
+         f"{quoted('validation.md', heap, '-5.5')} % at 10, {quoted('validation.md', heap, '+18.5 %')} at 80", "total stress"),
         row("[consolidation, small strain][terzaghi]", "4", TERZAGHI, minutes("terzaghi", 20, method=DEFAULTS, h=0.05), at(TERZAGHI, 10, 20), "exact"),
         row("[consolidation, large strain][large]", "4", LARGE, minutes("large_strain", 20, method=DEFAULTS, h=0.05), at(LARGE, 10, 20), "exact"),
         row("[the same][limits_large], load 0.4 M", "4", {20: large[0]}, "-", f"{percent(large[0])} at 20", "finite differences"),
@@ -240,7 +248,45 @@ def accuracy():
         row("[infiltration][infil], pond of 0.2 m", "4", POND, minutes("wetting_front", 4, h=0.05, default=True), in_one_list(POND), "exact"),
         ("[terrain][mountain], 10 and 5 m", "3", "not known", "not known", "-", f"deposit {quoted('tutorials/own_terrain.md', mountain, '22 %')} thicker",
          "finer run"),
-        row("[elastic waves][bar], cells in the bar", "4", BAR, minutes("bar", 32, method="TPIC", h=0.03125), at(BAR, 16, 32), "exact")])
+        row("[elastic waves][bar], cells in the bar", "4", BAR, minutes("bar", 32, method="TPIC", h=0.03125), at(BAR, 16, 32), "exact")]
+
+
+def accuracy():
+    return table([("scene", "points", "H/h for 10 %", "H/h for 5 %", "core-minutes (H/h)", "deviation", "measured against"), *accuracies()])
+
+
+# Scenes of the table of settings, by their beginning in the table of accuracy: case, transfer, base.
+SETTINGS = {"[factor of safety]": ("slopes/griffiths_lane", "AFLIP", "fixed"),
+            "[dry columns]": ("slopes/first_slope", "AFLIP", "friction (1)"), "[dry slopes]": ("slopes/first_slope", "AFLIP", "friction (1)"),
+            "[dry slope]": ("slopes/slope_dense", "FLIP", "fixed"), "[column of grains]": ("columns/aluminium_bars", "FLIP", "fixed (2)"),
+            "[loose saturated slope]": ("slopes/slope_saturated_loose_friction", "AFLIP", "friction (1)"),
+            "[consolidation, small": ("consolidation/terzaghi", "AFLIP", "-"),
+            "[consolidation, large": ("consolidation/large_strain_consolidation", "AFLIP", "-"), "[dam break][dam_break]": ("water/dam_break", "AFLIP", "free slip"),
+            "[impact][impact], impulse": ("columns/column_saturated", "AFLIP", "fixed"), "[infiltration]": ("seepage/saturated_rest", "AFLIP", "-"),
+            "[terrain]": ("terrain/mountain_dry", "AFLIP", "friction"), "[elastic waves]": ("dynamics/vibrating_bar", "TPIC", "-")}
+
+
+def settings():
+    lines = []
+    for scene, (case, method, base) in SETTINGS.items():
+        found = [row for row in accuracies() if row[0].startswith(scene)]
+        name, _, _, cells, _, value, reference = found[0]
+        lines.append((name, f"`{case}`", method, base, cells, value, reference))
+    return table([("scene", "start from", "transfer", "base", "H/h for 5 %", "deviation at H/h", "against"), *lines])
+
+
+def points():
+    """What 3 and 2 points per cell and axis cost in accuracy, against 4."""
+    def ratios(scene, of, column="error"):
+        return scene, *(f"{ratio(of, f'{n} x {n} points', column):.2g}" for n in (3, 2)), f"{ratio(of, '3 x 3 points', 'core-seconds'):.2g}"
+
+    def pond(n):
+        return max(abs(row["fall/exact"] - 1) for row in rows("wetting_front") if row["points"] == f"{n} x {n}")
+    return table([("quantity over that with 4 points", "3 points", "2 points", "time, 3 points"),
+                  ratios("[dry slope][dry]: front", SLOPE_ROWS()), ratios("the same: oscillation of the stress", SLOPE_ROWS(), "mean oscillation"),
+                  ratios("[saturated slope][wet]: front", rows("saturated_slope")), ratios("[dam break][dam_break]: front", DAM_ROWS()),
+                  ratios("[large strain][large]: settlement, p", rows("large_strain")),
+                  ("[infiltration][infil]: worst deviation", "-", f"{pond(2) / pond(4):.2g}", "-")])
 
 
 def word(value, limits):
@@ -363,7 +409,6 @@ def limits_of_g():
                   (f"below {low}", "drained", "coupled", "coupled"),
                   (f"{low} to {high}", "coupled", "coupled", "coupled"),
                   (f"above {high}", "undrained", "undrained", "undrained")]) + "\n".join([
-                      "The limits of the table hold for all H and E of the study.",
                       f"A dry run never replaces a saturated collapse: its front is {dry[0]} to {dry[1]} % shorter in air, at any conductivity.",
                       f"The limit of the undrained model varies with H and E: {air[0]} to {air[1]} in air, {load[0]} to {load[1]} under a load, {water} under water.",
                       ]) + "\n\n"
@@ -373,20 +418,22 @@ def cost():
     """How much less a run costs today."""
     then, now = one("dry_slope", method=DEFAULTS, h=0.066667), one("advice", case="slope_dense")
     return (f"\nThe studies took {then['ns per point and step']:.0f} ns per point and time step for the dense slope.\n"
-            f"The newer [times of the cases](../prm/README.md) take {now['ns per point and step']:.0f} ns.\n"
+            f"The newer [times of the cases](../../prm/README.md) take {now['ns per point and step']:.0f} ns.\n"
             "Compare costs within the table only, and use `--advise` for a case of your own.\n\n")
 
 
-MAKERS = {"cost": cost, "accuracy": accuracy, "methods": methods, "remarks": remarks, "limits_of_g": limits_of_g}
+MAKERS = {CHOICES: {"settings": settings, "points": points, "limits_of_g": limits_of_g},
+          DEFAULTS_PAGE: {"cost": cost, "accuracy": accuracy, "methods": methods, "remarks": remarks}}
 
 
-def filled(text):
-    """The page with its blocks made again."""
-    return BLOCK.sub(lambda match: match.group(1) + MAKERS[match.group(2)]() + match.group(3), text)
+def filled(page, text):
+    """The text of a page with its blocks made again."""
+    return BLOCK.sub(lambda match: match.group(1) + MAKERS[page][match.group(2)]() + match.group(3), text)
 
 
 def main():
-    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    for page in MAKERS:
+        page.write_text(filled(page, page.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 if __name__ == "__main__":

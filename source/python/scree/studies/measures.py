@@ -124,7 +124,8 @@ A run is stable if it meets all of these:
 Each is in the unit that the section names; what a map does not measure is not judged.
 Each map had bounds of its own when it was run.
 The shared ones are those that most maps had for energy, volumes and p, and the strictest of all maps for p' and the error.
-A default cell has the program's defaults for the options that its map compares.
+A default cell has the program's defaults for the options that its map compares, and the
+[recommended number of points](../../choosing.md#points-per-cell).
 What describes the scene (conductivity, step, speed, size) is no option."""
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pages of the studies as text: a page a topic, a section a study, the worst result first; lines of at most 120 characters, a sentence a line."""
+"""The pages of the studies as text: a page a topic, a section a study, first what holds, at its end what does not; lines of at most 120 characters."""
 
 import math
 import re
@@ -84,15 +84,34 @@ def headline(study, rows):
     return share_of_defaults(rows) if isinstance(study.chart, StabilityMap) else None
 
 
-def worst_results(study, rows, claims):
-    """[(label, text)]: the claims that do not hold; a map with default cells that are not stable; the claims that are marked as the worst. Where there
-    is none of these, the headline of a map, or the first claim."""
-    found = [("Does not hold.", claim.text) for claim in sorted(claims, key=lambda claim: not claim.worst) if not claim.holds]
+def results(study, rows, claims):
+    """What holds, the claims with the largest deviations first; without those that the table of the section has."""
     share = headline(study, rows)
-    if share and not all(row["state"] == "stable" for row in rows if row["default"]):
-        found.append(("Not stable.", share))
-    found += [("Worst result.", claim.text) for claim in claims if claim.worst and claim.holds]
-    return found or [("Worst result.", share or claims[0].text)]
+    held = [claim.text for claim in sorted(claims, key=lambda claim: not claim.worst) if claim.holds and not (claim.tabled and not claim.worst)]
+    return ([share] if share and all_stable(rows) else []) + held
+
+
+def all_stable(rows):
+    return all(row["state"] == "stable" for row in rows if row["default"])
+
+
+def misses(study, rows, claims):
+    """[(label, text)]: the claims that do not hold, the worst first; a map with default cells that are not stable."""
+    found = [(FAILED, claim.text) for claim in sorted(claims, key=lambda claim: not claim.worst) if not claim.holds]
+    share = headline(study, rows)
+    return found + ([(UNSTABLE, share)] if share and not all_stable(rows) else [])
+
+
+def n_held(claims):
+    return f"{sum(claim.holds for claim in claims)} of {len(claims)}"
+
+
+def comparison(studies):
+    """The lines of the table of experiments of these studies."""
+    lines = [line for study, rows, _ in studies for line in (study.compared(rows) if study.compared else ())]
+    return table([("quantity", "unit", "measured", "computed", "deviation"),
+                  *((quantity, unit, f"{measured:.3g}", f"{computed:.3g}", f"{100 * (computed / measured - 1):+.0f} %")
+                    for quantity, unit, measured, computed in lines)]) if lines else []
 
 
 def _cost(core_seconds):
@@ -113,72 +132,58 @@ def topic_of(name):
 
 
 def section_text(name, study, introduction, rows, claims):
-    """Worst results, chart, text, other claims and one table of a study."""
+    """What holds, chart, text, one table and what does not hold of a study."""
     seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
-    worst = worst_results(study, rows, claims)
-    shown, share = [text for _, text in worst], headline(study, rows)
     lines = [f"## {study.title}", ""]
-    for label, text in worst:
-        lines += sentences(f"**{label}** {text}", "- ", "  ")
-    lines += ["", f"![{study.title}]({name}.svg)", "", *paragraphs(introduction)]
-    others = [text for text in [share, *(claim.text for claim in claims if not claim.tabled)] if text and text not in shown]
-    if others:
-        lines += ["", "Further results:", ""]
-    for text in others:
+    for text in results(study, rows, claims):
         lines += sentences(text, "- ", "  ")
+    lines += ["", f"![{study.title}]({name}.svg)", "", *paragraphs(introduction)]
     found = study.table(rows) if study.table else map_table(rows) if isinstance(study.chart, StabilityMap) else None
     lines += ["", *table(found)] if found else []
+    missed = misses(study, rows, claims)
+    for label, text in missed:
+        lines += ([""] if (label, text) == missed[0] else []) + sentences(f"**{label}** {text}", "- ", "  ")
     lines += ["", *filled(f"Repeat: `build/scree-study {name}` ({len(rows)} runs, {_cost(seconds)}, `{study.base}`); numbers: [{name}.csv]({name}.csv).")]
     return "\n".join(lines) + "\n"
 
 
-RANKS = ("Does not hold.", "Not stable.", "Worst result.")
+FAILED, UNSTABLE = "Does not hold.", "Not stable."
 
 
 def page_text(topic, studies, introductions):
     """A page; studies: {name: (study, rows, claims)} of all studies, introductions: {name: text}."""
     title, names = TOPICS[topic]
     names = [name for name in names if name in studies]
-    results = [(RANKS.index(label), name, text) for name in names for label, text in worst_results(*studies[name])[:1]]
-    rank, name, text = min(results, key=lambda result: result[0])
-    n_failed, n_claims = (sum(count(claim) for name in names for claim in studies[name][2]) for count in (lambda claim: not claim.holds, lambda claim: 1))
-    lines = [f"# {title}", "", *sentences(f"**{RANKS[rank]}** [{studies[name][0].title}](#{slug(studies[name][0].title)}): {text}"), "",
-             f"{n_failed} of the {n_claims} claims on this page do not hold.", "",
-             *table([("study", "question", "what to do"), *((f"[{studies[name][0].title}](#{slug(studies[name][0].title)})", studies[name][0].question,
-                                                            studies[name][0].advice) for name in names)])]
-    compared = [line for name in names for line in (studies[name][0].compared(studies[name][1]) if studies[name][0].compared else ())]
-    if compared:
-        lines += ["", *table([("quantity", "unit", "measured", "computed", "deviation"),
-                              *((quantity, unit, f"{measured:.3g}", f"{computed:.3g}", f"{100 * (computed / measured - 1):+.0f} %")
-                                for quantity, unit, measured, computed in compared)])]
+    lines = [f"# {title}", "",
+             *table([("study", "question", "what to do", "claims that hold"),
+                     *((f"[{study.title}](#{slug(study.title)})", study.question, study.advice, n_held(claims))
+                       for study, _, claims in (studies[name] for name in names))])]
+    compared = comparison(studies[name] for name in names)
+    lines += ["", *compared] if compared else []
     return "\n".join([*lines, "", *("\n".join(section_text(name, studies[name][0], introductions[name], *studies[name][1:]) for name in names).splitlines())]) + "\n"
 
 
 def index_text(studies):
-    """The list of all pages, {name: (study, rows, claims)}: first all claims that do not hold and the maps that are not stable, then the studies."""
-    n_claims = sum(len(claims) for _, _, claims in studies.values())
-    found = {name: worst_results(*of) for name, of in studies.items()}
+    """The list of all studies, {name: (study, rows, claims)}: what follows from each, then all claims that do not hold and the maps that are not stable."""
+    claims = [claim for _, _, of in studies.values() for claim in of]
     names = [name for topic in TOPICS.values() for name in topic.studies if name in studies]
-    failed = {label: [(name, text) for name in names for kind, text in found[name] if kind == label] for label in RANKS}
+    missed = [(name, label, text) for name in names for label, text in misses(*studies[name])]
 
     def link(name):
         title = studies[name][0].title
         return f"[{title}]({topic_of(name)}.md#{slug(title)})"
 
-    lines = ["# Studies", "", "Each page answers the questions of a topic from its studies, and its first line is the worst result.",
-             "`build/scree-study NAME` repeats a study.", "`build/scree-study all --page` writes all pages again from their tables, without a run.",
-             "What follows for the choice of cells, points and transfer: [choosing.md](../../choosing.md), [defaults](../defaults.md).", "",
-             *table([("page", "studies", "claims that do not hold"),
-                     *((f"[{title}]({topic}.md)", ", ".join(f"`{name}`" for name in of),
-                        f"{sum(not claim.holds for name in of for claim in studies[name][2])} of {sum(len(studies[name][2]) for name in of)}")
-                       for topic, (title, of) in TOPICS.items())]), "",
-             "## Claims that do not hold", "", f"{len(failed[RANKS[0]])} of {n_claims} claims do not hold.", ""]
-    for name, text in failed[RANKS[0]]:
-        lines += sentences(f"{link(name)}: {text}", "- ", "  ")
-    lines += ["", "## Maps with default cells that are not stable", ""]
-    for name, text in failed[RANKS[1]]:
-        lines += sentences(f"{link(name)}: {text}", "- ", "  ")
-    lines += ["", "## Limits of the claims that hold", ""]
-    for name, text in failed[RANKS[2]]:
-        lines += sentences(f"{link(name)}: {text}", "- ", "  ")
+    def section(title, label):
+        lines = ["", f"## {title}", ""]
+        for name, of, text in missed:
+            lines += sentences(f"{link(name)}: {text}", "- ", "  ") if of == label else []
+        return lines
+
+    lines = ["# Studies", "", f"{n_held(claims)} claims of {len(studies)} studies hold.",
+             "The pages have charts, tables and conditions.",
+             "`build/scree-study NAME` repeats one; `build/scree-study all --page` writes all pages again from their tables.",
+             "What follows for a case: [choices](../../choosing.md), with the number of points; [defaults](../defaults.md).", "",
+             *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].advice, n_held(studies[name][2])) for name in names)]), "",
+             *comparison(studies.values()), *section("Claims that do not hold", FAILED),
+             *section("Maps with default cells that are not stable", UNSTABLE)]
     return "\n".join([*lines, "", "## Bounds of the stability maps", "", *paragraphs(BOUNDS_IN_WORDS)]) + "\n"

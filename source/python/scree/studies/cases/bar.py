@@ -73,7 +73,7 @@ def verdict(rows):
 STUDY = Study(
     title="Vibrating bar: error over cost",
     question="Which transfer and basis are best for elastic waves?",
-    advice="Use TPIC, Courant number 0.6 and 2 x 2 points; no F-bar.",
+    advice="Use TPIC and Courant number 0.6; no F-bar.",
     base="prm/dynamics/vibrating_bar.prm",
     entries={"Soil/Initial velocity": f"{AMPLITUDE:g}*sin(pi*x); 0", "Time step/Maximum time step": 1, "End time": TIME,
              "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points"},

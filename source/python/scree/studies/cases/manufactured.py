@@ -78,7 +78,7 @@ def verdict(rows):
               quick=False),
         Claim(f"Where points cross cells, only splines are suitable: linear functions make {linear:.2g} times the error.", linear > 5),
         Claim(f"3 x 3 points: {ratio(rows, '3 x 3 points'):.2g} times the error; 2 x 2: it grows with refinement, from {few[0]:.2g} to {few[-1]:.2g}; 6 x 6: "
-              f"{ratio(rows, '6 x 6 points'):.2g} times, for {ratio(rows, '6 x 6 points', 'core-seconds'):.2g} times the time. Use the default 4 x 4.",
+              f"{ratio(rows, '6 x 6 points'):.2g} times, for {ratio(rows, '6 x 6 points', 'core-seconds'):.2g} times the time.",
               ratio(rows, "3 x 3 points") > 1.2 and few[-1] > few[0] and ratio(rows, "6 x 6 points") > 0.7, quick=False),
         Claim(f"Of the transfers TPIC is best on fine meshes, {at_finest(rows, 'TPIC') / fine:.2g} times the defaults' error at h = 1/64 m "
               f"(FLIP with a PIC rate of 0 and 5 1/s {at_finest(rows, 'PIC rate 0') / fine:.2g} and {at_finest(rows, 'PIC rate 5') / fine:.2g}).",

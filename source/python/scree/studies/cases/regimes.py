@@ -250,7 +250,7 @@ def draw(figure, rows):
 
 STUDY = Study(title="Drained, coupled or undrained model",
               question="When is a drained or an undrained model sufficient instead of soil and water?",
-              advice="Compute G. Use the drained model for a load with G below 0.5, the undrained one above 414, else soil and water.",
+              advice="Compute G. Use the drained model for a load with G below 0.5, the undrained one above 315, else soil and water.",
               base=COLLAPSE, variants=variants(), measure=measure, verdict=verdict,
               quick=lambda labels: (labels["H"], labels["E"], labels["cells"]) == (*SIZES[0], 10) and labels["scene"] != "submerged"
               and labels["model"] != "total stress" and labels["k"] in (0, 1e-1, 1e-2, 1e-3, 1e-5, 1e-12),

@@ -101,7 +101,7 @@ def _largest(rows, method):
 STUDY = Study(
     title="Saturated slope: error over cost",
     question="Which method gives the front of a saturated slope at the least cost?",
-    advice="Run at least two cell sizes with AFLIP and 3 x 3 points.",
+    advice="Run at least two cell sizes with AFLIP.",
     base="prm/slopes/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15]))
     + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 10])),

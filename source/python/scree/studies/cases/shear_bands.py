@@ -9,7 +9,7 @@ The width of the band is the integral of its strain over the peak, normal to the
 The bank has 24, 36 and 48 cells over its height and l = 0.5 m.
 Its front is that of 90 % of the mass after 5 s, less that of the start.
 
-The biaxial test with cells of 0.1 to 0.025 m was run by hand before the plan was written; only the other runs are a test of it.
+The biaxial test with cells of 0.1 to 0.025 m was run before the plan was written.
 
 Bounds: with h of at most l/2 the loads part by at most 2 %; the front changes by at most 3 % from 36 to 48 cells.
 """

@@ -85,7 +85,7 @@ def verdict(rows):
 STUDY = Study(
     title="Terzaghi: error over cost",
     question="How accurate is small-strain consolidation, and which method is cheapest?",
-    advice="Use the largest stable time step; 2 x 2 points are sufficient as long as points stay in their cells.",
+    advice="Use the largest stable time step.",
     base=BASE,
     entries={"Surface load/Traction": f"0; {-COLUMN.load:g}", "End time": COLUMN.time(1), "Output/Interval": COLUMN.time(0.1),
              "Output/Graphics": "points"},

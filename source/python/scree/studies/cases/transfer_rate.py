@@ -169,7 +169,7 @@ def draw(figure, rows):
 STUDY = Study(
     title="Rate of AFLIP",
     question="At which rate should AFLIP filter, and is it better than FLIP or TPIC?",
-    advice="Keep FLIP in dry soil and TPIC with water. If you use AFLIP, keep its rate of 5 sqrt(g/h).",
+    advice="Keep the rate of 5 sqrt(g/h) of AFLIP; in dry soil FLIP loses less energy.",
     base="prm/columns/mohr_coulomb_collapse.prm", variants=variants(), measure=measure, verdict=verdict,
     quick=lambda labels: labels["scene"] in (COLUMN, LARGE) and labels["transfer"] in (FLIP, TPIC, CHOSEN),
     default={"transfer": FLIP}, table=table, chart=Curves(draw, 5.4))
