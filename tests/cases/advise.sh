@@ -14,7 +14,7 @@ export TMPDIR="$PWD/advice"
 whole="columns/column_dense columns/column_saturated_3d water/dam_break_wet bed/slit_dam terrain/mountain_dry benchmarks/elastic_2d"
 first_steps="bed/piston bed/slide_into_water clay/quick_clay clay/mud consolidation/terzaghi_days contact/slide_over_slab
   dynamics/shaken_block seepage/filter seepage/capillary_fringe seepage/steady_dam slopes/slope_saturated_dense_single slopes/slope_jefferies_been
-  slopes/rain slopes/entrainment softening/biaxial terrain/mountain_saturated water/hydrostatic water/suspension quickstart"
+  slopes/rain slopes/entrainment softening/biaxial terrain/mountain_saturated water/hydrostatic quickstart"
 "$PYTHON" - "$prm" "$whole" <<END
 import pathlib, shutil, sys
 from scree.variants import read_case, set_entry
