@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_remarks.h>
+#include <scree/particles/region.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -42,10 +46,73 @@ namespace scree
                                                                 number_text(cell_size) + " m. Use cells of at most " +
                                                                 number_text(length / 2) + " m."));
     }
+
+
+    /// Water in units other than SI.
+    void add_unusual_water(const Parameters &parameters, std::vector<std::string> &remarks)
+    {
+      constexpr unsigned int n_times = 1000;
+      double rain                    = 0.; // largest rate of its time
+      if (parameters.rain.is_set())
+        {
+          const auto rate = parse_expression<1>(entry_name("Rain", "Rate"), parameters.rain.rate, 1);
+          for (unsigned int i = 0; i <= n_times; ++i)
+            rain = std::max(rain, rate->value(dealii::Point<1>(i * parameters.end_time / n_times)));
+        }
+      const struct
+      {
+        const char *subsection, *entry;
+        double value, lowest, highest;
+        const char *unit;
+      } rules[] = {
+        { "Rain", "Rate", rain, 1e-10, 0.1, "m/s (1 mm/h = 2.78e-7 m/s)" },
+        { "Water", "Density", parameters.water.density, 500., 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)" },
+        { "Water", "Hydraulic conductivity", parameters.water.conductivity, 1e-13, 1., "m/s (1 m/d = 1.16e-5 m/s)" },
+        { "Water", "Viscosity", parameters.water.viscosity, 1e-7, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)" }
+      };
+      for (const auto &rule : rules)
+        if (rule.value != 0. && (rule.value < rule.lowest || rule.value > rule.highest))
+          remarks.push_back("Unusual value: " + entry_message(rule.subsection,
+                                                              rule.entry,
+                                                              number_text(rule.value),
+                                                              std::string("the unit is ") + rule.unit + "."));
+    }
+
+
+    /// A water table more than a cell above all soil. Collective.
+    template <int dim>
+    void add_table_above_soil(const Parameters &parameters,
+                              const std::list<SoilBody<dim>> &bodies,
+                              const MPI_Comm communicator,
+                              std::vector<std::string> &remarks)
+    {
+      const auto [entry, value] = parameters.water.place();
+      if (entry.rfind("Phreatic", 0) != 0 || !parameters.water.reservoir_level.empty())
+        return;
+      const Region<dim> wet(entry_name("Water", entry),
+                            parameters.water.without_fringe().region_in_soil(dim),
+                            nullptr,
+                            parameters.water.table<dim>());
+      const auto up = parameters.grid.cell_size * dealii::Point<dim>::unit_vector(dim - 1);
+      bool is_below = true;
+      for (const auto &body : bodies)
+        for_each_point(body.points,
+                       [&](const auto &point) { is_below = is_below && wet.contains(point.location + up); });
+      if (dealii::Utilities::MPI::min(int(is_below), communicator) == 1)
+        remarks.push_back("Unusual value: " +
+                          entry_message("Water",
+                                        entry,
+                                        value,
+                                        "all soil lies more than a cell below it, and no water stands outside the "
+                                        "soil. Check unit (m) and datum; write a \"Reservoir level\" for water above "
+                                        "the ground."));
+    }
   } // namespace
 
 
-  std::vector<std::string> remarks_on(const Parameters &parameters)
+  template <int dim>
+  std::vector<std::string>
+  remarks_on(const Parameters &parameters, const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
   {
     std::vector<std::string> remarks = parameters.unread_laws;
     for (const BodyParameters &body : parameters.bodies)
@@ -57,6 +124,14 @@ namespace scree
         add_stronger_base(parameters, "Boundaries", names[face], walls[face].friction_coefficient, remarks);
     if (parameters.bed.type_kind() == BedType::friction)
       add_stronger_base(parameters, "Bed", "Friction angle", parameters.bed.friction_coefficient(), remarks);
+    if (parameters.has_water)
+      {
+        add_unusual_water(parameters, remarks);
+        add_table_above_soil(parameters, bodies, communicator, remarks);
+      }
     return remarks;
   }
+
+  template std::vector<std::string> remarks_on(const Parameters &, const std::list<SoilBody<2>> &, const MPI_Comm);
+  template std::vector<std::string> remarks_on(const Parameters &, const std::list<SoilBody<3>> &, const MPI_Comm);
 } // namespace scree

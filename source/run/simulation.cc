@@ -54,7 +54,7 @@ namespace scree
     record_case(parameters, folder);
     log_case(parameters, scene, folder, communicator);
     log_released(parameters, scene, folder, communicator);
-    for (const std::string &remark : remarks_on(parameters))
+    for (const std::string &remark : remarks_on(parameters, scene.bodies, communicator))
       folder.log(remark);
     if (parameters.settling.maximum_time > 0)
       settle();

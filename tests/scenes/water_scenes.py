@@ -695,7 +695,7 @@ def packed_bed(scree):
     rho_w U d/(mu (1-n)) from .027 (slow: inertia takes .03 % of the head) to 4.6e5 (viscosity takes .02 %); single-point, too, and in
     rigid grains with ten times the step, of which an implicit step takes energy."""
     rigid = {"Soil/Material": "rigid", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
-             "Water/Grain diameter": "0", "Soil/Grain diameter": "5e-3", "Time step/Maximum time step": "2e-3"}
+             "Time step/Maximum time step": "2e-3"}
     for viscosity, sets, kind, entries in ((0.3, "double", "elastic", {}), (1e-2, "double", "elastic", {}), (1e-3, "double", "elastic", {}),
                                            (1e-6, "double", "elastic", {}), (1e-3, "single", "elastic", {}), (1e-3, "double", "rigid", rigid)):
         name = "packed_bed_%g_%s_%s" % (viscosity, sets, kind)

@@ -91,9 +91,9 @@ void test_derivatives(const JefferiesBeenParameters &parameters, RandomNumbers &
 void test_returns(const std::string &name,
                   const JefferiesBeenParameters &parameters,
                   const double largest_strain,
-                  const unsigned int n,
-                  RandomNumbers &random)
+                  const unsigned int n)
 {
+  RandomNumbers random; // Each test draws its own: others do not change it.
   const Law law(parameters);
   const CriticalLine line = parameters.line();
   UpdateReport report;
@@ -175,11 +175,11 @@ void run()
   for (const double largest : { 1e-3, 1e-2, 1e-1 })
     {
       const std::string to = ", increments to " + std::to_string(largest);
-      test_returns("line" + to, line, largest, n, random);
+      test_returns("line" + to, line, largest, n);
       JefferiesBeenParameters coupled = line;
       coupled.volumetric_coupling     = 0.4;
       coupled.hardening_modulus       = 200;
-      test_returns("N = 0.4" + to, coupled, largest, n, random);
+      test_returns("N = 0.4" + to, coupled, largest, n);
     }
 }
 
