@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_remarks.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 #include <scree/particles/region.h>
 
 #include <deal.II/base/mpi.h>
@@ -48,6 +49,24 @@ namespace scree
     }
 
 
+    /// Cohesion without a tensile strength in water.
+    void add_opening_soil(const BodyParameters &body, std::vector<std::string> &remarks)
+    {
+      if (body.material.law != "Mohr-Coulomb")
+        return;
+      const auto &law = body.material.of<MohrCoulombParameters>();
+      if (law.cohesion > 0. && law.tension_cut_off == 0.)
+        remarks.push_back(
+            "Unusual value: " +
+            entry_message(body.material.path(body.name),
+                          "Tension cut-off",
+                          "0",
+                          "with cohesion, here " + number_text(law.cohesion) +
+                              " Pa, soil in water opens in small waves, and the suction of the pores slows it. Write a "
+                              "cut-off above 0, such as the cohesion."));
+    }
+
+
     /// Water in units other than SI.
     void add_unusual_water(const Parameters &parameters, std::vector<std::string> &remarks)
     {
@@ -59,23 +78,26 @@ namespace scree
           for (unsigned int i = 0; i <= n_times; ++i)
             rain = std::max(rain, rate->value(dealii::Point<1>(i * parameters.end_time / n_times)));
         }
-      const struct
-      {
-        const char *subsection, *entry;
-        double value, lowest, highest;
-        const char *unit;
-      } rules[] = {
-        { "Rain", "Rate", rain, 1e-10, 0.1, "m/s (1 mm/h = 2.78e-7 m/s)" },
-        { "Water", "Density", parameters.water.density, 500., 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)" },
-        { "Water", "Hydraulic conductivity", parameters.water.conductivity, 1e-13, 1., "m/s (1 m/d = 1.16e-5 m/s)" },
-        { "Water", "Viscosity", parameters.water.viscosity, 1e-7, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)" }
+      const auto ask = [&](const std::string &subsection,
+                           const std::string &entry,
+                           const double value,
+                           const double lowest,
+                           const double highest,
+                           const std::string &unit) {
+        if (value != 0. && !(value >= lowest && value <= highest))
+          remarks.push_back("Unusual value: " +
+                            entry_message(subsection, entry, number_text(value), "the unit is " + unit + "."));
       };
-      for (const auto &rule : rules)
-        if (rule.value != 0. && (rule.value < rule.lowest || rule.value > rule.highest))
-          remarks.push_back("Unusual value: " + entry_message(rule.subsection,
-                                                              rule.entry,
-                                                              number_text(rule.value),
-                                                              std::string("the unit is ") + rule.unit + "."));
+      constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
+      const WaterParameters &water       = parameters.water;
+      for (const BodyParameters &body : parameters.bodies)
+        ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1., conductivity_unit);
+      ask("Water", "Density", water.density, 500., 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
+      ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1., conductivity_unit);
+      ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3., "m (1 mm = 1e-3 m)");
+      ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
+      ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)");
+      ask("Rain", "Rate", rain, 1e-10, 0.1, "m/s (1 mm/h = 2.78e-7 m/s)");
     }
 
 
@@ -126,6 +148,8 @@ namespace scree
       add_stronger_base(parameters, "Bed", "Friction angle", parameters.bed.friction_coefficient(), remarks);
     if (parameters.has_water)
       {
+        for (const BodyParameters &body : parameters.bodies)
+          add_opening_soil(body, remarks);
         add_unusual_water(parameters, remarks);
         add_table_above_soil(parameters, bodies, communicator, remarks);
       }

@@ -40,6 +40,10 @@ QUESTIONED = {
         INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  subsection Mohr-Coulomb\n    set Softening strain = 0.1\n"
         "    set Residual friction angle = 20\n    set Nonlocal length = 0.15\n  end\nend\n",
         ['entry "Nonlocal length" = 0.15: shear bands depend on cells wider than half of it, here 0.1 m. Use cells of at most 0.075 m.']),
+    "cohesion without tension in water": (
+        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  set Initial porosity = 0.4\n"
+        "  subsection Mohr-Coulomb\n    set Cohesion = 2e3\n  end\nend\nsubsection Water\n  set Phreatic surface = 0.5\nend\n",
+        ['entry "Tension cut-off" = 0: with cohesion, here 2000 Pa, soil in water opens in small waves']),
     "entries of a law that is not chosen": (
         INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  subsection Tresca\n    set Undrained strength = 2e4\n  end\nend\n",
         ['subsection Soil/Tresca, entry "Undrained strength" = 2e4: this entry has no effect, as "Material" is Mohr-Coulomb. Write "Material = Tresca", or']),
