@@ -60,8 +60,16 @@ namespace scree
 
   void Parameters::print_subsection(const std::string &path, std::ostream &out)
   {
-    const auto paths = DeclaredNames(handler).subsection_paths();
-    if (std::find(paths.begin(), paths.end(), path) == paths.end())
+    const auto paths    = DeclaredNames(handler).subsection_paths();
+    const bool is_there = std::find(paths.begin(), paths.end(), path) != paths.end();
+    if (!is_there && !case_file.empty() && path.rfind("Soil", 0) != 0)
+      try
+        {
+          return Parameters().print_subsection(path, out); // The case does not have it yet: the defaults.
+        }
+      catch (const InputError &)
+        {} // No case has it.
+    if (!is_there)
       throw InputError("command line: there is no subsection " + quoted(path) + '.' + meant_subsections(paths, path) +
                        (case_file.empty()
                             ? " scree --print-parameters --sections lists all of them; \"Soil\" stands "

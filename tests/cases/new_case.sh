@@ -15,7 +15,7 @@ scree=$PWD/copy
 "$scree" --new >list
 cat list
 scenes=$(sed -n 's/^  \([a-z_]*\) .*/\1/p' list)
-[ "$(echo "$scenes" | wc -l)" -ge 4 ]
+[ "$(echo "$scenes" | wc -l)" -ge 12 ]
 
 # Some time steps of each.
 for scene in $scenes; do

@@ -37,6 +37,8 @@ END
 "$scree" case.prm --print-parameters Sand >sand
 "$scree" --print-parameters Sand case.prm | cmp - sand
 grep -q 'Grain density *= 2611' sand
+# A subsection that the case does not have yet: the defaults, to be added.
+"$scree" case.prm --print-parameters Water | grep -q 'Hydraulic conductivity *= auto'
 "$scree" --print-parameters --sections case.prm | grep -qx "Sand/Initial state"
 if "$scree" --print-parameters Sand 2>error; then exit 1; fi
 cat error
