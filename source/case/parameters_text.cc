@@ -68,7 +68,8 @@ namespace scree
           return Parameters().print_subsection(path, out); // The case does not have it yet: the defaults.
         }
       catch (const InputError &)
-        {} // No case has it.
+        {
+        } // No case has it.
     if (!is_there)
       throw InputError("command line: there is no subsection " + quoted(path) + '.' + meant_subsections(paths, path) +
                        (case_file.empty()

@@ -19,10 +19,8 @@ namespace scree
                       modulus_exponent,
                       "Exponent n from 0 to less than 1: elastic moduli grow with (p/reference pressure)^n.",
                       any);
-    prm.add_parameter("Reference pressure",
-                      reference_pressure,
-                      "Pa; pressure at which \"Shear modulus\" holds, and p_ref of a critical line of kind curve.",
-                      not_negative);
+    prm.add_parameter(
+        "Reference pressure", reference_pressure, "Pa; pressure at which \"Shear modulus\" holds.", not_negative);
     add_line(prm);
     prm.add_parameter("Critical stress ratio M",
                       critical_stress_ratio,
