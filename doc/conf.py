@@ -4,6 +4,7 @@
 import os
 import pathlib
 import re
+import shutil
 
 from docutils import nodes
 from sphinx import addnodes
@@ -29,6 +30,13 @@ html_theme = "furo"
 html_title = f"Scree {release}"
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
+# Debian's MathJax where it is installed (libjs-mathjax), so that formulas show without a network; or else that of the network.
+MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+MATHJAX_PARTS = ("MathJax.js", "config/TeX-AMS_CHTML.js", "extensions", "jax/element", "jax/input/TeX", "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
+if (MATHJAX / "MathJax.js").exists():
+    html_static_path.append("mathjax.js")
+    mathjax_path = "mathjax.js"
+    mathjax2_config = {"tex2jax": {"processClass": "math|tex2jax_process|mathjax_process"}}
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False
@@ -57,7 +65,19 @@ def hand_out_files(app, tree):
                                                           refdomain=None, reftype="myst", refexplicit=True, refwarn=False))
 
 
+def copy_mathjax(app, _):
+    """Puts the parts of Debian's MathJax that the pages use beside mathjax.js."""
+    for part in MATHJAX_PARTS if "mathjax_path" in globals() else ():
+        source, target = MATHJAX / part, pathlib.Path(app.outdir) / "_static" / "mathjax" / part
+        if source.is_dir():
+            shutil.copytree(source, target, dirs_exist_ok=True)
+        elif source.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, target)
+
+
 def setup(app):
+    app.connect("build-finished", copy_mathjax)
     app.connect("source-read", keep_beside_contents)
     # Before Sphinx collects the files of a page, which it does with priority 500.
     app.connect("doctree-read", hand_out_files, priority=100)
