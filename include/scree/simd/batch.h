@@ -28,6 +28,7 @@ namespace scree
   /// As many numbers, each in its lane: a compiler vector, which has the operators of double. A lane's result does not
   /// depend on what is in the others. (Debian builds deal.II's VectorizedArray with a single lane.)
   using Batch = double __attribute__((vector_size(batch_size * sizeof(double))));
+  struct BatchPair; // simd/pair.h
 
   /// The functions of a `Number`, which is double or Batch: kernels are written once for both.
   namespace simd
@@ -119,6 +120,9 @@ namespace scree
     {
       return value[lane];
     }
+
+    /// A lane of a pair.
+    double lane(const BatchPair &value, const unsigned int lane);
 
     /// Sets the lane of a number: itself.
     inline void set_lane(double &number, const unsigned int, const double value)
