@@ -143,8 +143,8 @@ namespace scree
   /// component of F_k - F_{k-1} is beyond the law's sub-step strain.
   ///
   /// Points go through advance() side by side. Those that need sub-steps, and those whose return a law leaves, are
-  /// gathered, so that the lanes of a second round are full; in three dimensions strain far from a sphere is left to a
-  /// third one in principal values. Which way a point goes, and what comes out, does not depend on its neighbours.
+  /// gathered, so that the lanes of further rounds are full; in three dimensions strain far from a sphere is left to
+  /// a last one in principal values. Which way a point goes, and what comes out, does not depend on its neighbours.
   template <int dim, typename Law>
   class HenckyMaterial : public Material<dim>
   {
@@ -248,15 +248,16 @@ namespace scree
     struct Lanes
     {
       Number left_cauchy_green[n_components], internal_variables[n_internal + 1]; // an array of 0 is not allowed
-      Number change[dim * dim], stretch;                                          // dF - I; dF_zz
+      Number increment[dim * dim], stretch;                                       // dF; dF_zz
       Number volume_ratio, reference_volume;
     };
 
     /// The rounds of advance().
     enum class Round
     {
-      first, ///< points without sub-steps
-      later  ///< what the first round has left
+      first,   ///< all points that need no sub-steps
+      returns, ///< points without sub-steps whose return the law has left
+      parts    ///< points with sub-steps
     };
 
     /// Reads points; `n` of them that lie in a row, or any points if n = 0.
@@ -277,15 +278,21 @@ namespace scree
     /// Trial b_e of part `k` from the b_e that the part before has left.
     template <typename Number>
     static void
-    set_trial(const double k, const Number &part, const Lanes<Number> &lanes, const Number *b, Number *result);
+    set_trial(const double k, const Number &part, const Number *change, const Lanes<Number> &lanes, Number *result);
 
-    /// Advances the first `n` of these points by the step, all parts of it. Returns the bits of those that it left.
+    /// The bits of lanes that a round has left.
+    struct Left
+    {
+      unsigned int all, cut; // cut: those that need sub-steps
+    };
+
+    /// Advances the first `n` of these points by the step, all parts of it.
     template <typename PointState, typename Number, Round round, typename Indices>
-    unsigned int advance(const Indices &indices,
-                         const unsigned int n,
-                         const MaterialPoints<dim> &points,
-                         const MaterialMotion<dim> &motion,
-                         UpdateReport &report) const;
+    Left advance(const Indices &indices,
+                 const unsigned int n,
+                 const MaterialPoints<dim> &points,
+                 const MaterialMotion<dim> &motion,
+                 UpdateReport &report) const;
 
     /// Why a point was left by all rounds.
     [[noreturn]] void throw_refusal(const unsigned int p, const MaterialMotion<dim> &motion) const;
@@ -304,27 +311,35 @@ namespace scree
     own.largest_compression  = report.largest_compression;
     for (unsigned int first = 0; first < points.n_points; first += List::capacity)
       {
-        List left, others;
+        List returns, cut, others;
         for_each_batch(std::min(points.n_points - first, List::capacity), [&](auto indices, const unsigned int n) {
           for (unsigned int &index : indices)
             index += first;
-          left.append(indices, advance<State<Batch>, Batch, Round::first>(indices, n, points, motion, own));
+          const Left left = advance<State<Batch>, Batch, Round::first>(indices, n, points, motion, own);
+          if (left.all == 0)
+            return;
+          returns.append(indices, left.all & ~left.cut);
+          cut.append(indices, left.cut);
         });
         const auto again = [&](const List &list, List &rest, const auto &act) {
           for_each_group<simd::n_lanes<Gathered>>(list.size, [&](auto places, const unsigned int n) {
             for (unsigned int &place : places)
               place = list.points[place];
-            rest.append(places, act(places, n));
+            rest.append(places, act(places, n).all);
           });
         };
-        again(left, others, [&](const auto &indices, const unsigned int n) {
-          return advance<State<Gathered>, Gathered, Round::later>(indices, n, points, motion, own);
+        if constexpr (Law::leaves_returns)
+          again(returns, others, [&](const auto &indices, const unsigned int n) {
+            return advance<State<Gathered>, Gathered, Round::returns>(indices, n, points, motion, own);
+          });
+        again(cut, others, [&](const auto &indices, const unsigned int n) {
+          return advance<State<Gathered>, Gathered, Round::parts>(indices, n, points, motion, own);
         });
         if constexpr (Law::in_invariants && dim == 3)
           {
             const List far = std::exchange(others, List());
             again(far, others, [&](const auto &indices, const unsigned int n) {
-              return advance<PrincipalState<dim, Gathered>, Gathered, Round::later>(indices, n, points, motion, own);
+              return advance<PrincipalState<dim, Gathered>, Gathered, Round::parts>(indices, n, points, motion, own);
             });
           }
         if (others.size > 0)
@@ -354,13 +369,21 @@ namespace scree
             b[l]                     = apart(points.left_cauchy_green + offset);
             internal[l]              = apart(points.internal_variables + offset);
           }
-        Batch components[n_components], variables[n_internal + 1];
-        simd::load_records<n_components>(b, components);
-        simd::load_records<n_internal>(internal, variables);
-        for (unsigned int c = 0; c < n_components; ++c)
-          simd::half(lanes.left_cauchy_green[c], h) = components[c];
-        for (unsigned int i = 0; i < n_internal; ++i)
-          simd::half(lanes.internal_variables[i], h) = variables[i];
+        if constexpr (n_lanes == batch_size)
+          {
+            simd::load_records<n_components>(b, lanes.left_cauchy_green);
+            simd::load_records<n_internal>(internal, lanes.internal_variables);
+          }
+        else
+          {
+            Batch components[n_components], variables[n_internal + 1];
+            simd::load_records<n_components>(b, components);
+            simd::load_records<n_internal>(internal, variables);
+            for (unsigned int c = 0; c < n_components; ++c)
+              simd::half(lanes.left_cauchy_green[c], h) = components[c];
+            for (unsigned int i = 0; i < n_internal; ++i)
+              simd::half(lanes.internal_variables[i], h) = variables[i];
+          }
       }
 
     const auto list = [&](const double *numbers) {
@@ -374,7 +397,7 @@ namespace scree
       return result;
     };
     for (unsigned int c = 0; c < dim * dim; ++c)
-      lanes.change[c] = list(motion.deformation_increment + c * motion.pitch) - (c % (dim + 1) == 0 ? 1. : 0.);
+      lanes.increment[c] = list(motion.deformation_increment + c * motion.pitch);
     lanes.volume_ratio     = list(motion.volume_ratio);
     lanes.reference_volume = list(motion.reference_volume);
     lanes.stretch          = dim == 2 ? list(motion.out_of_plane_stretch) : simd::broadcast<Number>(1.);
@@ -395,15 +418,20 @@ namespace scree
         {
           double nothing[n_values];
           RecordPointers<double> records;
-          Batch batches[n_values];
           for (unsigned int l = 0; l < batch_size; ++l)
             {
               const unsigned int lane = h * batch_size + l;
               records[l]              = apart(bits >> lane & 1 ? of_record_0 + points.offset(indices[lane]) : nothing);
             }
-          for (unsigned int c = 0; c < n_values; ++c)
-            batches[c] = simd::half(values[c], h);
-          simd::store_records<n_values>(batches, records);
+          if constexpr (simd::n_lanes<Number> == batch_size)
+            simd::store_records<n_values>(values, records);
+          else
+            {
+              Batch batches[n_values];
+              for (unsigned int c = 0; c < n_values; ++c)
+                batches[c] = simd::half(values[c], h);
+              simd::store_records<n_values>(batches, records);
+            }
         }
   }
 
@@ -412,54 +440,57 @@ namespace scree
   template <typename Number>
   DEAL_II_ALWAYS_INLINE inline void HenckyMaterial<dim, Law>::set_trial(const double k,
                                                                         const Number &part,
+                                                                        const Number *change,
                                                                         const Lanes<Number> &lanes,
-                                                                        const Number *b,
                                                                         Number *result)
   {
     Number before[dim * dim], inverse[dim * dim], f[dim * dim];
     for (unsigned int i = 0; i < dim * dim; ++i)
-      before[i] = (k * part) * lanes.change[i] + (i % (dim + 1) == 0 ? 1. : 0.);
+      before[i] = (k * part) * change[i] + (i % (dim + 1) == 0 ? 1. : 0.);
     invert_rows<dim>(before, inverse);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         {
           f[i * dim + j] = simd::broadcast<Number>(i == j ? 1. : 0.);
           for (unsigned int m = 0; m < dim; ++m)
-            f[i * dim + j] += part * lanes.change[i * dim + m] * inverse[m * dim + j];
+            f[i * dim + j] += part * change[i * dim + m] * inverse[m * dim + j];
         }
     const Number stretch_change = part * (lanes.stretch - 1.);
-    trial_left_cauchy_green<dim, Number>(f, 1. + stretch_change / (1. + k * stretch_change), b, result);
+    trial_left_cauchy_green<dim, Number>(
+        f, 1. + stretch_change / (1. + k * stretch_change), lanes.left_cauchy_green, result);
   }
 
 
   template <int dim, typename Law>
   template <typename PointState, typename Number, typename HenckyMaterial<dim, Law>::Round round, typename Indices>
-  DEAL_II_ALWAYS_INLINE inline unsigned int HenckyMaterial<dim, Law>::advance(const Indices &indices,
-                                                                              const unsigned int n,
-                                                                              const MaterialPoints<dim> &points,
-                                                                              const MaterialMotion<dim> &motion,
-                                                                              UpdateReport &report) const
+  DEAL_II_ALWAYS_INLINE inline typename HenckyMaterial<dim, Law>::Left
+  HenckyMaterial<dim, Law>::advance(const Indices &indices,
+                                    const unsigned int n,
+                                    const MaterialPoints<dim> &points,
+                                    const MaterialMotion<dim> &motion,
+                                    UpdateReport &report) const
   {
     using Mask              = simd::Mask<Number>;
-    constexpr bool is_first = round == Round::first;
-    constexpr bool returns  = !Law::is_elastic && !(is_first && Law::leaves_returns);
+    constexpr bool in_parts = round == Round::parts;
+    constexpr bool returns  = !Law::is_elastic && !(round == Round::first && Law::leaves_returns);
     const Number zero = simd::broadcast<Number>(0.), one = simd::broadcast<Number>(1.);
     const unsigned int used        = (1u << n) - 1;
-    Lanes<Number> lanes            = read<Number>(indices, is_first ? n : 0, points, motion);
+    Lanes<Number> lanes            = read<Number>(indices, round == Round::first ? n : 0, points, motion);
     const LawStep<Number> law_step = { lanes.volume_ratio, motion.time_step, motion.grain_density, !returns };
 
-    Number f[dim * dim], largest_change = dim == 2 ? simd::abs<Number>(lanes.stretch - 1.) : zero;
+    Number change[dim * dim], largest_change = dim == 2 ? simd::abs<Number>(lanes.stretch - 1.) : zero; // dF - I
     for (unsigned int i = 0; i < dim * dim; ++i)
       {
-        f[i]           = lanes.change[i] + (i % (dim + 1) == 0 ? 1. : 0.);
-        largest_change = simd::max<Number>(largest_change, simd::abs<Number>(lanes.change[i]));
+        change[i]      = i % (dim + 1) == 0 ? lanes.increment[i] - 1. : lanes.increment[i];
+        largest_change = simd::max<Number>(largest_change, simd::abs<Number>(change[i]));
       }
     const Number n_wanted = largest_change * (1. / law.substep_strain());
     // Written such that not-a-number is not served.
-    Mask is_served = (determinant_of_rows<dim>(f) > 0.) & (lanes.volume_ratio > 0.) & (lanes.stretch > 0.) &
-                     (n_wanted <= (is_first ? 1. : largest_number_of_parts));
+    const Mask is_cut = n_wanted > 1.;
+    Mask is_served    = (determinant_of_rows<dim>(lanes.increment) > 0.) & (lanes.volume_ratio > 0.) &
+                     (lanes.stretch > 0.) & (in_parts ? n_wanted <= largest_number_of_parts : !is_cut);
     Number n_parts = one;
-    if constexpr (!is_first)
+    if constexpr (in_parts)
       {
         const Number rounded = (n_wanted + 0x1p52) - 0x1p52;
         n_parts              = simd::max<Number>(simd::select<Number>(rounded < n_wanted, rounded + 1., rounded), one);
@@ -467,31 +498,33 @@ namespace scree
     const Number part = 1. / n_parts, inverse_ratio = 1. / lanes.volume_ratio;
 
     const auto count = [&](const Mask &mask) { return __builtin_popcount(simd::bits_of(mask) & used); };
-    Number b[n_components], stress[n_components], dissipation = zero;
+    Number stress[n_components], dissipation = zero;
     Mask is_separated{}, was_plastic{};
-    for (unsigned int k = 0; k == 0 || (!is_first && simd::any(is_served & (n_parts > double(k)))); ++k)
+    for (unsigned int k = 0; k == 0 || (in_parts && simd::any(is_served & (n_parts > double(k)))); ++k)
       {
-        Number trial[n_components], variables[n_internal + 1];
-        if constexpr (is_first)
-          trial_left_cauchy_green<dim, Number>(f, lanes.stretch, lanes.left_cauchy_green, trial);
+        Number b[n_components], variables[n_internal + 1];
+        if constexpr (in_parts)
+          set_trial<Number>(k, part, change, lanes, b);
         else
-          set_trial<Number>(k, part, lanes, lanes.left_cauchy_green, trial);
-        PointState state(trial);
+          trial_left_cauchy_green<dim, Number>(lanes.increment, lanes.stretch, lanes.left_cauchy_green, b);
+        PointState state(b);
         std::copy_n(lanes.internal_variables, n_internal, variables);
         const LawResponse<Number> response = state.respond(law, law_step, variables);
-        const Mask is_in_part              = n_parts > double(k);
-        is_served                          = is_served & !(is_in_part & ((!state.is_valid) | response.is_left));
-        const Mask is_active               = is_served & is_in_part;
-        const Mask is_returned             = is_active & response.is_plastic;
-        Number now[n_components];
-        state.compose_stress(inverse_ratio, now);
-        std::copy_n(trial, n_components, b);
-        if (returns && simd::any(is_returned))
+        Mask is_active                     = is_served & state.is_valid & !response.is_left;
+        if constexpr (in_parts)
+          {
+            const Mask is_in_part = n_parts > double(k);
+            is_served             = is_active | (is_served & !is_in_part);
+            is_active             = is_active & is_in_part;
+          }
+        else
+          is_served = is_active;
+        if (const Mask is_returned = is_active & response.is_plastic; returns && simd::any(is_returned))
           {
             Number returned[n_components];
             state.left_cauchy_green(returned);
             for (unsigned int c = 0; c < n_components; ++c)
-              b[c] = simd::select<Number>(is_returned, returned[c], trial[c]);
+              b[c] = simd::select<Number>(is_returned, returned[c], b[c]);
             for (unsigned int i = 0; i < n_internal; ++i)
               lanes.internal_variables[i] =
                   simd::select<Number>(is_returned, variables[i], lanes.internal_variables[i]);
@@ -501,11 +534,20 @@ namespace scree
             report.n_fallbacks += count(is_active & response.is_searched);
             report.n_unresolved += count(is_active & response.is_unresolved);
           }
-        for (unsigned int c = 0; c < n_components; ++c)
+        if (!in_parts || k == 0)
           {
-            lanes.left_cauchy_green[c] =
-                k == 0 ? b[c] : simd::select<Number>(is_active, b[c], lanes.left_cauchy_green[c]);
-            stress[c] = k == 0 ? now[c] : simd::select<Number>(is_active, now[c], stress[c]);
+            state.compose_stress(inverse_ratio, stress);
+            std::copy_n(b, n_components, lanes.left_cauchy_green);
+          }
+        else
+          {
+            Number now[n_components];
+            state.compose_stress(inverse_ratio, now);
+            for (unsigned int c = 0; c < n_components; ++c)
+              {
+                lanes.left_cauchy_green[c] = simd::select<Number>(is_active, b[c], lanes.left_cauchy_green[c]);
+                stress[c]                  = simd::select<Number>(is_active, now[c], stress[c]);
+              }
           }
         is_separated = (is_active & response.is_separated) | (is_separated & !is_active);
 
@@ -521,14 +563,14 @@ namespace scree
                        simd::largest_lane<Number>(simd::select<Number>(is_pressed, state.compression(), zero)));
       }
 
-    const unsigned int stored = simd::bits_of(is_served) & used;
+    const unsigned int stored = simd::bits_of(is_served) & used, left = used & ~stored;
     if (stored != 0)
       {
         write<n_components>(lanes.left_cauchy_green, indices, stored, points, points.left_cauchy_green);
         write<n_components>(stress, indices, stored, points, points.stress);
       }
     report.n_substeps += __builtin_popcount(stored);
-    if constexpr (!is_first)
+    if constexpr (in_parts)
       for (unsigned int bits = stored; bits != 0; bits &= bits - 1)
         report.n_substeps += static_cast<unsigned int>(simd::lane(n_parts, __builtin_ctz(bits))) - 1;
     if (const unsigned int changed = simd::bits_of(was_plastic) & stored; returns && changed != 0)
@@ -539,7 +581,7 @@ namespace scree
         for (unsigned int bits = changed; bits != 0; bits &= bits - 1)
           report.plastic_dissipation += simd::lane(lost, __builtin_ctz(bits));
       }
-    return used & ~stored;
+    return { left, left == 0 ? 0 : left & (simd::bits_of(is_cut) | (Law::leaves_returns ? 0 : used)) };
   }
 
 

@@ -94,6 +94,8 @@ namespace scree
       // One instruction; the compiler makes eight of the loop.
       using Compare = long long __attribute__((vector_size(64)));
       return __builtin_ia32_cvtq2mask512(reinterpret_cast<Compare>(mask));
+#elif defined(__AVX2__)
+      return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask));
 #else
       unsigned int bits = 0;
       for (unsigned int lane = 0; lane < batch_size; ++lane)

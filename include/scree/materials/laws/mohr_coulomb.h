@@ -589,13 +589,13 @@ namespace scree
 
 
   template <unsigned int n_variables, typename Number, typename S>
-  __attribute__((noinline)) void MohrCoulomb::return_to(const MohrCoulombSurfaces<S> &surfaces,
-                                                        const simd::Mask<Number> &cohesionless,
-                                                        const LawStep<Number> &step,
-                                                        PrincipalNumbers<Number> &strain,
-                                                        Number *internal_variables,
-                                                        PrincipalNumbers<Number> &stress,
-                                                        LawResponse<Number> &response) const
+  DEAL_II_ALWAYS_INLINE inline void MohrCoulomb::return_to(const MohrCoulombSurfaces<S> &surfaces,
+                                                           const simd::Mask<Number> &cohesionless,
+                                                           const LawStep<Number> &step,
+                                                           PrincipalNumbers<Number> &strain,
+                                                           Number *internal_variables,
+                                                           PrincipalNumbers<Number> &stress,
+                                                           LawResponse<Number> &response) const
   {
     const PrincipalNumbers<Number> trial = strain;
     const Number volume_strain = strain[0] + strain[1] + strain[2], zero = simd::broadcast<Number>(0.);
@@ -649,16 +649,16 @@ namespace scree
   {
     stress = stress_of(strain);
     LawResponse<Number> response{};
-    response.bulk_modulus = simd::broadcast<Number>(bulk);
-    response.is_plastic   = yield(stress) > 0.;
-    if (simd::any(response.is_plastic)) // Grains with a gap do not dilate.
-      return_to<1, Number>(surfaces,
-                           cohesionless ? response.is_plastic : simd::Mask<Number>{},
-                           step,
-                           strain,
-                           internal_variables,
-                           stress,
-                           response);
+    response.bulk_modulus     = simd::broadcast<Number>(bulk);
+    response.is_plastic       = yield(stress) > 0.;
+    const auto plastic_return = [&]() __attribute__((noinline)) // elastic points have short code
+    {
+      // Grains with a gap do not dilate.
+      const auto cohesionless_points = cohesionless ? response.is_plastic : simd::Mask<Number>{};
+      return_to<1, Number>(surfaces, cohesionless_points, step, strain, internal_variables, stress, response);
+    };
+    if (simd::any(response.is_plastic))
+      plastic_return();
     return response;
   }
 
@@ -766,16 +766,16 @@ namespace scree
     stress                                         = stress_of(strain);
     const MohrCoulombStrength<Number> of_last_step = strength<Number>(internal_variables[acting_kappa]);
     LawResponse<Number> response{};
-    response.bulk_modulus = simd::broadcast<Number>(bulk);
-    response.is_plastic   = yield(stress, of_last_step) > 0.;
+    response.bulk_modulus     = simd::broadcast<Number>(bulk);
+    response.is_plastic       = yield(stress, of_last_step) > 0.;
+    const auto plastic_return = [&]() __attribute__((noinline))
+    {
+      const MohrCoulombSurfaces<Number> surfaces(of_last_step, largest_principal_stress, bulk, shear, true);
+      return_to<3, Number>(
+          surfaces, of_last_step.limit <= least_limit, step, strain, internal_variables, stress, response);
+    };
     if (simd::any(response.is_plastic))
-      return_to<3, Number>(MohrCoulombSurfaces<Number>(of_last_step, largest_principal_stress, bulk, shear, true),
-                           of_last_step.limit <= least_limit,
-                           step,
-                           strain,
-                           internal_variables,
-                           stress,
-                           response);
+      plastic_return();
     return response;
   }
 } // namespace scree

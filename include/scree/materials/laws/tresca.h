@@ -245,25 +245,24 @@ namespace scree
     const Number largest = largest_of(stress), shear_stress = 0.5 * (largest - smallest_of(stress));
 
     LawResponse<Number> response{};
-    response.bulk_modulus = simd::broadcast<Number>(bulk);
-    response.is_plastic   = (shear_stress > slow) | (largest > largest_principal_stress);
-    if (!simd::any(response.is_plastic))
-      return response;
-    Number strength = slow;
-    if (rate_of_strength.is_active(step.time_step))
-      {
-        const Number excess = shear_stress - slow;
-        strength += simd::select<Number>(
-            excess > 0., rate_of_strength.overstress<Number>(excess, slow, shear, step.time_step), zero);
-      }
-    return_to<3, Number>(
-        MohrCoulombSurfaces<Number>({ zero, zero, 2. * strength }, largest_principal_stress, bulk, shear, true),
-        simd::Mask<Number>{}, // none is without strength
-        step,
-        strain,
-        internal_variables,
-        stress,
-        response);
+    response.bulk_modulus     = simd::broadcast<Number>(bulk);
+    response.is_plastic       = (shear_stress > slow) | (largest > largest_principal_stress);
+    const auto plastic_return = [&]() __attribute__((noinline))
+    {
+      Number strength = slow;
+      if (rate_of_strength.is_active(step.time_step))
+        {
+          const Number excess = shear_stress - slow;
+          strength += simd::select<Number>(
+              excess > 0., rate_of_strength.overstress<Number>(excess, slow, shear, step.time_step), zero);
+        }
+      const MohrCoulombSurfaces<Number> surfaces(
+          { zero, zero, 2. * strength }, largest_principal_stress, bulk, shear, true);
+      const simd::Mask<Number> none{}; // is without strength
+      return_to<3, Number>(surfaces, none, step, strain, internal_variables, stress, response);
+    };
+    if (simd::any(response.is_plastic))
+      plastic_return();
     return response;
   }
 } // namespace scree
