@@ -83,13 +83,14 @@ namespace scree
   class InvariantState
   {
   public:
-    /// See PrincipalState, as all members.
+    /// @param b components of the trial b_e
     DEAL_II_ALWAYS_INLINE inline explicit InvariantState(const Number *b)
         : trial(b)
         , is_valid(trial.is_valid)
     {
     }
 
+    /// Sets the response and internal variables.
     template <typename Law>
     DEAL_II_ALWAYS_INLINE inline LawResponse<Number>
     respond(const Law &law, const LawStep<Number> &step, Number *internal_variables)
@@ -99,11 +100,13 @@ namespace scree
       return found;
     }
 
+    /// Components of b_e.
     DEAL_II_ALWAYS_INLINE inline void left_cauchy_green(Number *b) const
     {
       trial.left_cauchy_green(found.volume_strain, found.deviator_factor, b);
     }
 
+    /// Components of the Kirchhoff stress times `factor`.
     DEAL_II_ALWAYS_INLINE inline void compose_stress(const Number &factor, Number *components) const
     {
       const Number mean = factor * found.mean_stress, slope = factor * found.stress_factor;
@@ -111,17 +114,20 @@ namespace scree
         components[c] = c < 3 ? mean + slope * trial.deviator[c] : slope * trial.deviator[c];
     }
 
+    /// Kirchhoff stress times the change of strain, J per m^3 of reference volume.
     Number dissipation() const
     {
       return found.mean_stress * (trial.volume - found.volume_strain) +
              found.stress_factor * (1. - found.deviator_factor) * trial.square;
     }
 
+    /// Largest compressive principal stress, Pa.
     Number compression() const
     {
       return -1. * (found.mean_stress + found.stress_factor * trial.least_deviator());
     }
 
+    /// The same, or more than it, cheap.
     Number bound_of_compression() const
     {
       return -1. * (found.mean_stress + found.stress_factor * trial.bound_of_deviator());
@@ -132,7 +138,7 @@ namespace scree
     InvariantResponse<Number> found;
 
   public:
-    const simd::Mask<Number> is_valid;
+    const simd::Mask<Number> is_valid; ///< whether the strain can be computed
   };
 
 

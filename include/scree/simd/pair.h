@@ -166,10 +166,14 @@ namespace scree
     {
       return x;
     }
+
+    /// One of the batches of a pair.
     DEAL_II_ALWAYS_INLINE inline Batch &half(BatchPair &x, const unsigned int h)
     {
       return h == 0 ? x.first : x.second;
     }
+
+    /// The same, to be read.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline const Batch &half(const Number &x, const unsigned int h)
     {
@@ -181,15 +185,19 @@ namespace scree
       return half(value, lane / batch_size)[lane % batch_size];
     }
 
-    /// Sets the condition of a lane.
+    /// Sets the condition of a number.
     inline void set_bit(bool &mask, const unsigned int)
     {
       mask = true;
     }
+
+    /// Sets the condition of a lane.
     inline void set_bit(BatchBits &mask, const unsigned int lane)
     {
       mask[lane] = -1;
     }
+
+    /// Sets the condition of a lane of a pair.
     inline void set_bit(PairMask &mask, const unsigned int lane)
     {
       set_bit(lane < batch_size ? mask.first : mask.second, lane % batch_size);

@@ -540,12 +540,14 @@ namespace scree
     }
 
   protected:
-    /// The largest and the smallest of three numbers.
+    /// The largest of three numbers.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline static Number largest_of(const PrincipalNumbers<Number> &numbers)
     {
       return simd::max<Number>(numbers[0], simd::max<Number>(numbers[1], numbers[2]));
     }
+
+    /// The smallest of three numbers.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline static Number smallest_of(const PrincipalNumbers<Number> &numbers)
     {

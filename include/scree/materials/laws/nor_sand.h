@@ -37,6 +37,7 @@ namespace scree
     }
 
   protected:
+    /// Values that forms do not share; see the members.
     SandParameters(const double shear_modulus,
                    const double compression_index,
                    const double reference_pressure,
@@ -100,9 +101,9 @@ namespace scree
       return volume - intercept + slope * (log_pressure - log_reference);
     }
 
-    double intercept, ///< Gamma
-        slope,        ///< lambda
-        log_reference;
+    double intercept,  ///< Gamma
+        slope,         ///< lambda
+        log_reference; ///< ln p_ref
   };
 
 
@@ -286,7 +287,12 @@ namespace scree
     template <typename Number>
     struct Residual
     {
-      Number first, first_x, first_r, second, second_x, second_r;
+      Number first;      ///< residual
+      Number first_x;    ///< derivative in x
+      Number first_r;    ///< derivative in r
+      Number second;     ///< residual
+      Number second_x;   ///< derivative in x
+      Number second_r;   ///< derivative in r
       Number scale;      ///< size of what `first` is made of
       Number multiplier; ///< plastic multiplier
     };
@@ -354,6 +360,7 @@ namespace scree
     const CriticalLine line;  ///< of critical states
 
   protected:
+    /// From the entries and the parts of the form; v_0 is the `initial_volume`.
     SandLaw(const SandParameters &parameters,
             const Elasticity &elastic,
             const CriticalLine &line,
@@ -387,7 +394,8 @@ namespace scree
                                      Number &x,
                                      Number &r);
 
-    const double log_minimum_pressure, initial_overconsolidation;
+    const double log_minimum_pressure;      ///< of Pa
+    const double initial_overconsolidation; ///< see SandParameters
 
   private:
     const Form &form() const
