@@ -212,8 +212,8 @@ namespace scree
       *reinterpret_cast<BatchInMemory *>(values) = batch;
     }
 
-    /// The lanes below `n`, which may be beyond all lanes or negative.
-    DEAL_II_ALWAYS_INLINE inline Mask<Batch> first_lanes(const int n)
+    /// The lanes below `n`.
+    DEAL_II_ALWAYS_INLINE inline Mask<Batch> first_lanes(const unsigned int n)
     {
       BatchBits numbers;
       for (unsigned int l = 0; l < batch_size; ++l)
