@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/box_of_raster.h>
 #include <scree/case/parameters.h>
-#include <scree/materials/friction_angle.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 
 namespace scree
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/element/element_driver.h>
-#include <scree/materials/place_variable_values.h>
+#include <scree/materials/table.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/symmetric_tensor.h>

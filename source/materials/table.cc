@@ -11,6 +11,31 @@ namespace scree
 {
   namespace
   {
+    /// Made at the first call, whichever source file registers first.
+    std::vector<RegisteredLaw> &laws()
+    {
+      static std::vector<RegisteredLaw> all;
+      return all;
+    }
+  } // namespace
+
+
+  const std::vector<RegisteredLaw> &registered_laws()
+  {
+    return laws();
+  }
+
+
+  RegisterLaw::RegisterLaw(RegisteredLaw law)
+  {
+    const auto place = std::find_if(
+        laws().begin(), laws().end(), [&](const auto &other) { return lower_case(other.name) > lower_case(law.name); });
+    laws().insert(place, std::move(law));
+  }
+
+
+  namespace
+  {
     const char rigid_name[] = "rigid";
 
     const RegisteredLaw &registered(const std::string &name)
@@ -26,7 +51,7 @@ namespace scree
   MaterialParameters::MaterialParameters()
   {
     for (const RegisteredLaw &one : registered_laws())
-      all[one.name] = one.entries->clone();
+      all[one.name] = one.copy(*one.entries);
   }
 
 
@@ -34,7 +59,7 @@ namespace scree
       : law(other.law)
   {
     for (const auto &[name, entries] : other.all)
-      all[name] = entries->clone();
+      all[name] = registered(name).copy(*entries);
   }
 
 
@@ -114,12 +139,38 @@ namespace scree
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters)
   {
     if constexpr (dim == 2)
-      return parameters.chosen().make_2d();
+      return registered(parameters.law).make_2d(parameters.chosen());
     else
-      return parameters.chosen().make_3d();
+      return registered(parameters.law).make_3d(parameters.chosen());
   }
 
 
+  template <int dim>
+  PlaceVariableValues<dim>::PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection)
+      : variable(variable)
+      , name(entry_name(subsection, variable.entry) + " = " + variable.expression)
+      , expression(
+            parse_expression<dim>(entry_name(subsection, variable.entry), variable.expression, 1, false, "5e3 - 2e3*y"))
+  {
+  }
+
+
+  template <int dim>
+  void PlaceVariableValues<dim>::set(const Point<dim> &place, const double depth, double *internal_variables) const
+  {
+    const double value = expression->value(place) + variable.gradient * depth;
+    const auto fault   = [&](const std::string &remedy) {
+      return ValueError(name + ": the value at " + number_text(place) + " m is " + number_text(value) + ". " + remedy);
+    };
+    if (!(value > 0))
+      throw fault("Write an expression that is positive in the whole body.");
+    if (value > variable.largest)
+      throw fault("Beyond " + number_text(variable.largest) + ", " + variable.remedy);
+    internal_variables[variable.number] = value;
+  }
+
+  template class PlaceVariableValues<2>;
+  template class PlaceVariableValues<3>;
   template std::unique_ptr<Material<2>> make_material<2>(const MaterialParameters &);
   template std::unique_ptr<Material<3>> make_material<3>(const MaterialParameters &);
 } // namespace scree

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/materials/place_variable_values.h>
+#include <scree/materials/table.h>
 #include <scree/model/scene.h>
 
 #include <deal.II/base/mpi.h>

@@ -2,7 +2,7 @@
 #include <scree/initial/geostatic.h>
 #include <scree/initial/steady_seepage.h>
 #include <scree/initial/water_start.h>
-#include <scree/materials/place_variable_values.h>
+#include <scree/materials/table.h>
 #include <scree/seeding/seeding.h>
 #include <scree/seeding/water_seeding.h>
 #include <scree/model/scene.h>

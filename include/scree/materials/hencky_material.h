@@ -4,23 +4,162 @@
 #define scree_materials_hencky_material_h
 
 #include <scree/materials/law.h>
-#include <scree/tensor/hencky.h>
+#include <scree/simd/records.h>
+#include <scree/tensor/elastic_strain.h>
 
 #include <deal.II/base/exceptions.h>
 
+#include <string>
+#include <utility>
+
 namespace scree
 {
-  /// Kinematics around a law in principal values (@source{simo1992}): trial b_e, logarithmic strain, the law's return
-  /// map, exponential map, sigma = tau/J. The law is inlined in the loop over points; nothing allocates.
+  /// Trial strain of points in principal values, and what a law makes of it.
+  template <int dim, typename Number>
+  class PrincipalState
+  {
+  public:
+    /// @param b components of the trial b_e
+    DEAL_II_ALWAYS_INLINE inline explicit PrincipalState(const Number *b)
+        : frame(b)
+        , trial(log_strain(frame.values()))
+        , strain(trial)
+    {
+      is_valid = simd::abs<Number>(trial[0] + trial[1] + trial[2]) <=
+                 simd::broadcast<Number>(largest_number); // else not finite
+    }
+
+    /// Sets strain, stress and internal variables.
+    template <typename Law>
+    DEAL_II_ALWAYS_INLINE inline LawResponse<Number>
+    respond(const Law &law, const LawStep<Number> &step, Number *internal_variables)
+    {
+      return scree::respond(law, step, strain, internal_variables, stress);
+    }
+
+    /// Components of b_e.
+    DEAL_II_ALWAYS_INLINE inline void left_cauchy_green(Number *b) const
+    {
+      left_cauchy_green_of(frame, strain, b);
+    }
+
+    /// Components of the Kirchhoff stress times `factor`.
+    DEAL_II_ALWAYS_INLINE inline void compose_stress(const Number &factor, Number *components) const
+    {
+      frame.compose({ { factor * stress[0], factor * stress[1], factor * stress[2] } }, components);
+    }
+
+    /// Kirchhoff stress times the change of strain, J per m^3 of reference volume.
+    Number dissipation() const
+    {
+      return stress[0] * (trial[0] - strain[0]) + stress[1] * (trial[1] - strain[1]) +
+             stress[2] * (trial[2] - strain[2]);
+    }
+
+    /// Largest compressive principal stress, Pa.
+    Number compression() const
+    {
+      return -1. * simd::min<Number>(stress[0], simd::min<Number>(stress[1], stress[2]));
+    }
+
+    /// The same, or more than it, cheap.
+    Number bound_of_compression() const
+    {
+      return compression();
+    }
+
+    simd::Mask<Number> is_valid; ///< whether the strain can be computed
+
+  private:
+    static constexpr double largest_number = std::numeric_limits<double>::max();
+
+    PrincipalFrame<dim, Number> frame;
+    PrincipalNumbers<Number> trial, strain, stress;
+  };
+
+
+  /// The same in invariants, see InvariantResponse.
+  template <int dim, typename Number>
+  class InvariantState
+  {
+  public:
+    /// @param b components of the trial b_e
+    DEAL_II_ALWAYS_INLINE inline explicit InvariantState(const Number *b)
+        : trial(b)
+        , is_valid(trial.is_valid)
+    {
+    }
+
+    /// Sets the response and internal variables.
+    template <typename Law>
+    DEAL_II_ALWAYS_INLINE inline LawResponse<Number>
+    respond(const Law &law, const LawStep<Number> &step, Number *internal_variables)
+    {
+      found =
+          law.respond(step, StrainInvariants<Number>{ trial.volume, trial.square, trial.third() }, internal_variables);
+      return found;
+    }
+
+    /// Components of b_e.
+    DEAL_II_ALWAYS_INLINE inline void left_cauchy_green(Number *b) const
+    {
+      trial.left_cauchy_green(found.volume_strain, found.deviator_factor, b);
+    }
+
+    /// Components of the Kirchhoff stress times `factor`.
+    DEAL_II_ALWAYS_INLINE inline void compose_stress(const Number &factor, Number *components) const
+    {
+      const Number mean = factor * found.mean_stress, slope = factor * found.stress_factor;
+      for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+        components[c] = c < 3 ? mean + slope * trial.deviator[c] : slope * trial.deviator[c];
+    }
+
+    /// Kirchhoff stress times the change of strain, J per m^3 of reference volume.
+    Number dissipation() const
+    {
+      return found.mean_stress * (trial.volume - found.volume_strain) +
+             found.stress_factor * (1. - found.deviator_factor) * trial.square;
+    }
+
+    /// Largest compressive principal stress, Pa.
+    Number compression() const
+    {
+      return -1. * (found.mean_stress + found.stress_factor * trial.least_deviator());
+    }
+
+    /// The same, or more than it, cheap.
+    Number bound_of_compression() const
+    {
+      return -1. * (found.mean_stress + found.stress_factor * trial.bound_of_deviator());
+    }
+
+  private:
+    ElasticStrain<dim, Number> trial;
+    InvariantResponse<Number> found;
+
+  public:
+    const simd::Mask<Number> is_valid; ///< whether the strain can be computed
+  };
+
+
+  /// Kinematics around a law (@source{simo1992}): trial b_e, logarithmic strain, the law's return map, exponential map,
+  /// sigma = tau/J. The law is inlined in the loop over points; nothing allocates.
   ///
   /// A step is cut into n parts of a straight path, F_k = I + k/n (dF - I) and f_k = F_k F_{k-1}^{-1}, such that no
-  /// component of F_k - F_{k-1} is beyond the law's sub-step strain: backward Euler has several roots if it is.
+  /// component of F_k - F_{k-1} is beyond the law's sub-step strain.
+  ///
+  /// Points go through advance() side by side. Those that need sub-steps, and those whose return a law leaves, are
+  /// gathered, so that the lanes of further rounds are full; in three dimensions strain far from a sphere is left to
+  /// a last one in principal values. Which way a point goes, and what comes out, does not depend on its neighbours.
   template <int dim, typename Law>
   class HenckyMaterial : public Material<dim>
   {
   public:
     /// Copies the law.
-    explicit HenckyMaterial(const Law &law);
+    explicit HenckyMaterial(const Law &law)
+        : law(law)
+    {
+    }
 
     void
     update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const override;
@@ -33,7 +172,10 @@ namespace scree
     {
       return law.bulk_modulus(pressure);
     }
-    double elastic_energy(const double *left_cauchy_green) const override;
+    double elastic_energy(const double *left_cauchy_green) const override
+    {
+      return law.energy(log_strain(PrincipalFrame<dim>(left_cauchy_green).values()));
+    }
     Batch elastic_energies(const Batch *left_cauchy_green) const override;
     void initialise(const double *wanted_stress,
                     double *left_cauchy_green,
@@ -43,232 +185,126 @@ namespace scree
     {
       return law.initial_porosity();
     }
-    bool is_elastic() const override;
-    double plane_friction() const override;
-    double grain_diameter() const override;
-    NonlocalVariable nonlocal_variable() const override;
+    bool is_elastic() const override
+    {
+      return Law::is_elastic;
+    }
+    double plane_friction() const override
+    {
+      return law.plane_friction();
+    }
+    double grain_diameter() const override
+    {
+      return law.grain_diameter();
+    }
+    NonlocalVariable nonlocal_variable() const override
+    {
+      return law.nonlocal_variable();
+    }
     PlaceVariable place_variable() const override
     {
-      return place_variable_of(law);
+      return law.place_variable();
     }
-    std::vector<Quantity> internal_quantities() const override;
-    std::vector<Quantity> output_quantities() const override;
+    std::vector<Quantity> internal_quantities() const override
+    {
+      return Law::internal_quantities();
+    }
+    std::vector<Quantity> output_quantities() const override
+    {
+      return Law::output_quantities();
+    }
     void output(const double *left_cauchy_green,
-                const double *stress,
+                const double *,
                 const double *internal_variables,
                 const double volume_ratio,
-                double *values) const override;
-
-  protected:
-    /// The update of one of the points.
-    void update_point(const unsigned int p,
-                      const MaterialPoints<dim> &points,
-                      const MaterialMotion<dim> &motion,
-                      UpdateReport &report) const;
+                double *values) const override
+    {
+      law.output(log_strain(PrincipalFrame<dim>(left_cauchy_green).values()), internal_variables, volume_ratio, values);
+    }
 
   private:
-    static constexpr unsigned int n_components = n_symmetric_components<dim>;
+    static constexpr unsigned int n_components = n_symmetric_components<dim>, n_internal = Law::n_internal_variables;
+    static constexpr double largest_number_of_parts = 1000;
 
-    /// What friction that depends on the rate keeps of a return from `trial`; `internal_variables` are those after it.
-    void keep_part(const PrincipalValues &trial,
-                   const double *internal_variables_before,
-                   const double time_step,
-                   const double grain_density,
-                   PrincipalValues &strain,
-                   double *internal_variables,
-                   PrincipalValues &stress) const;
+    /// The state that suits the law.
+    template <typename Number>
+    using State = std::conditional_t<Law::in_invariants, InvariantState<dim, Number>, PrincipalState<dim, Number>>;
 
-    /// One increment f of a point; returns the dissipation per reference volume, J/m^3. Writes the stress if `stress`.
-    double advance(const dealii::Tensor<2, dim> &f,
-                   const double out_of_plane_stretch,
-                   const double volume_ratio,
-                   const double time_step,
-                   const double grain_density,
-                   double *left_cauchy_green,
-                   double *internal_variables,
-                   double *stress,
-                   UpdateReport &report) const;
+    /// A Newton iteration waits for the one before: pairs of batches fill the time.
+    using Gathered = std::conditional_t<Law::leaves_returns, BatchPair, Batch>;
 
-    /// All sub-steps of a point; returns the dissipation per reference volume, J/m^3.
-    double advance_in_substeps(const dealii::Tensor<2, dim> &deformation_increment,
-                               const double out_of_plane_stretch,
-                               const double volume_ratio,
-                               const double time_step,
-                               const double grain_density,
-                               double *left_cauchy_green,
-                               double *internal_variables,
-                               double *stress,
-                               UpdateReport &report) const;
+    /// Numbers of points that are advanced later.
+    struct List
+    {
+      static constexpr unsigned int capacity = 128;
+      unsigned int size                      = 0;
+      std::array<unsigned int, capacity> points;
+
+      /// The points of the lanes whose bits are set.
+      template <typename Indices>
+      void append(const Indices &indices, unsigned int bits)
+      {
+        for (; bits != 0; bits &= bits - 1)
+          points[size++] = indices[__builtin_ctz(bits)];
+      }
+    };
+
+    /// State and motion of points side by side.
+    template <typename Number>
+    struct Lanes
+    {
+      Number left_cauchy_green[n_components], internal_variables[n_internal + 1]; // an array of 0 is not allowed
+      Number increment[dim * dim], stretch;                                       // dF; dF_zz
+      Number volume_ratio, reference_volume;
+    };
+
+    /// The rounds of advance().
+    enum class Round
+    {
+      first,   ///< all points that need no sub-steps
+      returns, ///< points without sub-steps whose return the law has left
+      parts    ///< points with sub-steps
+    };
+
+    /// Reads points; `n` of them that lie in a row, or any points if n = 0.
+    template <typename Number, typename Indices>
+    static Lanes<Number> read(const Indices &indices,
+                              const unsigned int n,
+                              const MaterialPoints<dim> &points,
+                              const MaterialMotion<dim> &motion);
+
+    /// Writes `n_values` Numbers into the records of the lanes whose bits are set.
+    template <unsigned int n_values, typename Number, typename Indices>
+    static void write(const Number *values,
+                      const Indices &indices,
+                      const unsigned int bits,
+                      const MaterialPoints<dim> &points,
+                      double *of_record_0);
+
+    /// Trial b_e of part `k` from the b_e that the part before has left.
+    template <typename Number>
+    static void
+    set_trial(const double k, const Number &part, const Number *change, const Lanes<Number> &lanes, Number *result);
+
+    /// The bits of lanes that a round has left.
+    struct Left
+    {
+      unsigned int all, cut; // cut: those that need sub-steps
+    };
+
+    /// Advances the first `n` of these points by the step, all parts of it.
+    template <typename PointState, typename Number, Round round, typename Indices>
+    Left advance(const Indices &indices,
+                 const unsigned int n,
+                 const MaterialPoints<dim> &points,
+                 const MaterialMotion<dim> &motion,
+                 UpdateReport &report) const;
+
+    /// Why a point was left by all rounds.
+    [[noreturn]] void throw_refusal(const unsigned int p, const MaterialMotion<dim> &motion) const;
 
     const Law law;
   };
-
-
-  template <int dim, typename Law>
-  HenckyMaterial<dim, Law>::HenckyMaterial(const Law &law)
-      : law(law)
-  {
-  }
-
-
-  template <int dim, typename Law>
-  void HenckyMaterial<dim, Law>::keep_part(const PrincipalValues &trial,
-                                           const double *internal_variables_before,
-                                           const double time_step,
-                                           const double grain_density,
-                                           PrincipalValues &strain,
-                                           double *internal_variables,
-                                           PrincipalValues &stress) const
-  {
-    PrincipalValues change;
-    double volume = 0, square = 0;
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        change[i] = trial[i] - strain[i];
-        volume += change[i];
-      }
-    for (const double value : change)
-      square += (value - volume / 3) * (value - volume / 3);
-    const double part = law.inertial_friction.template kept_part<double>(
-        std::sqrt(2 * square), law.shear_modulus(), law.friction_pressure(stress), grain_density, time_step);
-    if (part == 0)
-      return;
-    for (unsigned int i = 0; i < 3; ++i)
-      strain[i] += part * change[i];
-    for (unsigned int i = 0; i < Law::n_internal_variables; ++i)
-      internal_variables[i] += part * (internal_variables_before[i] - internal_variables[i]);
-    stress = law.stress_of(strain);
-  }
-
-
-  template <int dim, typename Law>
-  inline double HenckyMaterial<dim, Law>::advance(const dealii::Tensor<2, dim> &f,
-                                                  const double out_of_plane_stretch,
-                                                  const double volume_ratio,
-                                                  const double time_step,
-                                                  const double grain_density,
-                                                  double *left_cauchy_green,
-                                                  double *internal_variables,
-                                                  double *stress,
-                                                  UpdateReport &report) const
-  {
-    double trial[n_components];
-    trial_left_cauchy_green<dim>(&f[0][0], out_of_plane_stretch, left_cauchy_green, trial);
-    const PrincipalFrame<dim> frame(trial);
-    const PrincipalValues trial_strain = log_strain(frame.values());
-    AssertThrow(std::isfinite(trial_strain[0] + trial_strain[1] + trial_strain[2]),
-                dealii::ExcMessage("A material point's elastic strain is not a number. Remedy: a smaller time step."));
-
-    PrincipalValues strain = trial_strain;
-    PrincipalValues kirchhoff_stress;
-    double dissipation = 0;
-    double internal_variables_before[Law::n_internal_variables + 1];
-    std::copy_n(internal_variables, Law::n_internal_variables, internal_variables_before);
-    const double largest_modulus = report.largest_bulk_modulus;
-    ++report.n_substeps;
-    const Response response =
-        return_map_of(law, time_step, strain, internal_variables, volume_ratio, kirchhoff_stress, report);
-    if (response == Response::elastic)
-      std::copy(trial, trial + n_components, left_cauchy_green);
-    else
-      {
-        if constexpr (HasInertialFriction<Law>())
-          if (law.inertial_friction.is_active())
-            {
-              keep_part(trial_strain,
-                        internal_variables_before,
-                        time_step,
-                        grain_density,
-                        strain,
-                        internal_variables,
-                        kirchhoff_stress);
-              const double pressure       = -(kirchhoff_stress[0] + kirchhoff_stress[1] + kirchhoff_stress[2]) / 3;
-              report.largest_bulk_modulus = std::max(largest_modulus, law.bulk_modulus(pressure));
-            }
-        left_cauchy_green_of(frame, strain, left_cauchy_green);
-        for (unsigned int i = 0; i < 3; ++i)
-          dissipation += kirchhoff_stress[i] * (trial_strain[i] - strain[i]);
-      }
-
-    report.largest_compression =
-        std::max({ report.largest_compression, -kirchhoff_stress[0], -kirchhoff_stress[1], -kirchhoff_stress[2] });
-    if (stress != nullptr)
-      {
-        const double factor = 1 / volume_ratio;
-        frame.compose({ { factor * kirchhoff_stress[0], factor * kirchhoff_stress[1], factor * kirchhoff_stress[2] } },
-                      stress);
-      }
-    return dissipation;
-  }
-
-
-  template <int dim, typename Law>
-  inline double HenckyMaterial<dim, Law>::advance_in_substeps(const dealii::Tensor<2, dim> &deformation_increment,
-                                                              const double out_of_plane_stretch,
-                                                              const double volume_ratio,
-                                                              const double time_step,
-                                                              const double grain_density,
-                                                              double *left_cauchy_green,
-                                                              double *internal_variables,
-                                                              double *stress,
-                                                              UpdateReport &report) const
-  {
-    constexpr double largest_number_of_substeps = 1000;
-
-    dealii::Tensor<2, dim> change = deformation_increment; // dF - I
-    double largest_change         = dim == 2 ? std::abs(out_of_plane_stretch - 1) : 0;
-    for (unsigned int i = 0; i < dim; ++i)
-      {
-        change[i][i] -= 1;
-        for (unsigned int j = 0; j < dim; ++j)
-          largest_change = std::max(largest_change, std::abs(change[i][j]));
-      }
-    const double wanted_substeps = std::ceil(largest_change / law.substep_strain());
-    // Written such that not-a-number throws, too.
-    AssertThrow(determinant(deformation_increment) > 0 && volume_ratio > 0 &&
-                    wanted_substeps <= largest_number_of_substeps && (dim == 3 || out_of_plane_stretch > 0),
-                dealii::ExcMessage("A material point cannot follow its deformation increment: largest |dF - I| is " +
-                                   std::to_string(largest_change) + ", det dF " +
-                                   std::to_string(determinant(deformation_increment)) + ", J " +
-                                   std::to_string(volume_ratio) +
-                                   ". Remedy: a smaller time step, or mend the unstable motion."));
-    if (wanted_substeps <= 1)
-      return advance(deformation_increment,
-                     out_of_plane_stretch,
-                     volume_ratio,
-                     time_step,
-                     grain_density,
-                     left_cauchy_green,
-                     internal_variables,
-                     stress,
-                     report);
-
-    const unsigned int n_substeps = static_cast<unsigned int>(wanted_substeps);
-    const double part             = 1. / n_substeps;
-    const auto n_separated        = report.n_separated;
-    double dissipation            = 0;
-    for (unsigned int k = 0; k < n_substeps; ++k)
-      {
-        report.n_separated            = n_separated;         // A point counts once, by its state in the end.
-        dealii::Tensor<2, dim> before = (k * part) * change; // F_{k-1}
-        for (unsigned int i = 0; i < dim; ++i)
-          before[i][i] += 1;
-        dealii::Tensor<2, dim> f = part * change * invert(before);
-        for (unsigned int i = 0; i < dim; ++i)
-          f[i][i] += 1;
-        const double stretch_change = part * (out_of_plane_stretch - 1);
-        dissipation += advance(f,
-                               1 + stretch_change / (1 + k * stretch_change),
-                               volume_ratio,
-                               part * time_step,
-                               grain_density,
-                               left_cauchy_green,
-                               internal_variables,
-                               k + 1 == n_substeps ? stress : nullptr,
-                               report);
-      }
-    return dissipation;
-  }
 
 
   template <int dim, typename Law>
@@ -276,37 +312,301 @@ namespace scree
                                         const MaterialMotion<dim> &motion,
                                         UpdateReport &report) const
   {
-    UpdateReport own; // The compiler keeps what nothing else points to in registers.
-    for (unsigned int p = 0; p < points.n_points; ++p)
-      update_point(p, points, motion, own);
+    UpdateReport own;                                       // The compiler keeps it in registers.
+    own.largest_bulk_modulus = report.largest_bulk_modulus; // so that few batches have larger ones
+    own.largest_compression  = report.largest_compression;
+    for (unsigned int first = 0; first < points.n_points; first += List::capacity)
+      {
+        List returns, cut, others;
+        for_each_batch(std::min(points.n_points - first, List::capacity), [&](auto indices, const unsigned int n) {
+          for (unsigned int &index : indices)
+            index += first;
+          const Left left = advance<State<Batch>, Batch, Round::first>(indices, n, points, motion, own);
+          if (left.all == 0)
+            return;
+          returns.append(indices, left.all & ~left.cut);
+          cut.append(indices, left.cut);
+        });
+        const auto again = [&](const List &list, List &rest, const auto &act) {
+          for_each_group<simd::n_lanes<Gathered>>(list.size, [&](auto places, const unsigned int n) {
+            for (unsigned int &place : places)
+              place = list.points[place];
+            rest.append(places, act(places, n).all);
+          });
+        };
+        if constexpr (Law::leaves_returns)
+          again(returns, others, [&](const auto &indices, const unsigned int n) {
+            return advance<State<Gathered>, Gathered, Round::returns>(indices, n, points, motion, own);
+          });
+        again(cut, others, [&](const auto &indices, const unsigned int n) {
+          return advance<State<Gathered>, Gathered, Round::parts>(indices, n, points, motion, own);
+        });
+        if constexpr (Law::in_invariants && dim == 3)
+          {
+            const List far = std::exchange(others, List());
+            again(far, others, [&](const auto &indices, const unsigned int n) {
+              return advance<PrincipalState<dim, Gathered>, Gathered, Round::parts>(indices, n, points, motion, own);
+            });
+          }
+        if (others.size > 0)
+          throw_refusal(others.points[0], motion);
+      }
     own.n_updates = points.n_points;
     report.add(own);
   }
 
 
   template <int dim, typename Law>
-  inline void HenckyMaterial<dim, Law>::update_point(const unsigned int p,
-                                                     const MaterialPoints<dim> &points,
-                                                     const MaterialMotion<dim> &motion,
-                                                     UpdateReport &report) const
+  template <typename Number, typename Indices>
+  DEAL_II_ALWAYS_INLINE inline HenckyMaterial<dim, Law>::Lanes<Number>
+  HenckyMaterial<dim, Law>::read(const Indices &indices,
+                                 const unsigned int n,
+                                 const MaterialPoints<dim> &points,
+                                 const MaterialMotion<dim> &motion)
   {
-    report.plastic_dissipation +=
-        motion.reference_volume[p] * advance_in_substeps(motion.deformation_increment_of(p),
-                                                         dim == 2 ? motion.out_of_plane_stretch[p] : 1,
-                                                         motion.volume_ratio[p],
-                                                         motion.time_step,
-                                                         motion.grain_density,
-                                                         points.left_cauchy_green + points.offset(p),
-                                                         points.internal_variables + points.offset(p),
-                                                         points.stress + points.offset(p),
-                                                         report);
+    constexpr unsigned int n_lanes = simd::n_lanes<Number>;
+    Lanes<Number> lanes;
+    for (unsigned int h = 0; h < n_lanes / batch_size; ++h)
+      {
+        RecordPointers<const double> b, internal;
+        for (unsigned int l = 0; l < batch_size; ++l)
+          {
+            const std::size_t offset = points.offset(indices[h * batch_size + l]);
+            b[l]                     = apart(points.left_cauchy_green + offset);
+            internal[l]              = apart(points.internal_variables + offset);
+          }
+        if constexpr (n_lanes == batch_size)
+          {
+            simd::load_records<n_components>(b, lanes.left_cauchy_green);
+            simd::load_records<n_internal>(internal, lanes.internal_variables);
+          }
+        else
+          {
+            Batch components[n_components], variables[n_internal + 1];
+            simd::load_records<n_components>(b, components);
+            simd::load_records<n_internal>(internal, variables);
+            for (unsigned int c = 0; c < n_components; ++c)
+              simd::half(lanes.left_cauchy_green[c], h) = components[c];
+            for (unsigned int i = 0; i < n_internal; ++i)
+              simd::half(lanes.internal_variables[i], h) = variables[i];
+          }
+      }
+
+    const auto list = [&](const double *numbers) {
+      Number result;
+      for (unsigned int h = 0; h < n_lanes / batch_size; ++h)
+        if (Batch &batch = simd::half(result, h); n == n_lanes)
+          batch = simd::load(numbers + indices[h * batch_size]);
+        else
+          for (unsigned int l = 0; l < batch_size; ++l)
+            batch[l] = numbers[indices[h * batch_size + l]];
+      return result;
+    };
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      lanes.increment[c] = list(motion.deformation_increment + c * motion.pitch);
+    lanes.volume_ratio     = list(motion.volume_ratio);
+    lanes.reference_volume = list(motion.reference_volume);
+    lanes.stretch          = dim == 2 ? list(motion.out_of_plane_stretch) : simd::broadcast<Number>(1.);
+    return lanes;
   }
 
 
   template <int dim, typename Law>
-  double HenckyMaterial<dim, Law>::elastic_energy(const double *left_cauchy_green) const
+  template <unsigned int n_values, typename Number, typename Indices>
+  DEAL_II_ALWAYS_INLINE inline void HenckyMaterial<dim, Law>::write(const Number *values,
+                                                                    const Indices &indices,
+                                                                    const unsigned int bits,
+                                                                    const MaterialPoints<dim> &points,
+                                                                    double *of_record_0)
   {
-    return law.energy(log_strain(PrincipalFrame<dim>(left_cauchy_green).values()));
+    if constexpr (n_values > 0)
+      for (unsigned int h = 0; h < simd::n_lanes<Number> / batch_size; ++h)
+        {
+          double nothing[n_values];
+          RecordPointers<double> records;
+          for (unsigned int l = 0; l < batch_size; ++l)
+            {
+              const unsigned int lane = h * batch_size + l;
+              records[l]              = apart(bits >> lane & 1 ? of_record_0 + points.offset(indices[lane]) : nothing);
+            }
+          if constexpr (simd::n_lanes<Number> == batch_size)
+            simd::store_records<n_values>(values, records);
+          else
+            {
+              Batch batches[n_values];
+              for (unsigned int c = 0; c < n_values; ++c)
+                batches[c] = simd::half(values[c], h);
+              simd::store_records<n_values>(batches, records);
+            }
+        }
+  }
+
+
+  template <int dim, typename Law>
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline void HenckyMaterial<dim, Law>::set_trial(const double k,
+                                                                        const Number &part,
+                                                                        const Number *change,
+                                                                        const Lanes<Number> &lanes,
+                                                                        Number *result)
+  {
+    Number before[dim * dim], inverse[dim * dim], f[dim * dim];
+    for (unsigned int i = 0; i < dim * dim; ++i)
+      before[i] = (k * part) * change[i] + (i % (dim + 1) == 0 ? 1. : 0.);
+    invert_rows<dim>(before, inverse);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          f[i * dim + j] = simd::broadcast<Number>(i == j ? 1. : 0.);
+          for (unsigned int m = 0; m < dim; ++m)
+            f[i * dim + j] += part * change[i * dim + m] * inverse[m * dim + j];
+        }
+    const Number stretch_change = part * (lanes.stretch - 1.);
+    trial_left_cauchy_green<dim, Number>(
+        f, 1. + stretch_change / (1. + k * stretch_change), lanes.left_cauchy_green, result);
+  }
+
+
+  template <int dim, typename Law>
+  template <typename PointState, typename Number, typename HenckyMaterial<dim, Law>::Round round, typename Indices>
+  DEAL_II_ALWAYS_INLINE inline typename HenckyMaterial<dim, Law>::Left
+  HenckyMaterial<dim, Law>::advance(const Indices &indices,
+                                    const unsigned int n,
+                                    const MaterialPoints<dim> &points,
+                                    const MaterialMotion<dim> &motion,
+                                    UpdateReport &report) const
+  {
+    using Mask              = simd::Mask<Number>;
+    constexpr bool in_parts = round == Round::parts;
+    constexpr bool returns  = !Law::is_elastic && !(round == Round::first && Law::leaves_returns);
+    const Number zero = simd::broadcast<Number>(0.), one = simd::broadcast<Number>(1.);
+    const unsigned int used        = (1u << n) - 1;
+    Lanes<Number> lanes            = read<Number>(indices, round == Round::first ? n : 0, points, motion);
+    const LawStep<Number> law_step = { lanes.volume_ratio, motion.time_step, motion.grain_density, !returns };
+
+    Number change[dim * dim], largest_change = dim == 2 ? simd::abs<Number>(lanes.stretch - 1.) : zero; // dF - I
+    for (unsigned int i = 0; i < dim * dim; ++i)
+      {
+        change[i]      = i % (dim + 1) == 0 ? lanes.increment[i] - 1. : lanes.increment[i];
+        largest_change = simd::max<Number>(largest_change, simd::abs<Number>(change[i]));
+      }
+    const Number n_wanted = largest_change * (1. / law.substep_strain());
+    // Written such that not-a-number is not served.
+    const Mask is_cut = n_wanted > 1.;
+    Mask is_served    = (determinant_of_rows<dim>(lanes.increment) > 0.) & (lanes.volume_ratio > 0.) &
+                     (lanes.stretch > 0.) & (in_parts ? n_wanted <= largest_number_of_parts : !is_cut);
+    Number n_parts = one;
+    if constexpr (in_parts)
+      {
+        const Number rounded = (n_wanted + 0x1p52) - 0x1p52;
+        n_parts              = simd::max<Number>(simd::select<Number>(rounded < n_wanted, rounded + 1., rounded), one);
+      }
+    const Number part = 1. / n_parts, inverse_ratio = 1. / lanes.volume_ratio;
+
+    const auto count = [&](const Mask &mask) { return __builtin_popcount(simd::bits_of(mask) & used); };
+    Number stress[n_components], dissipation = zero;
+    Mask is_separated{}, was_plastic{};
+    for (unsigned int k = 0; k == 0 || (in_parts && simd::any(is_served & (n_parts > double(k)))); ++k)
+      {
+        Number b[n_components], variables[n_internal + 1];
+        if constexpr (in_parts)
+          set_trial<Number>(k, part, change, lanes, b);
+        else
+          trial_left_cauchy_green<dim, Number>(lanes.increment, lanes.stretch, lanes.left_cauchy_green, b);
+        PointState state(b);
+        std::copy_n(lanes.internal_variables, n_internal, variables);
+        const LawResponse<Number> response = state.respond(law, law_step, variables);
+        Mask is_active                     = is_served & state.is_valid & !response.is_left;
+        if constexpr (in_parts)
+          {
+            const Mask is_in_part = n_parts > double(k);
+            is_served             = is_active | (is_served & !is_in_part);
+            is_active             = is_active & is_in_part;
+          }
+        else
+          is_served = is_active;
+        if (const Mask is_returned = is_active & response.is_plastic; returns && simd::any(is_returned))
+          {
+            Number returned[n_components];
+            state.left_cauchy_green(returned);
+            for (unsigned int c = 0; c < n_components; ++c)
+              b[c] = simd::select<Number>(is_returned, returned[c], b[c]);
+            for (unsigned int i = 0; i < n_internal; ++i)
+              lanes.internal_variables[i] =
+                  simd::select<Number>(is_returned, variables[i], lanes.internal_variables[i]);
+            dissipation += simd::select<Number>(is_returned, state.dissipation(), zero);
+            was_plastic = was_plastic | is_returned;
+            report.n_vertices += count(is_active & response.is_vertex);
+            report.n_fallbacks += count(is_active & response.is_searched);
+            report.n_unresolved += count(is_active & response.is_unresolved);
+          }
+        if (!in_parts || k == 0)
+          {
+            state.compose_stress(inverse_ratio, stress);
+            std::copy_n(b, n_components, lanes.left_cauchy_green);
+          }
+        else
+          {
+            Number now[n_components];
+            state.compose_stress(inverse_ratio, now);
+            for (unsigned int c = 0; c < n_components; ++c)
+              {
+                lanes.left_cauchy_green[c] = simd::select<Number>(is_active, b[c], lanes.left_cauchy_green[c]);
+                stress[c]                  = simd::select<Number>(is_active, now[c], stress[c]);
+              }
+          }
+        is_separated = (is_active & response.is_separated) | (is_separated & !is_active);
+
+        // Larger values than before are rarely in a batch.
+        const Mask is_stiffer = is_active & (response.bulk_modulus > report.largest_bulk_modulus);
+        if (simd::any(is_stiffer))
+          report.largest_bulk_modulus =
+              simd::largest_lane<Number>(simd::select<Number>(is_stiffer, response.bulk_modulus, zero));
+        const Mask is_pressed = is_active & (state.bound_of_compression() > report.largest_compression);
+        if (simd::any(is_pressed))
+          report.largest_compression =
+              std::max(report.largest_compression,
+                       simd::largest_lane<Number>(simd::select<Number>(is_pressed, state.compression(), zero)));
+      }
+
+    const unsigned int stored = simd::bits_of(is_served) & used, left = used & ~stored;
+    if (stored != 0)
+      {
+        write<n_components>(lanes.left_cauchy_green, indices, stored, points, points.left_cauchy_green);
+        write<n_components>(stress, indices, stored, points, points.stress);
+      }
+    report.n_substeps += __builtin_popcount(stored);
+    if constexpr (in_parts)
+      for (unsigned int bits = stored; bits != 0; bits &= bits - 1)
+        report.n_substeps += static_cast<unsigned int>(simd::lane(n_parts, __builtin_ctz(bits))) - 1;
+    if (const unsigned int changed = simd::bits_of(was_plastic) & stored; returns && changed != 0)
+      {
+        write<n_internal>(lanes.internal_variables, indices, changed, points, points.internal_variables);
+        report.n_separated += count(is_served & is_separated);
+        const Number lost = lanes.reference_volume * dissipation;
+        for (unsigned int bits = changed; bits != 0; bits &= bits - 1)
+          report.plastic_dissipation += simd::lane(lost, __builtin_ctz(bits));
+      }
+    return { left, left == 0 ? 0 : left & (simd::bits_of(is_cut) | (Law::leaves_returns ? 0 : used)) };
+  }
+
+
+  template <int dim, typename Law>
+  void HenckyMaterial<dim, Law>::throw_refusal(const unsigned int p, const MaterialMotion<dim> &motion) const
+  {
+    const dealii::Tensor<2, dim> increment = motion.deformation_increment_of(p);
+    const double stretch = dim == 2 ? motion.out_of_plane_stretch[p] : 1, J = motion.volume_ratio[p];
+    double largest_change = std::abs(stretch - 1);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        largest_change = std::max(largest_change, std::abs(increment[i][j] - (i == j ? 1. : 0.)));
+    AssertThrow(determinant(increment) > 0 && J > 0 && stretch > 0 &&
+                    largest_change <= largest_number_of_parts * law.substep_strain(),
+                dealii::ExcMessage("A material point cannot follow its deformation increment: largest |dF - I| is " +
+                                   std::to_string(largest_change) + ", det dF " +
+                                   std::to_string(determinant(increment)) + ", J " + std::to_string(J) +
+                                   ". Remedy: a smaller time step, or mend the unstable motion."));
+    throw dealii::ExcMessage("A material point's elastic strain is not a number. Remedy: a smaller time step.");
   }
 
 
@@ -332,68 +632,6 @@ namespace scree
     law.initialise(frame.values(), strain, principal_stress, internal_variables);
     left_cauchy_green_of(frame, strain, left_cauchy_green);
     frame.compose(principal_stress, stress);
-  }
-
-
-  template <int dim, typename Law>
-  bool HenckyMaterial<dim, Law>::is_elastic() const
-  {
-    return Law::is_elastic;
-  }
-
-
-  template <int dim, typename Law>
-  double HenckyMaterial<dim, Law>::plane_friction() const
-  {
-    if constexpr (HasPlaneFriction<Law>())
-      return law.plane_friction();
-    else
-      return Material<dim>::plane_friction();
-  }
-
-
-  template <int dim, typename Law>
-  double HenckyMaterial<dim, Law>::grain_diameter() const
-  {
-    if constexpr (HasInertialFriction<Law>())
-      return law.inertial_friction.is_active() ? law.inertial_friction.diameter() : 0;
-    else
-      return 0;
-  }
-
-
-  template <int dim, typename Law>
-  NonlocalVariable HenckyMaterial<dim, Law>::nonlocal_variable() const
-  {
-    if constexpr (HasNonlocalVariable<Law>())
-      return law.nonlocal_variable();
-    else
-      return {};
-  }
-
-
-  template <int dim, typename Law>
-  std::vector<Quantity> HenckyMaterial<dim, Law>::internal_quantities() const
-  {
-    return Law::internal_quantities();
-  }
-
-
-  template <int dim, typename Law>
-  std::vector<Quantity> HenckyMaterial<dim, Law>::output_quantities() const
-  {
-    return Law::output_quantities();
-  }
-
-
-  template <int dim, typename Law>
-  void HenckyMaterial<dim, Law>::output(const double *left_cauchy_green,
-                                        const double *,
-                                        const double *internal_variables,
-                                        const double volume_ratio,
-                                        double *values) const
-  {
-    law.output(log_strain(PrincipalFrame<dim>(left_cauchy_green).values()), internal_variables, volume_ratio, values);
   }
 } // namespace scree
 

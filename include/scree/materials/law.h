@@ -4,181 +4,164 @@
 #define scree_materials_law_h
 
 #include <scree/materials/material.h>
-#include <scree/simd/batch.h>
+#include <scree/simd/pair.h>
 #include <scree/tensor/principal.h>
-
-#include <type_traits>
 
 namespace scree
 {
-  /// What a return map did to the trial strain.
-  ///
-  /// A law is a class with the members of MohrCoulomb, all in principal values: logarithmic elastic strain and
-  /// Kirchhoff stress (Pa), tension positive. HenckyMaterial makes a Material of it, point by point.
-  ///
-  /// If it also has MohrCoulomb's template of `Number`, double or a Batch of points,
-  ///   respond(strain, internal variables, stress)                   the return map of all points
-  /// PrincipalBatchMaterial makes a Material of it that updates several points at a time.
-  ///
-  /// A law whose strength depends on the volume, or whose moduli on the stress, has
-  ///   respond(strain, J, internal variables, stress)                the same with a VolumeResponse
-  ///
-  /// A law whose yield surface has no corners needs the invariants of strain only. It has the members of NorSand that
-  /// are templates of `Number`, and BatchMaterial makes a Material of it that updates several points at a time:
-  ///   trial(volume strain, |dev strain|^2, J, internal variables)   state before the return
-  ///   is_admissible(trial), mean_stress(trial)                      and that state itself, if it stands
-  ///   bulk_modulus_at(mean stress)                                  tangent, Pa
-  ///   return_to_surface(trial, todo, internal variables, result)    of the points `todo`; says which it could return,
-  ///                                                                 others are left to return_map()
-  ///
-  /// A law with a member `inertial_friction` has friction that grows with the rate of shear, see InertialFriction. It
-  /// also has
-  ///   friction_pressure(stress)                                     p of that friction, Pa, of a principal stress
-  ///   stress_of(strain)                                             elastic principal stress, Pa
-  ///
-  /// A law with a member nonlocal_variable() may have an internal variable that is averaged over space, one with
-  /// place_variable() an internal variable that each point has from its place. The return map of a law with a member
-  /// `rate_of_strength`, see RateOfStrength, also asks for the time step:
-  ///   respond(time step, strain, internal variables, stress)        of all points
-  ///   return_map(time step, strain, internal variables, J, stress, report)
-  enum class Response
-  {
-    elastic, ///< The trial strain stands
-    plastic  ///< The strain was changed
-  };
-
-  /// Whether the friction of a law can grow with the rate of shear.
-  template <typename Law, typename = void>
-  struct HasInertialFriction : std::false_type
-  {
-  };
-
-  /// It has the member.
-  template <typename Law>
-  struct HasInertialFriction<Law, std::void_t<decltype(std::declval<const Law &>().inertial_friction)>> : std::true_type
-  {
-  };
-
-  /// Whether a law may have a variable that is averaged over space.
-  template <typename Law, typename = void>
-  struct HasNonlocalVariable : std::false_type
-  {
-  };
-
-  /// It has the member.
-  template <typename Law>
-  struct HasNonlocalVariable<Law, std::void_t<decltype(std::declval<const Law &>().nonlocal_variable())>>
-      : std::true_type
-  {
-  };
-
-  /// Whether a law has a variable from the place of a point.
-  template <typename Law, typename = void>
-  struct HasPlaceVariable : std::false_type
-  {
-  };
-
-  /// It has the member.
-  template <typename Law>
-  struct HasPlaceVariable<Law, std::void_t<decltype(std::declval<const Law &>().place_variable())>> : std::true_type
-  {
-  };
-
-  /// Whether the return of a law asks for the time step.
-  template <typename Law, typename = void>
-  struct HasRateOfStrength : std::false_type
-  {
-  };
-
-  /// It has the member.
-  template <typename Law>
-  struct HasRateOfStrength<Law, std::void_t<decltype(std::declval<const Law &>().rate_of_strength)>> : std::true_type
-  {
-  };
-
-  /// What a law has from the place of a point; nothing if it has no such member.
-  template <typename Law>
-  PlaceVariable place_variable_of(const Law &law)
-  {
-    if constexpr (HasPlaceVariable<Law>())
-      return law.place_variable();
-    else
-      return {};
-  }
-
-  /// The return map of a law that does, or does not, ask for the time step, s.
-  template <typename Law>
-  Response return_map_of(const Law &law,
-                         const double time_step,
-                         PrincipalValues &strain,
-                         double *internal_variables,
-                         const double volume_ratio,
-                         PrincipalValues &stress,
-                         UpdateReport &report)
-  {
-    if constexpr (HasRateOfStrength<Law>())
-      return law.return_map(time_step, strain, internal_variables, volume_ratio, stress, report);
-    else
-      return law.return_map(strain, internal_variables, volume_ratio, stress, report);
-  }
-
-  /// What became of points in a return in principal values.
+  /// A step of points, beside their strain.
   template <typename Number>
-  struct PrincipalResponse
+  struct LawStep
   {
-    simd::Mask<Number> is_plastic;    ///< The strain was changed
-    simd::Mask<Number> is_vertex;     ///< As counted in UpdateReport, like the next two
-    simd::Mask<Number> is_separated;  ///< see UpdateReport::n_separated
+    Number volume_ratio; ///< J at the end of the step
+
+    /// s; infinite: slow. A law that reads it has no sub-steps.
+    double time_step     = std::numeric_limits<double>::infinity();
+    double grain_density = 0; ///< kg/m^3
+
+    /// Whether a law whose return costs much returns none and sets LawResponse::is_left instead.
+    bool leaves_returns = false;
+  };
+
+
+  /// What a law makes of points.
+  template <typename Number>
+  struct LawResponse
+  {
+    simd::Mask<Number> is_plastic;    ///< Strain or internal variables were changed
+    simd::Mask<Number> is_left;       ///< see LawStep::leaves_returns
+    simd::Mask<Number> is_separated;  ///< As counted in UpdateReport, like the next three
+    simd::Mask<Number> is_vertex;     ///< see UpdateReport::n_vertices
+    simd::Mask<Number> is_searched;   ///< see UpdateReport::n_fallbacks
     simd::Mask<Number> is_unresolved; ///< see UpdateReport::n_unresolved
+    Number bulk_modulus;              ///< With 4/3 of the law's shear modulus the modulus of waves, Pa
   };
 
-  /// The same of a law that depends on the volume.
+
+  /// Invariants of logarithmic elastic strain, tension positive.
   template <typename Number>
-  struct VolumeResponse : PrincipalResponse<Number>
+  struct StrainInvariants
   {
-    simd::Mask<Number> is_left; ///< Left to return_map()
-    Number bulk_modulus;        ///< With 4/3 of the law's shear modulus the modulus of waves, Pa
+    Number volume; ///< tr(eps)
+    Number square; ///< |dev(eps)|^2
+    Number third;  ///< det dev(eps)
   };
 
-  /// Whether a law in principal values depends on the volume.
-  template <typename Law, typename = void>
-  struct DependsOnVolume : std::false_type
-  {
-  };
 
-  /// It has the member.
-  template <typename Law>
-  struct DependsOnVolume<
-      Law,
-      std::void_t<decltype(std::declval<const Law &>().template respond<double>(std::declval<PrincipalValues &>(),
-                                                                                std::declval<const double &>(),
-                                                                                std::declval<double *>(),
-                                                                                std::declval<PrincipalValues &>()))>>
-      : std::true_type
-  {
-  };
-
-  /// Whether a law has friction on a plane of shear.
-  template <typename Law, typename = void>
-  struct HasPlaneFriction : std::false_type
-  {
-  };
-
-  /// It has the member.
-  template <typename Law>
-  struct HasPlaneFriction<Law, std::void_t<decltype(std::declval<const Law &>().plane_friction())>> : std::true_type
-  {
-  };
-
-  /// Invariants of a state on the yield surface.
+  /// What a law in invariants makes of points: strain and stress along the deviator of the trial strain.
   template <typename Number>
-  struct InvariantReturn
+  struct InvariantResponse : LawResponse<Number>
   {
-    Number volume_strain;            ///< elastic
-    Number deviator_factor;          ///< elastic deviatoric strain over the trial one
-    Number mean_stress;              ///< Kirchhoff, Pa
-    simd::Mask<Number> is_separated; ///< whether grains are apart
+    Number volume_strain;   ///< elastic; read where the point is plastic, as the next one
+    Number deviator_factor; ///< elastic deviatoric strain over the trial one
+    Number mean_stress;     ///< Kirchhoff, Pa, tension positive
+    Number stress_factor;   ///< deviatoric Kirchhoff stress over the deviator of the trial strain, Pa
   };
+
+
+  /// Base class of laws, with what a law may leave out. A law is a class with this base in a file of its own, together
+  /// with its entries (LawEntries); HenckyMaterial makes a Material of it and inlines it. It also has
+  ///   n_internal_variables, internal_quantities()                       number of internal variables, and what they
+  ///   are shear_modulus(), bulk_modulus(pressure)                           Pa; tangent at a mean compressive stress
+  ///   energy(strain)                                                    J per m^3 of reference volume
+  ///   initialise(wanted stress, strain, stress, internal variables)     see Material::initialise()
+  ///   respond(step, strain, internal variables, stress)                 from trial strain to strain and stress
+  /// all in principal values of logarithmic elastic strain and of Kirchhoff stress (Pa), tension positive. respond() is
+  /// a template of `Number`: a double, a Batch or a BatchPair of points.
+  ///
+  /// A law whose response depends on invariants alone, and whose stress has the axes and the ratios of the trial
+  /// strain's deviator, has instead, with `in_invariants`,
+  ///   respond(step, StrainInvariants, internal variables)               an InvariantResponse
+  /// which saves the principal axes in three dimensions.
+  class ConstitutiveLaw
+  {
+  public:
+    static constexpr bool is_elastic     = false; ///< whether the law has no plastic strain
+    static constexpr bool in_invariants  = false; ///< see above
+    static constexpr bool leaves_returns = false; ///< whether points that return are gathered, see LawStep
+
+    /// Largest component of dF - I in one return map: backward Euler has several roots if it is larger.
+    double substep_strain() const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
+    /// See Material::initial_porosity().
+    double initial_porosity() const
+    {
+      return 0;
+    }
+
+    /// See Material::plane_friction().
+    double plane_friction() const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
+    /// See Material::grain_diameter().
+    double grain_diameter() const
+    {
+      return 0;
+    }
+
+    /// See Material::nonlocal_variable().
+    NonlocalVariable nonlocal_variable() const
+    {
+      return {};
+    }
+
+    /// See Material::place_variable().
+    PlaceVariable place_variable() const
+    {
+      return {};
+    }
+
+    /// See Material::output_quantities().
+    static std::vector<Quantity> output_quantities()
+    {
+      return {};
+    }
+
+    /// See Material::output().
+    void output(const PrincipalValues &, const double *, const double, double *) const
+    {
+    }
+  };
+
+
+  /// The response of any law in principal values: from trial to returned `strain` and internal variables, and `stress`.
+  template <typename Number, typename Law>
+  DEAL_II_ALWAYS_INLINE inline LawResponse<Number> respond(const Law &law,
+                                                           const LawStep<Number> &step,
+                                                           PrincipalNumbers<Number> &strain,
+                                                           Number *internal_variables,
+                                                           PrincipalNumbers<Number> &stress)
+  {
+    if constexpr (Law::in_invariants)
+      {
+        const Number volume               = strain[0] + strain[1] + strain[2];
+        PrincipalNumbers<Number> deviator = strain;
+        Number square                     = simd::broadcast<Number>(0.);
+        for (Number &value : deviator)
+          {
+            value -= volume * (1. / 3.);
+            square += value * value;
+          }
+        const InvariantResponse<Number> found =
+            law.respond(step,
+                        StrainInvariants<Number>{ volume, square, deviator[0] * deviator[1] * deviator[2] },
+                        internal_variables);
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const Number returned = found.volume_strain * (1. / 3.) + found.deviator_factor * deviator[i];
+            strain[i]             = simd::select<Number>(found.is_plastic, returned, strain[i]);
+            stress[i]             = found.mean_stress + found.stress_factor * deviator[i];
+          }
+        return found;
+      }
+    else
+      return law.respond(step, strain, internal_variables, stress);
+  }
 } // namespace scree
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef scree_materials_law_entries_h
 #define scree_materials_law_entries_h
 
-#include <scree/materials/material.h>
+#include <scree/materials/hencky_material.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -20,14 +20,11 @@ namespace scree
     double value;     ///< value in the unit of the entry
   };
 
-  /// The entries of a law for one body, and the law that they make. Each law registers its own by RegisterLaw.
-  class LawEntries
-  {
-  public:
-    virtual ~LawEntries() = default;
 
-    /// A copy with the same values.
-    virtual std::unique_ptr<LawEntries> clone() const = 0;
+  /// Base class of the entries of a law for one body, with what a law may leave out.
+  struct LawEntries
+  {
+    virtual ~LawEntries() = default;
 
     /// Declares the entries inside the subsection of the law.
     virtual void add_parameters(dealii::ParameterHandler &prm) = 0;
@@ -50,12 +47,6 @@ namespace scree
       return false;
     }
 
-    /// Makes the law with these values, for plane strain.
-    virtual std::unique_ptr<Material<2>> make_2d() const = 0;
-
-    /// Makes the law with these values, in three dimensions.
-    virtual std::unique_ptr<Material<3>> make_3d() const = 0;
-
     /// Sine of the friction angle; nothing if the law has no angle.
     virtual std::optional<double> sine_of_friction() const
     {
@@ -63,102 +54,16 @@ namespace scree
     }
   };
 
-  /// Those that are a struct `Parameters` with the members of a law's struct (see MohrCoulombParameters).
-  template <typename Parameters>
-  class EntriesWith : public LawEntries
-  {
-  public:
-    Parameters parameters; ///< entries of the law
-
-    void add_parameters(dealii::ParameterHandler &prm) override
-    {
-      parameters.add_parameters(prm);
-    }
-    void check(const std::string &subsection) const override
-    {
-      parameters.check(subsection);
-    }
-    LawEntry modulus() const override
-    {
-      return parameters.modulus();
-    }
-    LawEntry stiffest() const override
-    {
-      return stiffest_of(parameters, 0);
-    }
-    std::optional<double> sine_of_friction() const override
-    {
-      return sine_of(parameters, 0);
-    }
-    bool divide_strength(const double factor) override
-    {
-      return divide_strength_of(parameters, factor, 0);
-    }
-
-  private:
-    /// A struct without a member stiffest() has modulus().
-    template <typename Law>
-    static auto stiffest_of(const Law &law, int) -> decltype(law.stiffest())
-    {
-      return law.stiffest();
-    }
-    template <typename Law>
-    static LawEntry stiffest_of(const Law &law, long)
-    {
-      return law.modulus();
-    }
-
-    /// A struct without a member sine() has no angle.
-    template <typename Law>
-    static auto sine_of(const Law &law, int) -> decltype(std::optional<double>(law.sine()))
-    {
-      return law.sine();
-    }
-    template <typename Law>
-    static std::optional<double> sine_of(const Law &, long)
-    {
-      return {};
-    }
-
-    /// A struct without a member divide_strength() has no strength.
-    template <typename Law>
-    static auto divide_strength_of(Law &law, const double factor, int) -> decltype(law.divide_strength(factor), true)
-    {
-      law.divide_strength(factor);
-      return true;
-    }
-    template <typename Law>
-    static bool divide_strength_of(Law &, const double, long)
-    {
-      return false;
-    }
-  };
-
-  /// Those of a law that Points<dim, Law> brings to several points at a time.
-  template <typename Parameters, template <int, typename> class Points, typename Law>
-  class EntriesOf : public EntriesWith<Parameters>
-  {
-  public:
-    std::unique_ptr<LawEntries> clone() const override
-    {
-      return std::make_unique<EntriesOf>(*this);
-    }
-    std::unique_ptr<Material<2>> make_2d() const override
-    {
-      return std::make_unique<Points<2, Law>>(Law(this->parameters));
-    }
-    std::unique_ptr<Material<3>> make_3d() const override
-    {
-      return std::make_unique<Points<3, Law>>(Law(this->parameters));
-    }
-  };
 
   /// A law that entry "Material" can name.
   struct RegisteredLaw
   {
-    std::string name;                    ///< value of the entry
-    std::string subsection;              ///< of its entries; empty: it has none
-    std::unique_ptr<LawEntries> entries; ///< with default values
+    std::string name;                                                   ///< value of the entry
+    std::string subsection;                                             ///< of its entries; empty: it has none
+    std::shared_ptr<const LawEntries> entries;                          ///< with default values
+    std::unique_ptr<LawEntries> (*copy)(const LawEntries &entries);     ///< copies entries
+    std::unique_ptr<Material<2>> (*make_2d)(const LawEntries &entries); ///< the law of the entries, for plane strain
+    std::unique_ptr<Material<3>> (*make_3d)(const LawEntries &entries); ///< the same in three dimensions
   };
 
   /// All laws, in the order of their names.
@@ -168,10 +73,34 @@ namespace scree
   class RegisterLaw
   {
   public:
-    /// @param name value of entry Material
-    /// @param subsection of the entries; empty: there is none
-    /// @param entries with default values
-    RegisterLaw(const std::string &name, const std::string &subsection, std::unique_ptr<LawEntries> entries);
+    /// See RegisteredLaw.
+    explicit RegisterLaw(RegisteredLaw law);
+
+    /// A law that is made from entries `Entries`.
+    template <typename Law, typename Entries>
+    static RegisterLaw of(const std::string &name, const std::string &subsection)
+    {
+      return RegisterLaw({ name,
+                           subsection,
+                           std::make_shared<const Entries>(),
+                           copy<Entries>,
+                           make<2, Law, Entries>,
+                           make<3, Law, Entries> });
+    }
+
+    /// For RegisteredLaw::copy.
+    template <typename Entries>
+    static std::unique_ptr<LawEntries> copy(const LawEntries &entries)
+    {
+      return std::make_unique<Entries>(static_cast<const Entries &>(entries));
+    }
+
+    /// For RegisteredLaw::make_2d and make_3d.
+    template <int dim, typename Law, typename Entries>
+    static std::unique_ptr<Material<dim>> make(const LawEntries &entries)
+    {
+      return std::make_unique<HenckyMaterial<dim, Law>>(Law(static_cast<const Entries &>(entries)));
+    }
   };
 } // namespace scree
 

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -81,7 +82,18 @@ namespace scree
     unsigned long long n_unresolved = 0; ///< Returned to an admissible state that is not the root; expected to stay 0
 
     /// Adds sums and counts of another report, and takes the larger of the largest values.
-    void add(const UpdateReport &other);
+    void add(const UpdateReport &other)
+    {
+      largest_bulk_modulus = std::max(largest_bulk_modulus, other.largest_bulk_modulus);
+      largest_compression  = std::max(largest_compression, other.largest_compression);
+      plastic_dissipation += other.plastic_dissipation;
+      n_updates += other.n_updates;
+      n_substeps += other.n_substeps;
+      n_fallbacks += other.n_fallbacks;
+      n_vertices += other.n_vertices;
+      n_separated += other.n_separated;
+      n_unresolved += other.n_unresolved;
+    }
   };
 
   /// An internal variable that is averaged over space between two steps, see NonlocalAverage.

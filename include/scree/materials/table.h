@@ -3,9 +3,11 @@
 #ifndef scree_materials_table_h
 #define scree_materials_table_h
 
+#include <scree/input/expression.h>
 #include <scree/materials/law_entries.h>
 
 #include <map>
+#include <typeinfo>
 
 namespace scree
 {
@@ -41,8 +43,8 @@ namespace scree
     Entries &of() const
     {
       for (auto &[name, entries] : all)
-        if (auto *found = dynamic_cast<EntriesWith<Entries> *>(entries.get()))
-          return found->parameters;
+        if (typeid(*entries) == typeid(Entries))
+          return static_cast<Entries &>(*entries);
       throw dealii::ExcMessage("This law is not registered.");
     }
 
@@ -63,6 +65,25 @@ namespace scree
   /// The law that `parameters.law` names. Throws dealii::ExcMessage if there is none of that name.
   template <int dim>
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters);
+
+
+  /// Gives points the variable of their law that depends on the place, see PlaceVariable.
+  template <int dim>
+  class PlaceVariableValues
+  {
+  public:
+    /// Reads the expression. Throws EntryError, which names the entry in this subsection, if it is none.
+    PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection);
+
+    /// Sets the variable at a place. Throws ValueError if the value is not positive, or beyond what the law can follow.
+    /// @param depth below the surface, m
+    void set(const dealii::Point<dim> &place, const double depth, double *internal_variables) const;
+
+  private:
+    const PlaceVariable variable;
+    const std::string name; // of the entry, and its text
+    const std::unique_ptr<Expression<dim>> expression;
+  };
 } // namespace scree
 
 #endif

@@ -28,6 +28,7 @@ namespace scree
   /// As many numbers, each in its lane: a compiler vector, which has the operators of double. A lane's result does not
   /// depend on what is in the others. (Debian builds deal.II's VectorizedArray with a single lane.)
   using Batch = double __attribute__((vector_size(batch_size * sizeof(double))));
+  struct BatchPair; // simd/pair.h
 
   /// The functions of a `Number`, which is double or Batch: kernels are written once for both.
   namespace simd
@@ -93,6 +94,8 @@ namespace scree
       // One instruction; the compiler makes eight of the loop.
       using Compare = long long __attribute__((vector_size(64)));
       return __builtin_ia32_cvtq2mask512(reinterpret_cast<Compare>(mask));
+#elif defined(__AVX2__)
+      return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask));
 #else
       unsigned int bits = 0;
       for (unsigned int lane = 0; lane < batch_size; ++lane)
@@ -119,6 +122,9 @@ namespace scree
     {
       return value[lane];
     }
+
+    /// A lane of a pair.
+    double lane(const BatchPair &value, const unsigned int lane);
 
     /// Sets the lane of a number: itself.
     inline void set_lane(double &number, const unsigned int, const double value)

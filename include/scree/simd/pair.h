@@ -4,8 +4,6 @@
 
 #include <scree/simd/batch.h>
 
-#include <cstring>
-
 namespace scree
 {
   /// Two batches as one Number: where each operation waits for the one before, as in Newton's method, the processor
@@ -67,6 +65,18 @@ namespace scree
   DEAL_II_ALWAYS_INLINE inline BatchPair &operator+=(BatchPair &a, const BatchPair &b)
   {
     return a = a + b;
+  }
+
+  /// Subtracts lane by lane.
+  DEAL_II_ALWAYS_INLINE inline BatchPair &operator-=(BatchPair &a, const BatchPair &b)
+  {
+    return a = a - b;
+  }
+
+  /// Multiplies lane by lane.
+  DEAL_II_ALWAYS_INLINE inline BatchPair &operator*=(BatchPair &a, const BatchPair &b)
+  {
+    return a = a * b;
   }
 
   /// Multiplies all lanes.
@@ -144,40 +154,59 @@ namespace scree
       return { log<Batch>(x.first), log<Batch>(x.second) };
     }
 
-    /// A struct of pairs made of two such structs of batches.
-    template <typename OfPairs, typename OfBatches>
-    DEAL_II_ALWAYS_INLINE inline OfPairs join(const OfBatches &first, const OfBatches &second)
+    /// See sqrt().
+    template <>
+    DEAL_II_ALWAYS_INLINE inline BatchPair sqrt<BatchPair>(const BatchPair &x)
     {
-      constexpr unsigned int n = sizeof(OfBatches) / sizeof(Batch);
-      static_assert(sizeof(OfPairs) == 2 * sizeof(OfBatches));
-      Batch a[n], b[n], both[2 * n];
-      std::memcpy(a, &first, sizeof(a));
-      std::memcpy(b, &second, sizeof(b));
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          both[2 * i]     = a[i];
-          both[2 * i + 1] = b[i];
-        }
-      OfPairs pairs;
-      std::memcpy(&pairs, both, sizeof(both));
-      return pairs;
+      return { sqrt<Batch>(x.first), sqrt<Batch>(x.second) };
     }
 
-    /// Scatter: stores the lanes to the records.
-    template <typename OfBatches, typename OfPairs>
-    DEAL_II_ALWAYS_INLINE inline void split(const OfPairs &pairs, OfBatches &first, OfBatches &second)
+    /// The batch of a Number: itself, or one of a pair.
+    DEAL_II_ALWAYS_INLINE inline Batch &half(Batch &x, const unsigned int)
     {
-      constexpr unsigned int n = sizeof(OfBatches) / sizeof(Batch);
-      static_assert(sizeof(OfPairs) == 2 * sizeof(OfBatches));
-      Batch a[n], b[n], both[2 * n];
-      std::memcpy(both, &pairs, sizeof(both));
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          a[i] = both[2 * i];
-          b[i] = both[2 * i + 1];
-        }
-      std::memcpy(&first, a, sizeof(a));
-      std::memcpy(&second, b, sizeof(b));
+      return x;
+    }
+
+    /// One of the batches of a pair.
+    DEAL_II_ALWAYS_INLINE inline Batch &half(BatchPair &x, const unsigned int h)
+    {
+      return h == 0 ? x.first : x.second;
+    }
+
+    /// The same, to be read.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline const Batch &half(const Number &x, const unsigned int h)
+    {
+      return half(const_cast<Number &>(x), h);
+    }
+
+    inline double lane(const BatchPair &value, const unsigned int lane)
+    {
+      return half(value, lane / batch_size)[lane % batch_size];
+    }
+
+    /// Sets the condition of a number.
+    inline void set_bit(bool &mask, const unsigned int)
+    {
+      mask = true;
+    }
+
+    /// Sets the condition of a lane.
+    inline void set_bit(BatchBits &mask, const unsigned int lane)
+    {
+      mask[lane] = -1;
+    }
+
+    /// Sets the condition of a lane of a pair.
+    inline void set_bit(PairMask &mask, const unsigned int lane)
+    {
+      set_bit(lane < batch_size ? mask.first : mask.second, lane % batch_size);
+    }
+
+    /// Sets a lane of a pair.
+    inline void set_lane(BatchPair &number, const unsigned int lane, const double value)
+    {
+      half(number, lane / batch_size)[lane % batch_size] = value;
     }
   } // namespace simd
 } // namespace scree

@@ -223,37 +223,28 @@ namespace scree
   } // namespace simd
 
 
-  /// Calls `act(indices, n)` for batches of the numbers below `size`, in order. The last batch repeats its last number,
-  /// so that all lanes can be computed and stored; the first `n` of them count.
-  template <typename Act>
-  DEAL_II_ALWAYS_INLINE inline void for_each_batch(const unsigned int size, const Act &act)
+  /// Calls `act(indices, n)` for groups of the numbers below `size`, in order: as many as batches, or pairs, have
+  /// lanes. The last group repeats its last number, so that all lanes can be computed and stored; the first `n` of them
+  /// count.
+  template <unsigned int n_lanes, typename Act>
+  DEAL_II_ALWAYS_INLINE inline void for_each_group(const unsigned int size, const Act &act)
   {
-    for (unsigned int start = 0; start < size; start += batch_size)
+    for (unsigned int start = 0; start < size; start += n_lanes)
       {
-        const unsigned int n = std::min(size - start, batch_size);
-        BatchIndices indices;
-        for (unsigned int l = 0; l < batch_size; ++l)
+        const unsigned int n = std::min(size - start, n_lanes);
+        std::array<unsigned int, n_lanes> indices;
+        for (unsigned int l = 0; l < n_lanes; ++l)
           indices[l] = start + std::min(l, n - 1);
         act(indices, n);
       }
   }
 
 
-  /// The same by pairs of batches: `act(places, n)` with two of each. The second batch may hold no number that counts;
-  /// it is to be computed all the same, so that every number goes the same way.
+  /// The same by batches.
   template <typename Act>
-  DEAL_II_ALWAYS_INLINE inline void for_each_pair(const unsigned int size, const Act &act)
+  DEAL_II_ALWAYS_INLINE inline void for_each_batch(const unsigned int size, const Act &act)
   {
-    for (unsigned int start = 0; start < size; start += 2 * batch_size)
-      {
-        const unsigned int left = std::min(size - start, 2 * batch_size), first = std::min(left, batch_size);
-        const unsigned int n[2] = { first, left - first };
-        BatchIndices places[2];
-        for (unsigned int h = 0; h < 2; ++h)
-          for (unsigned int l = 0; l < batch_size; ++l)
-            places[h][l] = std::min(start + h * batch_size + l, size - 1);
-        act(places, n);
-      }
+    for_each_group<batch_size>(size, act);
   }
 } // namespace scree
 

@@ -45,6 +45,12 @@ namespace scree
           frame, { { mean + factor * principal[0], mean + factor * principal[1], mean + factor * principal[2] } }, b);
     }
 
+    /// Determinant of the deviator.
+    Number third() const
+    {
+      return principal[0] * principal[1] * principal[2];
+    }
+
     /// Smallest principal value of the deviator.
     Number least_deviator() const
     {
@@ -124,6 +130,12 @@ namespace scree
             b[c] += 1. + sum.identity;
           b[c] *= size;
         }
+    }
+
+    /// Determinant of the deviator.
+    Number third() const
+    {
+      return determinant_of_components<3>(deviator);
     }
 
     /// A number below which the smallest principal value of the deviator is not: none is beyond sqrt(2/3) of its size.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
-#include <scree/materials/laws/mohr_coulomb_surfaces.h>
-#include <scree/materials/laws/softening_mohr_coulomb.h>
-#include <scree/materials/principal_batch_material.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -13,24 +11,112 @@ using namespace dealii;
 
 namespace scree
 {
-  namespace
+  double radians(const double degrees)
   {
-    /// Isotropic tension that friction and cohesion allow, c cot(phi), Pa.
-    double apex(const MohrCoulombParameters &parameters)
-    {
-      if (parameters.cohesion == 0)
-        return 0;
-      const double sine = parameters.sine();
-      return sine > 0 ? parameters.cohesion * std::sqrt(1 - sine * sine) / sine
-                      : std::numeric_limits<double>::infinity();
-    }
+    return degrees * numbers::PI / 180;
+  }
 
 
-    double product(const PrincipalValues &a, const PrincipalValues &b)
-    {
-      return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
-    }
-  } // namespace
+  double divided_angle(const double degrees, const double factor)
+  {
+    return std::atan(std::tan(radians(degrees)) / factor) * 180 / numbers::PI;
+  }
+
+
+  FrictionAngleKind friction_angle_kind(const std::string &name)
+  {
+    if (name == "triaxial")
+      return FrictionAngleKind::triaxial;
+    if (name == "plane strain")
+      return FrictionAngleKind::plane_strain;
+    AssertThrow(name == "direct shear or repose", ExcMessage("There is no kind of angle \"" + name + "\"."));
+    return FrictionAngleKind::direct_shear;
+  }
+
+
+  double sine_of_mohr_coulomb(const double angle, const double dilation_angle, const FrictionAngleKind kind)
+  {
+    if (kind != FrictionAngleKind::direct_shear)
+      return std::sin(radians(angle));
+    const double on_plane = std::tan(radians(angle)), psi = radians(dilation_angle);
+    return on_plane / (std::cos(psi) + std::sin(psi) * on_plane);
+  }
+
+
+  void InertialFrictionParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Grain diameter",
+                      grain_diameter,
+                      "m; grain diameter d in the inertial number I of dry grains. 0: friction does not depend on the "
+                      "rate of shear. Element tests are slow and do not depend on it.",
+                      Patterns::Double(0));
+    prm.add_parameter("Reference inertial number",
+                      reference_number,
+                      "Inertial number I_0 at which half of \"Friction increase\" is reached.",
+                      Patterns::Double(1e-6));
+    prm.add_parameter("Friction increase",
+                      friction_increase,
+                      "Largest increase of tau/p with the rate of shear: tau/p grows by this value/(1 + I_0/I).",
+                      Patterns::Double(0, 2));
+  }
+
+
+  void SofteningParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Softening strain",
+                      strain,
+                      "Plastic shear strain kappa of the plane of shear (engineering strain: gamma in simple shear) at "
+                      "which the fall from peak to residual strength has reached 63 %: strength = residual + (peak - "
+                      "residual) exp(-kappa/this). 0: strength does not depend on strain.",
+                      Patterns::Double(0));
+    prm.add_parameter(
+        "Residual cohesion", cohesion, "Pa; cohesion after much shear. -1: as \"Cohesion\".", Patterns::Double(-1));
+    prm.add_parameter("Residual friction angle",
+                      friction_angle,
+                      "degrees; friction angle after much shear, of the kind of \"Friction angle\". -1: as \"Friction "
+                      "angle\".",
+                      Patterns::Double(-1, 89));
+    prm.add_parameter("Residual dilation angle",
+                      dilation_angle,
+                      "degrees; dilation angle after much shear. -1: as \"Dilation angle\".",
+                      Patterns::Double(-1, 89));
+    prm.add_parameter(
+        "Nonlocal length",
+        nonlocal_length,
+        "m; length l over which the strain that softens the soil is averaged. Shear bands are then about two l "
+        "wide; cells must not be wider than l/2. 0: shear bands are one to two cells wide.",
+        Patterns::Double(0));
+  }
+
+
+  void SofteningParameters::check(const std::string &subsection) const
+  {
+    const std::pair<const char *, double> residuals[] = { { "Residual cohesion", cohesion },
+                                                          { "Residual friction angle", friction_angle },
+                                                          { "Residual dilation angle", dilation_angle } };
+    bool falls                                        = false;
+    for (const auto &[entry, value] : residuals)
+      {
+        falls = falls || value != as_peak;
+        require_entry(
+            value >= 0 || value == as_peak, subsection, entry, value, "write 0 or more, or -1 for the peak value.");
+        require_entry(is_active() || value == as_peak,
+                      subsection,
+                      entry,
+                      value,
+                      "this entry has no effect without \"Softening strain\". Add one, or remove the entry.");
+      }
+    require_entry(!is_active() || falls,
+                  subsection,
+                  "Softening strain",
+                  strain,
+                  "no strength falls. Add \"Residual cohesion\" or \"Residual friction angle\".");
+    require_entry(is_active() || nonlocal_length == 0,
+                  subsection,
+                  "Nonlocal length",
+                  nonlocal_length,
+                  "this entry has no effect without \"Softening strain\". Add one, or remove the entry.");
+  }
 
 
   void MohrCoulombParameters::add_parameters(ParameterHandler &prm)
@@ -58,6 +144,15 @@ namespace scree
   double MohrCoulombParameters::sine() const
   {
     return sine_of_mohr_coulomb(friction_angle, dilation_angle, friction_angle_kind(angle_kind));
+  }
+
+
+  double MohrCoulombParameters::apex() const
+  {
+    if (cohesion == 0)
+      return 0;
+    const double sine = this->sine();
+    return sine > 0 ? cohesion * std::sqrt(1 - sine * sine) / sine : std::numeric_limits<double>::infinity();
   }
 
 
@@ -105,16 +200,16 @@ namespace scree
             "Softening strain",
             softening.strain,
             "no strength falls, as the residual values are those of the peak. Lower one of them.");
-    require(tension_cut_off <= apex(last),
+    require(tension_cut_off <= last.apex(),
             "Tension cut-off",
             tension_cut_off,
-            "residual cohesion and friction allow at most " + number_text(apex(last)) + " Pa; lower it.");
+            "residual cohesion and friction allow at most " + number_text(last.apex()) + " Pa; lower it.");
   }
 
 
   void MohrCoulombParameters::check(const std::string &subsection) const
   {
-    LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
+    LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
     require_entry(dilation_angle <= friction_angle,
                   subsection,
                   "Dilation angle",
@@ -138,11 +233,11 @@ namespace scree
                   "Cohesion",
                   cohesion,
                   "without friction the soil needs some cohesion to have any strength.");
-    require_entry(tension_cut_off <= apex(*this),
+    require_entry(tension_cut_off <= apex(),
                   subsection,
                   "Tension cut-off",
                   tension_cut_off,
-                  "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex(*this)) + " Pa; lower it.");
+                  "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex()) + " Pa; lower it.");
     check_softening(subsection);
   }
 
@@ -157,126 +252,87 @@ namespace scree
       law.angle_kind     = "triaxial";
       law.dilation_angle = std::min(law.dilation_angle, law.friction_angle);
       law.cohesion /= factor;
-      law.tension_cut_off = std::min(law.tension_cut_off / factor, apex(law));
+      law.tension_cut_off = std::min(law.tension_cut_off / factor, law.apex());
       double &increase    = law.inertial_friction.friction_increase;
       increase            = std::min(increase, 0.999 * (1. - law.sine()));
     }
   } // namespace
 
 
-  void MohrCoulombParameters::divide_strength(const double factor)
+  bool MohrCoulombParameters::divide_strength(const double factor)
   {
     MohrCoulombParameters last = residual(); // before the peak changes
     divide(*this, factor);
     if (!softening.is_active())
-      return;
+      return true;
     divide(last, factor);
     softening.cohesion       = last.cohesion;
     softening.friction_angle = last.friction_angle;
     softening.dilation_angle = last.dilation_angle;
     tension_cut_off          = std::min(tension_cut_off, last.tension_cut_off);
-  }
-
-
-  LawEntry MohrCoulombParameters::modulus() const
-  {
-    return { "Young's modulus", young_modulus };
+    return true;
   }
 
 
   namespace
   {
     /// The law without softening is another one: its yield surfaces are constant.
-    class MohrCoulombEntries : public EntriesWith<MohrCoulombParameters>
+    template <int dim>
+    std::unique_ptr<Material<dim>> make_mohr_coulomb(const LawEntries &entries)
     {
-    public:
-      std::unique_ptr<LawEntries> clone() const override
-      {
-        return std::make_unique<MohrCoulombEntries>(*this);
-      }
-      std::unique_ptr<Material<2>> make_2d() const override
-      {
-        return make<2>();
-      }
-      std::unique_ptr<Material<3>> make_3d() const override
-      {
-        return make<3>();
-      }
+      const auto &parameters = static_cast<const MohrCoulombParameters &>(entries);
+      if (parameters.softening.is_active())
+        return RegisterLaw::make<dim, SofteningMohrCoulomb, MohrCoulombParameters>(parameters);
+      return RegisterLaw::make<dim, MohrCoulomb, MohrCoulombParameters>(parameters);
+    }
 
-    private:
-      template <int dim>
-      std::unique_ptr<Material<dim>> make() const
-      {
-        if (parameters.softening.is_active())
-          return std::make_unique<PrincipalBatchMaterial<dim, SofteningMohrCoulomb>>(SofteningMohrCoulomb(parameters));
-        return std::make_unique<PrincipalBatchMaterial<dim, MohrCoulomb>>(MohrCoulomb(parameters));
-      }
-    };
+    const RegisterLaw registered_mohr_coulomb({ "Mohr-Coulomb",
+                                                "Mohr-Coulomb",
+                                                std::make_shared<const MohrCoulombParameters>(),
+                                                RegisterLaw::copy<MohrCoulombParameters>,
+                                                make_mohr_coulomb<2>,
+                                                make_mohr_coulomb<3> });
 
-    const RegisterLaw registered_mohr_coulomb("Mohr-Coulomb", "Mohr-Coulomb", std::make_unique<MohrCoulombEntries>());
+
+    MohrCoulombStrength<double> strength_of(const MohrCoulombParameters &parameters)
+    {
+      const double sine = parameters.sine();
+      return { sine,
+               std::sin(radians(parameters.dilation_angle)),
+               2 * parameters.cohesion * std::sqrt(1 - sine * sine) };
+    }
+
+
+    double tangent_of_angle(const MohrCoulombParameters &parameters)
+    {
+      const double sine = parameters.sine();
+      return sine / std::sqrt(1 - sine * sine);
+    }
+
+
+    double tangent_of_dilation(const MohrCoulombParameters &parameters)
+    {
+      return std::tan(radians(parameters.dilation_angle));
+    }
   } // namespace
 
 
   MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters)
-      : inertial_friction(parameters.inertial_friction)
-      , elastic(LinearElasticParameters{ parameters.young_modulus, parameters.poisson_ratio })
+      : elastic(LinearElasticParameters(parameters.young_modulus, parameters.poisson_ratio))
       , shear(elastic.shear_modulus())
       , bulk(elastic.bulk_modulus(0))
-      , vertex(std::min(parameters.tension_cut_off, apex(parameters)))
+      , vertex(std::min(parameters.tension_cut_off, parameters.apex()))
+      , largest_principal_stress(parameters.tension_cut_off)
       , on_plane(parameters.sine() * std::cos(radians(parameters.dilation_angle)) /
                  (1 - parameters.sine() * std::sin(radians(parameters.dilation_angle))))
-      , cohesionless(apex(parameters) == 0)
-      , largest_principal_stress(parameters.tension_cut_off)
+      , cohesionless(parameters.apex() == 0)
+      , inertial_friction(parameters.inertial_friction)
+      , surfaces(strength_of(parameters),
+                 largest_principal_stress,
+                 bulk,
+                 shear,
+                 largest_principal_stress < parameters.apex()) // else the cut-off only touches the apex
   {
-    const double sine     = parameters.sine();
-    const double dilation = std::sin(radians(parameters.dilation_angle));
-    const double limit    = 2 * parameters.cohesion * std::sqrt(1 - sine * sine);
-
-    using namespace mohr_coulomb_surfaces;
-    for (unsigned int s = 0; s < n_surfaces; ++s)
-      surfaces.push_back({ direction(s, sine),
-                           direction(s, dilation),
-                           relaxation(direction(s, dilation), bulk, shear),
-                           s < cut_1 ? limit : largest_principal_stress });
-
-    add_active_set({ f13 });
-    add_active_set({ f13, f12 });
-    add_active_set({ f13, f23 });
-    if (largest_principal_stress < apex(parameters)) // else the cut-off only touches the apex
-      {
-        add_active_set({ cut_1 });
-        add_active_set({ cut_1, cut_2 });
-        add_active_set({ f13, cut_1 });
-        add_active_set({ f13, f12, cut_1 });
-        // The edge where four surfaces meet, as two cones.
-        add_active_set({ f13, cut_1, cut_2 });
-        add_active_set({ f13, f23, cut_1 });
-      }
-    // The three cut-offs meet at the vertex, which needs no system.
-  }
-
-
-  void MohrCoulomb::add_active_set(const std::vector<unsigned int> &members)
-  {
-    Tensor<2, 3> matrix;
-    for (unsigned int a = members.size(); a < 3; ++a)
-      matrix[a][a] = 1;
-    for (unsigned int a = 0; a < members.size(); ++a)
-      for (unsigned int b = 0; b < members.size(); ++b)
-        matrix[a][b] = product(surfaces[members[a]].normal, surfaces[members[b]].relaxation);
-    active_sets.push_back({ members, invert(matrix) });
-  }
-
-
-  double MohrCoulomb::shear_modulus() const
-  {
-    return shear;
-  }
-
-
-  double MohrCoulomb::bulk_modulus(const double) const
-  {
-    return bulk;
   }
 
 
@@ -295,44 +351,12 @@ namespace scree
   }
 
 
-  double MohrCoulomb::initial_porosity() const
-  {
-    return 0;
-  }
-
-
-  double MohrCoulomb::plane_friction() const
-  {
-    return cohesionless ? on_plane : std::numeric_limits<double>::infinity();
-  }
-
-
-  Response MohrCoulomb::return_map(PrincipalValues &strain,
-                                   double *internal_variables,
-                                   const double,
-                                   PrincipalValues &stress,
-                                   UpdateReport &report) const
-  {
-    return count(respond<double>(strain, internal_variables, stress), report);
-  }
-
-
-  Response MohrCoulomb::count(const PrincipalResponse<double> &response, UpdateReport &report) const
-  {
-    report.largest_bulk_modulus = bulk;
-    report.n_vertices += response.is_vertex;
-    report.n_separated += response.is_separated;
-    report.n_unresolved += response.is_unresolved;
-    return response.is_plastic ? Response::plastic : Response::elastic;
-  }
-
-
   void MohrCoulomb::initialise(const PrincipalValues &wanted_stress,
                                PrincipalValues &strain,
                                PrincipalValues &stress,
                                double *internal_variables) const
   {
-    double scale = surfaces[0].limit;
+    double scale = 0;
     for (const double value : wanted_stress)
       scale = std::max(scale, std::abs(value));
     AssertThrow(yield(wanted_stress) <= 1e-9 * scale,
@@ -344,19 +368,17 @@ namespace scree
   }
 
 
-  std::vector<Quantity> MohrCoulomb::internal_quantities()
+  SofteningMohrCoulomb::SofteningMohrCoulomb(const MohrCoulombParameters &parameters)
+      : MohrCoulomb(parameters)
+      , softening_strain(parameters.softening.strain)
+      , nonlocal_length(parameters.softening.nonlocal_length)
+      , residual_plane_friction(MohrCoulomb(parameters.residual()).plane_friction())
+      , least_limit(1e-9 * parameters.cohesion) // Exponential decay ends there.
   {
-    return { { "plastic_shear_strain", "-" } };
-  }
-
-
-  std::vector<Quantity> MohrCoulomb::output_quantities()
-  {
-    return {};
-  }
-
-
-  void MohrCoulomb::output(const PrincipalValues &, const double *, const double, double *) const
-  {
+    const MohrCoulombParameters last = parameters.residual();
+    const auto between = [](const double residual, const double peak) { return Falling{ residual, peak - residual }; };
+    tangent            = between(tangent_of_angle(last), tangent_of_angle(parameters));
+    dilation_tangent   = between(tangent_of_dilation(last), tangent_of_dilation(parameters));
+    cohesion           = between(last.cohesion, parameters.cohesion);
   }
 } // namespace scree

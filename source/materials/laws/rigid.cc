@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/materials/law_entries.h>
-#include <scree/materials/laws/rigid.h>
-
-#include <algorithm>
-#include <limits>
 
 using namespace dealii;
 
@@ -12,13 +8,8 @@ namespace scree
 {
   namespace
   {
-    class RigidEntries : public LawEntries
+    struct RigidEntries : LawEntries
     {
-    public:
-      std::unique_ptr<LawEntries> clone() const override
-      {
-        return std::make_unique<RigidEntries>();
-      }
       void add_parameters(ParameterHandler &) override
       {
       }
@@ -29,97 +20,51 @@ namespace scree
       {
         return { "Material", 0. };
       }
-      std::unique_ptr<Material<2>> make_2d() const override
+    };
+
+
+    /// Soil that does not move: a filter, a rockfill dam, an obstacle. It carries any stress, which is not computed and
+    /// reads 0; no wave runs in it. Its points are not updated.
+    struct Rigid : ConstitutiveLaw
+    {
+      static constexpr unsigned int n_internal_variables = 0;
+      static constexpr bool is_elastic                   = true;
+
+      explicit Rigid(const RigidEntries &)
       {
-        return std::make_unique<Rigid<2>>();
       }
-      std::unique_ptr<Material<3>> make_3d() const override
+      double shear_modulus() const
       {
-        return std::make_unique<Rigid<3>>();
+        return 0.;
+      }
+      double bulk_modulus(const double) const
+      {
+        return 0.;
+      }
+      double energy(const PrincipalValues &) const
+      {
+        return 0.;
+      }
+      template <typename Number>
+      LawResponse<Number>
+      respond(const LawStep<Number> &, PrincipalNumbers<Number> &, Number *, PrincipalNumbers<Number> &stress) const
+      {
+        Assert(false, ExcMessage("Rigid soil does not move."));
+        stress.fill(simd::broadcast<Number>(0.));
+        const LawResponse<Number> response{};
+        return response;
+      }
+      void initialise(const PrincipalValues &, PrincipalValues &strain, PrincipalValues &stress, double *) const
+      {
+        strain.fill(0.);
+        stress.fill(0.);
+      }
+      static std::vector<Quantity> internal_quantities()
+      {
+        return {};
       }
     };
 
-    const RegisterLaw registered_rigid("rigid", "", std::make_unique<RigidEntries>());
+    const RegisterLaw registered_rigid = RegisterLaw::of<Rigid, RigidEntries>("rigid", "");
   } // namespace
-
-
-  template <int dim>
-  void Rigid<dim>::update(const MaterialPoints<dim> &, const MaterialMotion<dim> &, UpdateReport &) const
-  {
-    Assert(false, ExcMessage("Rigid soil does not move."));
-  }
-
-
-  template <int dim>
-  double Rigid<dim>::shear_modulus() const
-  {
-    return 0.;
-  }
-
-
-  template <int dim>
-  double Rigid<dim>::initial_bulk_modulus(const double) const
-  {
-    return 0.;
-  }
-
-
-  template <int dim>
-  double Rigid<dim>::elastic_energy(const double *) const
-  {
-    return 0.;
-  }
-
-
-  template <int dim>
-  Batch Rigid<dim>::elastic_energies(const Batch *) const
-  {
-    return simd::broadcast<Batch>(0.);
-  }
-
-
-  template <int dim>
-  void Rigid<dim>::initialise(const double *, double *left_cauchy_green, double *stress, double *) const
-  {
-    std::fill_n(left_cauchy_green, n_symmetric_components<dim>, 0.);
-    std::fill_n(left_cauchy_green, 3, 1.); // the diagonal comes first
-    std::fill_n(stress, n_symmetric_components<dim>, 0.);
-  }
-
-
-  template <int dim>
-  double Rigid<dim>::initial_porosity() const
-  {
-    return 0.;
-  }
-
-
-  template <int dim>
-  bool Rigid<dim>::is_elastic() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
-  std::vector<Quantity> Rigid<dim>::internal_quantities() const
-  {
-    return {};
-  }
-
-
-  template <int dim>
-  std::vector<Quantity> Rigid<dim>::output_quantities() const
-  {
-    return {};
-  }
-
-
-  template <int dim>
-  void Rigid<dim>::output(const double *, const double *, const double *, const double, double *) const
-  {
-  }
-
-  template class Rigid<2>;
-  template class Rigid<3>;
 } // namespace scree

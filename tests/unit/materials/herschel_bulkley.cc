@@ -3,8 +3,7 @@
 // A layer of mud flows down a plane: a column of points with explicit steps, against the closed form
 // u = (rho g sin/K)^(1/n) [z_y^(1/n + 1) - (z_y - z)^(1/n + 1)]/(1/n + 1) below a plug of tau_y/(rho g sin).
 
-#include <scree/materials/undrained/tresca.h>
-#include <scree/materials/principal_batch_material.h>
+#include <scree/materials/laws/tresca.h>
 
 #include <iostream>
 
@@ -43,7 +42,7 @@ double exact(const HerschelBulkleyParameters &mud, const double z)
 std::vector<double> march(const HerschelBulkleyParameters &mud, const unsigned int n, const double time)
 {
   constexpr unsigned int n_components = 4, n_internal = 4, stride = 2 * n_components + n_internal, shear = 3;
-  const PrincipalBatchMaterial<2, Tresca> law{ Tresca(mud) };
+  const HenckyMaterial<2, Tresca> law{ Tresca(mud) };
   std::vector<double> points(n * stride), increment(4 * n, 0.), one(n, 1.), velocity(n + 1, 0.);
   for (unsigned int p = 0; p < n; ++p)
     {

@@ -3,8 +3,7 @@
 // Steady simple shear at a given rate: tau/p = mu_s + Delta mu/(1 + I_0/I), for any step, in lanes and point by point.
 // The part that is kept stays within 0 and 1 for any numbers.
 
-#include <scree/materials/laws/mohr_coulomb_return.h>
-#include <scree/materials/principal_batch_material.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 
 #include <iostream>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 #include "../unit_test.h"
+#include "one_point.h"
 
 namespace test_inertial_friction
 {
@@ -88,7 +88,7 @@ void run()
   coulomb.young_modulus     = 1e8;
   coulomb.inertial_friction = friction;
   const MohrCoulomb faces(coulomb);
-  test(PrincipalBatchMaterial<2, MohrCoulomb>(faces), HenckyMaterial<2, MohrCoulomb>(faces), 0.5, 2, "Mohr-Coulomb");
+  test(HenckyMaterial<2, MohrCoulomb>(faces), OnePointMaterial<2, MohrCoulomb>(faces), 0.5, 2, "Mohr-Coulomb");
   test_bounds();
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Nor-Sand (Jefferies-Been): stored energy, derivatives, and random returns: never outside the yield surface or the
 // cap, never unresolved.
-#include <scree/materials/jefferies_been/return.h>
+#include <scree/materials/laws/nor_sand.h>
 
 #include <iostream>
 
 #include "../expect.h"
 #include "../random_numbers.h"
+#include "one_point.h"
 
 #include "../unit_test.h"
 
@@ -26,8 +27,8 @@ void test_energy(const double exponent)
     p = std::exp(law.log_pressure(X, eta));
     q = eta * p;
   };
-  const double X = law.opening_at(std::log(50e3), 0.3), volume = law.volume_strain(X), shear = law.shear_strain(X, 0.3);
-  double p, q, p_old, q_old, work = 0, turned = 0;
+  double p, q, p_old, q_old, work = 0, turned = 0, volume, shear;
+  law.strain_of(std::log(50e3), 50e3, 0.3, volume, shear);
   stress(volume, shear, p, q);
   expect(p / 50e3, 1, 1e-12, "p of the strain of p");
   expect(q / p, 0.3, 1e-12, "eta of the strain of eta");
@@ -67,20 +68,19 @@ void test_derivatives(const JefferiesBeenParameters &parameters, RandomNumbers &
       double internal[2];
       law.initialise(to, strain, stress, internal);
       strain[0] += 1e-3;
-      const auto trial = law.trial<double>(strain, random.uniform(0.95, 1.05), internal);
-      const Law::Root<double> root{ trial.log_pressure + random.uniform(-.5, .5), random.uniform(-.3, .8) };
+      const auto trial   = law.trial_of(strain, random.uniform(0.95, 1.05), internal);
+      const double log_p = trial.log_pressure + random.uniform(-.5, .5), r = random.uniform(-.3, .8);
       const auto at = [&](const double dp, const double dr) {
-        return law.residual<hardening, double>(
-            trial, trial.X, trial.shear_strain, { root.log_pressure + dp, root.log_ratio + dr });
+        return law.residual<hardening, double>(trial, trial.X, trial.shear_strain, log_p + dp, r + dr);
       };
       const auto now = at(0, 0), p_up = at(h, 0), p_down = at(-h, 0), r_up = at(0, h), r_down = at(0, -h);
       const auto compare = [&](const double value, const double up, const double down) {
         worst = std::max(worst, std::abs(value - (up - down) / (2 * h)) / (1 + std::abs(value)));
       };
-      compare(now.volume_p, p_up.volume, p_down.volume);
-      compare(now.volume_r, r_up.volume, r_down.volume);
-      compare(now.image_p, p_up.image, p_down.image);
-      compare(now.image_r, r_up.image, r_down.image);
+      compare(now.first_x, p_up.first, p_down.first);
+      compare(now.first_r, r_up.first, r_down.first);
+      compare(now.second_x, p_up.second, p_down.second);
+      compare(now.second_r, r_up.second, r_down.second);
     }
   expect(worst, 0, 1e-5, "derivatives");
   std::cout << "derivatives: OK" << std::endl;
@@ -95,16 +95,14 @@ void test_returns(const std::string &name,
 {
   RandomNumbers random; // Each test draws its own: others do not change it.
   const Law law(parameters);
-  const CriticalLine line = parameters.line();
   UpdateReport report;
   double yield = -1e300, cap = -1e300, dissipation = 1e300;
   unsigned int n_elastic = 0;
   for (unsigned int i = 0; i < n; ++i)
     {
       const double log_p = std::log(random.log_uniform(10, 1e7));
-      double slope;
-      const double e = std::max(0.3, random.uniform(-0.35, 0.15) - line.state(0., log_p, slope));
-      const double J = (1 + e) / (1 + parameters.initial_void_ratio);
+      const double e     = std::max(0.3, random.uniform(-0.35, 0.15) - law.line.state(1., log_p));
+      const double J     = (1 + e) / (1 + parameters.initial_void_ratio);
       PrincipalValues s, strain, stress;
       double sum = 0, square = 0;
       for (double &value : s)
@@ -117,21 +115,22 @@ void test_returns(const std::string &name,
           value -= sum / 3;
           square += value * value;
         }
-      const double M   = law.lode_ratio(s, square);
+      const double M   = law.lode_ratio(StrainInvariants<double>{ 0, square, s[0] * s[1] * s[2] });
       double log_image = log_p + random.uniform(-0.5, 0.5);
       for (unsigned int pass = 0; pass < 20; ++pass)
-        log_image = std::min(log_image, log_p + law.image(e, log_image, M).limit);
-      const double eta =
-          std::max(0., law.image(e, log_image, M).ratio * (1 - log_p + log_image)) * std::sqrt(random.uniform(0, 1));
-      const double X     = law.elastic.opening_at(log_p, eta);
-      const double shear = law.elastic.shear_strain(X, eta) * std::sqrt(1.5 / square);
-      const double size  = random.log_uniform(1e-6, largest_strain);
+        log_image = std::min(log_image, log_p + law.image(1 + e, log_image, M).limit);
+      const double eta = std::max(0., law.image(1 + e, log_image, M).ratio * (1 - log_p + log_image)) *
+                         std::sqrt(random.uniform(0, 1));
+      double volume, shear;
+      law.elastic.strain_of(log_p, 0., eta, volume, shear);
+      shear *= std::sqrt(1.5 / square);
+      const double size = random.log_uniform(1e-6, largest_strain);
       for (unsigned int k = 0; k < 3; ++k)
-        strain[k] = shear * s[k] - law.elastic.volume_strain(X) / 3 + size * random.uniform(-1, 1);
+        strain[k] = shear * s[k] - volume / 3 + size * random.uniform(-1, 1);
 
       const PrincipalValues trial = strain;
       double internal[2]          = { std::exp(log_image), 0 };
-      n_elastic += law.return_map(strain, internal, J, stress, report) == Response::elastic;
+      n_elastic += !return_point(law, strain, internal, J, stress, report);
       double lost = 0, scale = 0;
       for (unsigned int k = 0; k < 3; ++k)
         {

@@ -2,7 +2,7 @@
 // Nor-Sand (Jefferies-Been) in laboratory tests: undrained limit, peak of a drained test, cyclic shear towards the
 // critical void ratio.
 #include <scree/element/element_driver.h>
-#include <scree/materials/jefferies_been/return.h>
+#include <scree/materials/laws/nor_sand.h>
 
 #include <iomanip>
 #include <iostream>
@@ -95,8 +95,8 @@ void test_drained_peak(const double void_ratio, const double pressure)
     if (state.stress_ratio() > peak->stress_ratio())
       peak = &state;
   const JefferiesBeen law(parameters);
-  const double e   = (1 + void_ratio) * peak->volume_ratio - 1;
-  const auto image = law.image(e, std::log(peak->internal_variables[0]), parameters.critical_stress_ratio);
+  const double v   = (1 + void_ratio) * peak->volume_ratio;
+  const auto image = law.image(v, std::log(peak->internal_variables[0]), parameters.critical_stress_ratio);
   const double chi = parameters.state_dilatancy /
                      (1 - parameters.compression_index * parameters.state_dilatancy / parameters.critical_stress_ratio);
   compare("drained, e_0 " + std::to_string(void_ratio) + ": largest q/p",

@@ -3,12 +3,8 @@
 // Laws in batches against the same laws point by point, at random and odd states; what comes out of a point is the same
 // to the last bit wherever it stands among the others. Argument: states of each kind.
 
-#include <scree/materials/batch_material.h>
-#include <scree/materials/jefferies_been/return.h>
-#include <scree/materials/laws/linear_elastic.h>
-#include <scree/materials/laws/mohr_coulomb_return.h>
-#include <scree/materials/laws/nor_sand_return.h>
-#include <scree/materials/principal_batch_material.h>
+#include <scree/materials/laws/mohr_coulomb.h>
+#include <scree/materials/laws/nor_sand.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -16,6 +12,7 @@
 #include <iostream>
 
 #include "../random_numbers.h"
+#include "one_point.h"
 
 #include "../unit_test.h"
 
@@ -186,11 +183,11 @@ void test_places(const Material<dim> &material,
 }
 
 
-template <int dim, template <int, typename> class Batches = BatchMaterial, typename Law>
+template <int dim, typename Law>
 void test(const Law &law, const Kind &kind, const unsigned int n, const double bound, RandomNumbers &random)
 {
-  const HenckyMaterial<dim, Law> one_by_one(law);
-  const Batches<dim, Law> in_batches(law);
+  const OnePointMaterial<dim, Law> one_by_one(law);
+  const HenckyMaterial<dim, Law> in_batches(law);
   const std::string name = std::to_string(dim) + "D, " + kind.name;
 
   States<dim> start(n);
@@ -233,7 +230,7 @@ template <int dim>
 void test_mohr_coulomb(const unsigned int n, RandomNumbers &random)
 {
   const auto test_law = [&](const MohrCoulombParameters &parameters, const Kind &kind) {
-    test<dim, PrincipalBatchMaterial>(MohrCoulomb(parameters), kind, n, 1e-8, random);
+    test<dim>(MohrCoulomb(parameters), kind, n, 1e-8, random);
   };
   MohrCoulombParameters parameters;
   test_law(parameters, { "Mohr-Coulomb, inside the yield surface", 1e-9, 1e-6, 1e4, 1e6, 0.3, 1, 0 });
@@ -256,7 +253,7 @@ template <int dim>
 void test_jefferies_been(const unsigned int n, RandomNumbers &random)
 {
   const auto test_law = [&](const JefferiesBeenParameters &parameters, const Kind &kind) {
-    test<dim, PrincipalBatchMaterial>(JefferiesBeen(parameters), kind, n, 1e-6, random);
+    test<dim>(JefferiesBeen(parameters), kind, n, 1e-6, random);
   };
   JefferiesBeenParameters parameters;
   test_law(parameters, { "Jefferies-Been, inside the yield surface", 1e-9, 1e-6, 1e3, 1e6, 0.3, 3, 0 });
@@ -266,11 +263,11 @@ void test_jefferies_been(const unsigned int n, RandomNumbers &random)
 
 
 /// Denormal numbers, exact unity, and one point alone.
-template <int dim, template <int, typename> class Batches, typename Law>
+template <int dim, typename Law>
 void test_odd(const Law &law)
 {
-  const HenckyMaterial<dim, Law> one_by_one(law);
-  const Batches<dim, Law> in_batches(law);
+  const OnePointMaterial<dim, Law> one_by_one(law);
+  const HenckyMaterial<dim, Law> in_batches(law);
   States<dim> start(3);
   for (unsigned int p = 0; p < 3; ++p)
     {
@@ -294,9 +291,9 @@ void test_odd(const Law &law)
 template <int dim>
 void test_odd()
 {
-  test_odd<dim, BatchMaterial>(NorSand{ NorSandParameters() });
-  test_odd<dim, PrincipalBatchMaterial>(MohrCoulomb{ MohrCoulombParameters() });
-  test_odd<dim, PrincipalBatchMaterial>(JefferiesBeen{ JefferiesBeenParameters() });
+  test_odd<dim>(NorSand{ NorSandParameters() });
+  test_odd<dim>(MohrCoulomb{ MohrCoulombParameters() });
+  test_odd<dim>(JefferiesBeen{ JefferiesBeenParameters() });
   std::cout << dim << "D, odd states: OK" << std::endl;
 }
 

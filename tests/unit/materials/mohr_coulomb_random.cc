@@ -3,8 +3,7 @@
 // Random returns: on the yield surface, dissipating, dilating as the dilation angle says. What opens at the vertex or
 // at a cut-off is kept and closed, without a change of energy.
 
-#include <scree/materials/laws/softening_mohr_coulomb.h>
-#include <scree/materials/undrained/tresca.h>
+#include <scree/materials/laws/tresca.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
@@ -12,6 +11,7 @@
 #include <iostream>
 
 #include "../random_numbers.h"
+#include "one_point.h"
 
 #include "../unit_test.h"
 
@@ -63,9 +63,9 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
       double plastic_shear_strain = 0;
       PrincipalValues stress, again_stress;
       const unsigned long long n_vertices = report.n_vertices + report.n_separated;
-      const Response response             = law.return_map(strain, &plastic_shear_strain, 1, stress, report);
+      const bool is_plastic               = return_point(law, strain, &plastic_shear_strain, 1, stress, report);
       const bool at_vertex                = report.n_vertices + report.n_separated > n_vertices;
-      (response == Response::elastic ? n_elastic : n_plastic) += 1;
+      (is_plastic ? n_plastic : n_elastic) += 1;
 
       double scale = bulk * size + parameters.cohesion, dissipation = 0, volume_strain = 0;
       for (unsigned int k = 0; k < 3; ++k)
@@ -94,11 +94,11 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
             largest_stress_error = std::max(largest_stress_error, std::abs(elastic - stress[k]) / scale);
           }
       PrincipalValues again = strain;
-      law.return_map(again, &plastic_shear_strain, 1, again_stress, report);
+      return_point(law, again, &plastic_shear_strain, 1, again_stress, report);
       for (unsigned int k = 0; k < 3; ++k)
         largest_again = std::max(largest_again, std::abs(again_stress[k] - stress[k]) / scale);
 
-      if (response == Response::plastic && !on_cut_off)
+      if (is_plastic && !on_cut_off)
         {
           ++n_faces;
           largest_dilation = std::max(largest_dilation, dilation_error(trial, strain, sine) / size);
@@ -124,7 +124,7 @@ void test_gap()
   UpdateReport report;
   PrincipalValues strain      = { { -0.01, -0.01, -0.01 } }, stress;
   double plastic_shear_strain = 0;
-  law.return_map(strain, &plastic_shear_strain, 1, stress, report);
+  return_point(law, strain, &plastic_shear_strain, 1, stress, report);
   const double start = stress[0];
 
   const double steps[4] = { 0.05, -0.02, -0.019, -0.011 }; // along each axis: apart, nearer, nearer, closed
@@ -134,7 +134,7 @@ void test_gap()
         value += steps[i];
       strain[0] += i < 3 ? 1e-4 : 0; // Grains apart bear no shear, and shear does not close the gap.
       strain[1] -= i < 3 ? 1e-4 : 0;
-      law.return_map(strain, &plastic_shear_strain, 1, stress, report);
+      return_point(law, strain, &plastic_shear_strain, 1, stress, report);
       AssertThrow(i == 3 || stress[0] == 0, ExcMessage("Stress across a gap."));
     }
   AssertThrow(std::abs(stress[0] / start - 1) < 1e-12, ExcMessage("The gap was forgotten."));
@@ -210,21 +210,21 @@ void test_openings(const double cut_off)
   const MohrCoulomb perfectly_plastic(parameters);
   double variables[1] = {};
   test_opening(name + "perfectly plastic", perfectly_plastic, cut_off, variables, [&](auto &strain, auto &stress) {
-    perfectly_plastic.return_map(strain, variables, 1, stress, report);
+    return_point(perfectly_plastic, strain, variables, 1, stress, report);
   });
   parameters.softening.strain   = 0.1;
   parameters.softening.cohesion = 5e4;
   const SofteningMohrCoulomb softening(parameters);
   double of_softening[3] = {};
   test_opening(name + "softening", softening, cut_off, of_softening, [&](auto &strain, auto &stress) {
-    softening.return_map(strain, of_softening, 1, stress, report);
+    return_point(softening, strain, of_softening, 1, stress, report);
   });
   TrescaParameters clay;
   clay.tension_cut_off = cut_off;
   const Tresca tresca(clay);
   double of_clay[4] = { 0, 0, 0, 1e5 };
   test_opening(name + "Tresca", tresca, cut_off, of_clay, [&](auto &strain, auto &stress) {
-    tresca.return_map(std::numeric_limits<double>::infinity(), strain, of_clay, 1, stress, report);
+    return_point(tresca, strain, of_clay, 1, stress, report);
   });
 }
 

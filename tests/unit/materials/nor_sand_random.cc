@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "../random_numbers.h"
+#include "one_point.h"
 
 #include "../unit_test.h"
 
@@ -44,9 +45,7 @@ void test(const std::string &name, const NorSandParameters &parameters, const Ra
       const PrincipalValues trial  = strain;
       double internal_variables[2] = { image_pressure, 0 };
       PrincipalValues stress;
-      const Response response =
-          law.return_map(strain, internal_variables, random.log_uniform(0.8, 1.5), stress, report);
-      n_elastic += response == Response::elastic;
+      n_elastic += !return_point(law, strain, internal_variables, random.log_uniform(0.8, 1.5), stress, report);
 
       const double mean = (stress[0] + stress[1] + stress[2]) / 3;
       double sum = 0, dissipation = 0, scale = 0;

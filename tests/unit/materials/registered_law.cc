@@ -4,7 +4,6 @@
 #include "../unit_test.h"
 
 #include <scree/input/input_error.h>
-#include <scree/materials/batch_material.h>
 #include <scree/materials/laws/linear_elastic.h>
 #include <scree/materials/table.h>
 
@@ -16,25 +15,25 @@ using namespace dealii;
 using namespace scree;
 
 /// Hencky elasticity by its moduli.
-struct ModuliParameters
+struct ModuliParameters : LawEntries
 {
   double bulk_modulus  = 2e6;
   double shear_modulus = 1e6;
 
-  void add_parameters(ParameterHandler &prm)
+  void add_parameters(ParameterHandler &prm) override
   {
     prm.add_parameter("Bulk modulus", bulk_modulus, "K, Pa.", Patterns::Double(0));
     prm.add_parameter("Shear modulus", shear_modulus, "G, Pa.", Patterns::Double(0));
   }
-  void check(const std::string &subsection) const
+  void check(const std::string &subsection) const override
   {
     require_entry(bulk_modulus > 0, subsection, "Bulk modulus", bulk_modulus, "a positive modulus is needed.");
   }
-  LawEntry modulus() const
+  LawEntry modulus() const override
   {
     return { "Shear modulus", shear_modulus };
   }
-  LawEntry stiffest() const
+  LawEntry stiffest() const override
   {
     return { "Bulk modulus", bulk_modulus };
   }
@@ -43,14 +42,14 @@ struct ModuliParameters
 struct Moduli : LinearElastic
 {
   explicit Moduli(const ModuliParameters &p)
-      : LinearElastic({ 9 * p.bulk_modulus * p.shear_modulus / (3 * p.bulk_modulus + p.shear_modulus),
-                        (3 * p.bulk_modulus - 2 * p.shear_modulus) / (6 * p.bulk_modulus + 2 * p.shear_modulus) })
+      : LinearElastic(LinearElasticParameters(
+            9 * p.bulk_modulus * p.shear_modulus / (3 * p.bulk_modulus + p.shear_modulus),
+            (3 * p.bulk_modulus - 2 * p.shear_modulus) / (6 * p.bulk_modulus + 2 * p.shear_modulus)))
   {
   }
 };
 
-const RegisterLaw
-    registered("Moduli", "Moduli", std::make_unique<EntriesOf<ModuliParameters, BatchMaterial, Moduli>>());
+const RegisterLaw registered = RegisterLaw::of<Moduli, ModuliParameters>("Moduli", "Moduli");
 
 
 void run()

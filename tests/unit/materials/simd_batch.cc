@@ -2,7 +2,6 @@
 
 // Functions of a batch: to rounding, lane by lane whatever the other lanes hold, and as the C library's at odd input.
 
-#include <scree/simd/lane_rows.h>
 #include <scree/simd/pair.h>
 #include <scree/simd/records.h>
 
@@ -123,40 +122,6 @@ void test_masks()
 }
 
 
-/// Lanes that a bit pattern names come one behind the other; the last one fills up.
-void test_lane_rows(RandomNumbers &random)
-{
-  struct Two
-  {
-    Batch value;
-    simd::Mask<Batch> mask;
-  };
-  LaneRows<Two, 64> rows;
-  std::vector<double> expected;
-  while (expected.size() + batch_size <= 64)
-    {
-      Two two;
-      for (unsigned int l = 0; l < batch_size; ++l)
-        two.value[l] = random.uniform(-1, 1);
-      two.mask                = two.value < 0.;
-      const unsigned int bits = static_cast<unsigned int>(random.uniform(0, 1 << batch_size));
-      rows.append(two, bits);
-      for (unsigned int l = 0; l < batch_size; ++l)
-        if (bits >> l & 1)
-          expected.push_back(two.value[l]);
-    }
-  for (unsigned int first = 0; first < expected.size(); ++first)
-    {
-      const Two two = rows.read(first);
-      for (unsigned int l = 0; l < batch_size; ++l)
-        AssertThrow(two.value[l] == expected[std::min<std::size_t>(first + l, expected.size() - 1)] &&
-                        (two.mask[l] != 0) == (two.value[l] < 0),
-                    ExcMessage("kept lanes"));
-    }
-  std::cout << "kept lanes: OK" << std::endl;
-}
-
-
 template <typename Number>
 struct OfNumbers
 {
@@ -181,23 +146,25 @@ void test_pairs(RandomNumbers &random)
 {
   for (unsigned int i = 0; i < 1000; ++i)
     {
-      OfNumbers<Batch> x[2], result[2];
+      OfNumbers<Batch> x[2];
       for (auto &of_batch : x)
         {
           for (unsigned int l = 0; l < batch_size; ++l)
             of_batch.value[l] = random.uniform(-1, 1);
           of_batch.mask = of_batch.value > 0.;
         }
-      const auto pair   = simd::join<OfNumbers<BatchPair>>(x[0], x[1]);
-      const auto of_two = some_formula<BatchPair>(pair.value, BatchPair{ x[1].value, x[0].value });
-      simd::split(of_two, result[0], result[1]);
-      unsigned int bits = 0;
+      const BatchPair x_of_two{ x[0].value, x[1].value };
+      const auto of_two              = some_formula<BatchPair>(x_of_two, BatchPair{ x[1].value, x[0].value });
+      const simd::BatchBits masks[2] = { of_two.mask.first, of_two.mask.second };
+      unsigned int bits              = 0;
       for (unsigned int h = 0; h < 2; ++h)
         {
           const auto of_one = some_formula<Batch>(x[h].value, x[1 - h].value);
           bits |= simd::bits_of(of_one.mask) << h * batch_size;
           for (unsigned int l = 0; l < batch_size; ++l)
-            AssertThrow(std::abs(result[h].value[l] - of_one.value[l]) < 1e-14 && result[h].mask[l] == of_one.mask[l],
+            AssertThrow(std::abs(simd::half(of_two.value, h)[l] - of_one.value[l]) < 1e-14 &&
+                            masks[h][l] == of_one.mask[l] &&
+                            simd::lane(of_two.value, h * batch_size + l) == simd::half(of_two.value, h)[l],
                         ExcMessage("a pair is not its batches"));
         }
       AssertThrow(simd::bits_of(of_two.mask) == bits && simd::any(of_two.mask) == (bits != 0),
@@ -207,10 +174,9 @@ void test_pairs(RandomNumbers &random)
   unsigned int next = 0;
   for (unsigned int size = 0; size <= 4 * batch_size + 1; ++size, next = 0)
     {
-      for_each_pair(size, [&](const BatchIndices(&places)[2], const unsigned int(&n)[2]) {
-        for (unsigned int h = 0; h < 2; ++h)
-          for (unsigned int l = 0; l < batch_size; ++l)
-            AssertThrow(places[h][l] == (l < n[h] ? next++ : size - 1), ExcMessage("places of a pair"));
+      for_each_group<2 * batch_size>(size, [&](const auto &places, const unsigned int n) {
+        for (unsigned int l = 0; l < 2 * batch_size; ++l)
+          AssertThrow(places[l] == (l < n ? next++ : size - 1), ExcMessage("places of a pair"));
       });
       AssertThrow(next == size, ExcMessage("a place is left out"));
     }
@@ -260,7 +226,6 @@ void run()
   test_records<12>(random);
   std::cout << "records: OK" << std::endl;
   test_masks();
-  test_lane_rows(random);
   test_pairs(random);
 }
 

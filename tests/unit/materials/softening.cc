@@ -3,8 +3,7 @@
 // Softening Mohr-Coulomb: random returns with a strength of each point, against the law without softening, in lanes and
 // point by point; pure shear against tau = c(gamma - tau/G).
 
-#include <scree/materials/laws/softening_mohr_coulomb.h>
-#include <scree/materials/principal_batch_material.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 
 #include <algorithm>
 #include <iostream>
@@ -12,6 +11,7 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 #include "../unit_test.h"
+#include "one_point.h"
 
 namespace test_softening
 {
@@ -68,7 +68,7 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
       PrincipalValues strain = trial, stress;
       double internal[3]     = { 0, kappa, kappa };
       const auto n_vertices  = report.n_vertices + report.n_separated;
-      n_plastic += law.return_map(strain, internal, 1, stress, report) == Response::plastic;
+      n_plastic += return_point(law, strain, internal, 1, stress, report);
       const bool at_vertex = report.n_vertices + report.n_separated > n_vertices;
       largest_yield        = std::max(largest_yield, law.yield(stress, strength) / scale);
       double dissipation   = 0;
@@ -87,7 +87,7 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
       for (double &value : near)
         value += shift * random.uniform(-1, 1);
       double near_internal[3] = { 0, kappa, kappa };
-      law.return_map(near, near_internal, 1, near_stress, report);
+      return_point(law, near, near_internal, 1, near_stress, report);
       if (is_continuous)
         largest_slope =
             std::max(largest_slope, largest_difference(stress, near_stress) / (law.bulk_modulus(0) * shift));
@@ -96,7 +96,7 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
         continue;
       PrincipalValues again = strain, again_stress;
       internal[2]           = kappa;
-      law.return_map(again, internal, 1, again_stress, report);
+      return_point(law, again, internal, 1, again_stress, report);
       largest_again = std::max(largest_again, largest_difference(again_stress, stress) / scale);
     }
   AssertThrow(largest_yield < 1e-10, ExcMessage(name + ": outside the yield surface"));
@@ -123,8 +123,8 @@ void test_peak(const std::string &name, MohrCoulombParameters parameters, Random
       const double size      = random.log_uniform(1e-6, 1e-1);
       PrincipalValues strain = random_strain(random, size), of_perfect = strain, stress, stress_of_perfect;
       double internal[3] = {}, internal_of_perfect[1] = {};
-      law.return_map(strain, internal, 1, stress, report);
-      perfect.return_map(of_perfect, internal_of_perfect, 1, stress_of_perfect, report);
+      return_point(law, strain, internal, 1, stress, report);
+      return_point(perfect, of_perfect, internal_of_perfect, 1, stress_of_perfect, report);
       const double scale = perfect.bulk_modulus(0) * size + parameters.cohesion;
       expect(largest_difference(stress, stress_of_perfect) / scale, 0, 1e-10, name + ": difference of stress");
       expect(internal[0], internal_of_perfect[0], 1e-10 * size, name + ": plastic shear strain");
@@ -139,8 +139,8 @@ void test_lanes(const std::string &name, const MohrCoulombParameters &parameters
 {
   constexpr unsigned int n = n_symmetric_components<dim>, n_points = 20, stride = 2 * n + 3;
   const SofteningMohrCoulomb law(parameters);
-  const HenckyMaterial<dim, SofteningMohrCoulomb> one_by_one(law);
-  const PrincipalBatchMaterial<dim, SofteningMohrCoulomb> in_lanes(law);
+  const OnePointMaterial<dim, SofteningMohrCoulomb> one_by_one(law);
+  const HenckyMaterial<dim, SofteningMohrCoulomb> in_lanes(law);
   std::vector<double> lanes(n_points * stride);
   for (unsigned int p = 0; p < n_points; ++p)
     {
@@ -193,7 +193,7 @@ double error_of_shear(const unsigned int n)
       const double gamma = 0.3 * step / n;
       strain[0] += 0.15 / n;
       strain[2] -= 0.15 / n;
-      law.return_map(strain, internal, 1, stress, report);
+      return_point(law, strain, internal, 1, stress, report);
       if (G * gamma < parameters.cohesion)
         exact = G * gamma;
       else

@@ -4,9 +4,8 @@
 // shear against tau = s_u(gamma - tau/G) and at several rates; strength of the place; strength divided by a factor.
 
 #include <scree/input/input_error.h>
-#include <scree/materials/undrained/tresca.h>
-#include <scree/materials/place_variable_values.h>
-#include <scree/materials/principal_batch_material.h>
+#include <scree/materials/laws/tresca.h>
+#include <scree/materials/table.h>
 
 #include <algorithm>
 #include <iostream>
@@ -14,6 +13,7 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 #include "../unit_test.h"
+#include "one_point.h"
 
 namespace test_tresca
 {
@@ -44,10 +44,10 @@ TrescaParameters fast_clay()
 TrescaParameters mud(const double consistency, const double index)
 {
   HerschelBulkleyParameters parameters;
-  parameters.yield_stress = 6e3;
-  parameters.consistency  = consistency;
-  parameters.index        = index;
-  return parameters.tresca();
+  parameters.strength    = "6e3";
+  parameters.consistency = consistency;
+  parameters.index       = index;
+  return parameters;
 }
 
 
@@ -83,7 +83,7 @@ void test_random(const std::string &name, const TrescaParameters &parameters, Ra
       const double strength  = law.slow_strength(internal);
       const double scale     = law.bulk_modulus(0) * size + strength;
       PrincipalValues strain = trial, stress;
-      const bool is_plastic  = law.return_map(time_step, strain, internal, 1, stress, report) == Response::plastic;
+      const bool is_plastic  = return_point(law, strain, internal, 1, stress, report, time_step);
       const double tension   = *std::max_element(stress.begin(), stress.end()) - parameters.tension_cut_off;
       largest_tension        = std::max(largest_tension, tension / scale);
       double dissipation     = 0;
@@ -114,8 +114,8 @@ void test_lanes(const std::string &name, const TrescaParameters &parameters, Ran
 {
   constexpr unsigned int n = n_symmetric_components<dim>, n_points = 20, stride = 2 * n + 4;
   const Tresca law(parameters);
-  const HenckyMaterial<dim, Tresca> one_by_one(law);
-  const PrincipalBatchMaterial<dim, Tresca> in_lanes(law);
+  const OnePointMaterial<dim, Tresca> one_by_one(law);
+  const HenckyMaterial<dim, Tresca> in_lanes(law);
   std::vector<double> lanes(n_points * stride);
   for (unsigned int p = 0; p < n_points; ++p)
     {
@@ -168,7 +168,7 @@ shear(const TrescaParameters &parameters, const double gamma, const unsigned int
     {
       strain[0] += 0.5 * gamma / n;
       strain[2] -= 0.5 * gamma / n;
-      law.return_map(rate > 0 ? gamma / n / rate : slow, strain, internal, 1, stress, report);
+      return_point(law, strain, internal, 1, stress, report, rate > 0 ? gamma / n / rate : slow);
       result.push_back(shear_stress(stress));
     }
   return result;

@@ -4,7 +4,6 @@
 // for every basis, transfer, F-bar and law, with cells of one point and batches that are not full. Nodes move at
 // random.
 
-#include <scree/materials/hencky_material.h>
 #include <scree/materials/laws/nor_sand.h>
 #include <scree/materials/laws/linear_elastic.h>
 #include <scree/materials/table.h>
@@ -21,6 +20,7 @@
 
 #include "../random_numbers.h"
 
+#include "../materials/one_point.h"
 #include "../unit_test.h"
 
 namespace test_transfer_batches
@@ -281,10 +281,10 @@ double test(const std::string &basis,
   material.law = law;
   std::unique_ptr<Material<dim>> one_by_one;
   if (law == "Nor-Sand")
-    one_by_one = std::make_unique<HenckyMaterial<dim, NorSand>>(NorSand(material.of<NorSandParameters>()));
+    one_by_one = std::make_unique<OnePointMaterial<dim, NorSand>>(NorSand(material.of<NorSandParameters>()));
   else
     one_by_one =
-        std::make_unique<HenckyMaterial<dim, LinearElastic>>(LinearElastic(material.of<LinearElasticParameters>()));
+        std::make_unique<OnePointMaterial<dim, LinearElastic>>(LinearElastic(material.of<LinearElasticParameters>()));
   SeedingParameters seeding;
   seeding.region = "x + 0.7 * y < 0.55";
   if (dim == 3) // and a point in a cell by itself

@@ -3,152 +3,102 @@
 #ifndef scree_materials_laws_linear_elastic_h
 #define scree_materials_laws_linear_elastic_h
 
-#include <scree/materials/law.h>
 #include <scree/materials/law_entries.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <algorithm>
-#include <limits>
 
 namespace scree
 {
   /// Entries of subsection "Linear elastic".
-  struct LinearElasticParameters
+  struct LinearElasticParameters : LawEntries
   {
-    double young_modulus = 1e6; ///< E, Pa
-    double poisson_ratio = 0.3; ///< nu, -
+    /// @param young_modulus E, Pa
+    /// @param poisson_ratio nu, -
+    explicit LinearElasticParameters(const double young_modulus = 1e6, const double poisson_ratio = 0.3)
+        : young_modulus(young_modulus)
+        , poisson_ratio(poisson_ratio)
+    {
+    }
 
-    /// Declares the entries in the subsection that is open.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm) override;
+    void check(const std::string &subsection) const override;
+    LawEntry modulus() const override
+    {
+      return { "Young's modulus", young_modulus };
+    }
 
-    /// Throws EntryError if a value is impossible.
-    void check(const std::string &subsection) const;
-
-    /// See LawEntries.
-    LawEntry modulus() const;
+    double young_modulus; ///< E, Pa
+    double poisson_ratio; ///< nu, -
   };
+
 
   /// Hencky elasticity: tau = K tr(eps) I + 2 G dev(eps) of the logarithmic strain eps (@source{hencky1928};
   /// @source{desouzaneto2008}, 13.3). Stored energy K/2 tr(eps)^2 + G |dev(eps)|^2.
-  class LinearElastic
+  class LinearElastic : public ConstitutiveLaw
   {
   public:
     static constexpr unsigned int n_internal_variables = 0;    ///< the law has none
     static constexpr bool is_elastic                   = true; ///< the law has no plastic strain
+    static constexpr bool in_invariants                = true; ///< see ConstitutiveLaw
 
     /// Computes bulk and shear modulus, Pa, from E and nu.
-    explicit LinearElastic(const LinearElasticParameters &parameters);
-
-    /// Largest strain of one return map: no limit, as elasticity has no path.
-    double substep_strain() const;
-
-    /// Pa.
-    double shear_modulus() const;
-
-    /// Tangent at a mean compressive Kirchhoff stress, Pa.
-    double bulk_modulus(const double pressure) const;
-
-    /// The trial state, see law.h.
-    template <typename Number>
-    struct Trial
+    explicit LinearElastic(const LinearElasticParameters &parameters)
+        : shear(parameters.young_modulus / (2 * (1 + parameters.poisson_ratio)))
+        , bulk(parameters.young_modulus / (3 * (1 - 2 * parameters.poisson_ratio)))
     {
-      Number volume_strain; ///< tr(eps), elastic
-    };
-
-    /// Trial state of a volume strain; the other arguments are not read.
-    template <typename Number>
-    Trial<Number> trial(const Number &volume_strain, const Number &, const Number &, const Number *) const
-    {
-      return { volume_strain };
     }
 
-    /// Whether the strain is a number: every state is elastic.
-    template <typename Number>
-    simd::Mask<Number> is_admissible(const Trial<Number> &trial) const
+    /// G, Pa.
+    double shear_modulus() const
     {
-      return trial.volume_strain == trial.volume_strain;
+      return shear;
     }
 
-    /// Mean Kirchhoff stress K tr(eps), Pa, tension positive.
-    template <typename Number>
-    Number mean_stress(const Trial<Number> &trial) const
+    /// K, Pa, at any pressure.
+    double bulk_modulus(const double) const
     {
-      return bulk * trial.volume_strain;
+      return bulk;
     }
 
-    /// Bulk modulus K, Pa.
+    /// See ConstitutiveLaw.
     template <typename Number>
-    Number bulk_modulus_at(const Number &) const
+    InvariantResponse<Number>
+    respond(const LawStep<Number> &, const StrainInvariants<Number> &strain, const Number *) const
     {
-      return simd::broadcast<Number>(bulk);
-    }
-
-    /// Returns no point: the law has no yield surface.
-    template <typename Number>
-    simd::Mask<Number>
-    return_to_surface(const Trial<Number> &, const simd::Mask<Number> &todo, Number *, InvariantReturn<Number> &) const
-    {
-      return todo & !todo; // has none
+      InvariantResponse<Number> response{};
+      response.bulk_modulus  = simd::broadcast<Number>(bulk);
+      response.mean_stress   = bulk * strain.volume;
+      response.stress_factor = simd::broadcast<Number>(2. * shear);
+      return response;
     }
 
     /// J per m^3 of reference volume.
-    double energy(const PrincipalValues &strain) const;
-
-    /// Zero: the law has no pores.
-    double initial_porosity() const;
-
-    /// From trial to returned `strain` and internal variables, at J = `volume_ratio`; sets `stress`, counts in
-    /// `report`.
-    Response return_map(PrincipalValues &strain,
-                        double *internal_variables,
-                        const double volume_ratio,
-                        PrincipalValues &stress,
-                        UpdateReport &report) const;
+    double energy(const PrincipalValues &strain) const
+    {
+      const double volume_strain = strain[0] + strain[1] + strain[2];
+      double energy              = 0.5 * bulk * volume_strain * volume_strain;
+      for (const double value : strain)
+        energy += shear * (value - volume_strain / 3) * (value - volume_strain / 3);
+      return energy;
+    }
 
     /// See Material::initialise().
-    void initialise(const PrincipalValues &wanted_stress,
-                    PrincipalValues &strain,
-                    PrincipalValues &stress,
-                    double *internal_variables) const;
+    void
+    initialise(const PrincipalValues &wanted_stress, PrincipalValues &strain, PrincipalValues &stress, double *) const
+    {
+      stress            = wanted_stress;
+      const double mean = (stress[0] + stress[1] + stress[2]) / 3;
+      for (unsigned int i = 0; i < 3; ++i)
+        strain[i] = mean / (3 * bulk) + (stress[i] - mean) / (2 * shear);
+    }
 
     /// No internal variables.
-    static std::vector<Quantity> internal_quantities();
-
-    /// No derived fields.
-    static std::vector<Quantity> output_quantities();
-
-    /// Writes nothing, see output_quantities().
-    void output(const PrincipalValues &strain,
-                const double *internal_variables,
-                const double volume_ratio,
-                double *values) const;
+    static std::vector<Quantity> internal_quantities()
+    {
+      return {};
+    }
 
   private:
-    const double shear; // Pa
-    const double bulk;  // Pa
+    const double shear, bulk; // Pa
   };
-
-
-  inline double LinearElastic::substep_strain() const
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-
-
-  inline Response LinearElastic::return_map(PrincipalValues &strain,
-                                            double *,
-                                            const double,
-                                            PrincipalValues &stress,
-                                            UpdateReport &report) const
-  {
-    const double volume_strain = strain[0] + strain[1] + strain[2];
-    const double volume_part   = (bulk - 2. / 3. * shear) * volume_strain;
-    for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = volume_part + 2 * shear * strain[i];
-    report.largest_bulk_modulus = bulk;
-    return Response::elastic;
-  }
 } // namespace scree
 
 #endif

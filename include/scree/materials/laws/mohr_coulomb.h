@@ -3,15 +3,175 @@
 #ifndef scree_materials_laws_mohr_coulomb_h
 #define scree_materials_laws_mohr_coulomb_h
 
-#include <scree/materials/friction_angle.h>
-#include <scree/materials/inertial_friction.h>
 #include <scree/materials/laws/linear_elastic.h>
-#include <scree/materials/softening.h>
 
 namespace scree
 {
+  /// Tests that a friction angle can come from.
+  enum class FrictionAngleKind
+  {
+    triaxial,     ///< (s1 - s3)/(s1 + s3) in triaxial compression
+    plane_strain, ///< the same in plane strain
+    direct_shear  ///< tau/sigma on a plane: shear box, angle of repose, friction of a base
+  };
+
+  /// Values of entry "Friction angle kind".
+  constexpr char friction_angle_kinds[] = "triaxial|plane strain|direct shear or repose";
+
+  /// An angle in radians.
+  double radians(const double degrees);
+
+  /// The angle whose tangent is that of `degrees` over `factor`, degrees.
+  double divided_angle(const double degrees, const double factor);
+
+  /// The kind of that name. Throws dealii::ExcMessage if there is none.
+  FrictionAngleKind friction_angle_kind(const std::string &name);
+
+  /// sin(phi) of Mohr-Coulomb, which has one angle in triaxial compression and in plane strain. On a plane that shears
+  /// without strain along it, tau/sigma = sin(phi) cos(psi)/(1 - sin(phi) sin(psi)) (@source{davis1968}), which
+  /// is solved for sin(phi).
+  /// @param angle degrees
+  /// @param dilation_angle psi, degrees
+  double sine_of_mohr_coulomb(const double angle, const double dilation_angle, const FrictionAngleKind kind);
+
+
+  /// Entries of a law with friction that grows with the rate of shear.
+  struct InertialFrictionParameters
+  {
+    double grain_diameter    = 0;    ///< d, m; 0: friction does not depend on the rate
+    double reference_number  = 0.3;  ///< I_0, -
+    double friction_increase = 0.26; ///< Delta mu, -
+
+    /// Declares the entries in the subsection that is open.
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+
+  /// Friction of grains that flow: tau/p = mu_s + Delta mu/(1 + I_0/I) with the inertial number
+  /// I = gamma_dot d sqrt(rho_s/p) (@source{jop2006}), where mu_s is the friction of the law without a rate.
+  ///
+  /// The overstress is that of Duvaut & Lions (@source{simo1998}, 2.7): of the change that a return map makes to
+  /// elastic strain and internal variables, a part x is taken back. With tau_o = G gamma, the overstress before the
+  /// part is taken, and I_1, the inertial number if the whole gamma flows in the step,
+  ///   x tau_o = Delta mu p/(1 + I_0/((1 - x) I_1)),
+  /// a quadratic equation, of which the smaller root lies between 0 and 1.
+  class InertialFriction
+  {
+  public:
+    /// Friction that does not depend on the rate if the diameter or the increase is 0.
+    explicit InertialFriction(const InertialFrictionParameters &parameters)
+        : grain_diameter(parameters.friction_increase > 0 ? parameters.grain_diameter : 0)
+        , reference_number(parameters.reference_number)
+        , friction_increase(parameters.friction_increase)
+    {
+    }
+
+    /// Whether friction depends on the rate.
+    bool is_active() const
+    {
+      return grain_diameter > 0;
+    }
+
+    /// Grain diameter d, m.
+    double diameter() const
+    {
+      return grain_diameter;
+    }
+
+    /// The part x; 0 where there is no pressure.
+    /// @param plastic_shear gamma = sqrt(2 e : e) of the change e of the elastic deviator
+    /// @param shear_modulus G, Pa
+    /// @param pressure p after the return, Pa
+    /// @param grain_density kg/m^3
+    /// @param time_step s; infinite: slow
+    template <typename Number>
+    Number kept_part(const Number &plastic_shear,
+                     const double shear_modulus,
+                     const Number &pressure,
+                     const double grain_density,
+                     const double time_step) const
+    {
+      constexpr double smallest_pressure = 1e-3; // Pa; I is not defined without pressure
+      const Number p                     = simd::max<Number>(pressure, simd::broadcast<Number>(smallest_pressure));
+      const Number over                  = shear_modulus * plastic_shear;
+      const Number whole =
+          plastic_shear * grain_diameter * std::sqrt(grain_density) / (time_step * simd::sqrt<Number>(p));
+      const Number limit  = friction_increase * p * whole;
+      const Number middle = over * (reference_number + whole) + limit;
+      const Number root   = simd::sqrt<Number>(
+          simd::max<Number>(middle * middle - 4. * over * whole * limit, simd::broadcast<Number>(0.)));
+      const Number part = 2. * limit / simd::max<Number>(middle + root, simd::broadcast<Number>(1e-300));
+      return simd::select<Number>(pressure > smallest_pressure, part, simd::broadcast<Number>(0.));
+    }
+
+    /// Takes a part of the change from `trial` to `strain` back, where the points are plastic; returns it.
+    /// @param pressure p after the return, Pa
+    template <typename Number>
+    Number take_back(const PrincipalNumbers<Number> &trial,
+                     const double shear_modulus,
+                     const Number &pressure,
+                     const simd::Mask<Number> &is_plastic,
+                     const LawStep<Number> &step,
+                     PrincipalNumbers<Number> &strain) const
+    {
+      PrincipalNumbers<Number> change;
+      Number volume = simd::broadcast<Number>(0.), square = simd::broadcast<Number>(0.);
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          change[i] = trial[i] - strain[i];
+          volume += change[i];
+        }
+      for (const Number &value : change)
+        square += (value - volume * (1. / 3.)) * (value - volume * (1. / 3.));
+      const Number part = kept_part<Number>(
+          simd::sqrt<Number>(2. * square), shear_modulus, pressure, step.grain_density, step.time_step);
+      const Number taken = simd::select<Number>(is_plastic, part, simd::broadcast<Number>(0.));
+      for (unsigned int i = 0; i < 3; ++i)
+        strain[i] += taken * change[i];
+      return taken;
+    }
+
+  private:
+    const double grain_diameter;    // m
+    const double reference_number;  // I_0
+    const double friction_increase; // Delta mu
+  };
+
+
+  /// Entries of a law whose strength falls from a peak to a residual value with plastic shear.
+  struct SofteningParameters
+  {
+    double strain          = 0;  ///< kappa at which 1/e of the fall is left, -; 0: strength stays at the peak
+    double cohesion        = -1; ///< residual, Pa; -1: that of the peak
+    double friction_angle  = -1; ///< residual, degrees; -1: that of the peak
+    double dilation_angle  = -1; ///< residual, degrees; -1: that of the peak
+    double nonlocal_length = 0;  ///< l, m; 0: the strain of the point itself
+
+    /// Whether strength depends on strain.
+    bool is_active() const
+    {
+      return strain > 0;
+    }
+
+    /// The value after much strain of an entry with this value at the peak.
+    static double residual(const double entry, const double peak)
+    {
+      return entry == as_peak ? peak : entry;
+    }
+
+    /// Declares the entries in the subsection that is open.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at entries without effect.
+    void check(const std::string &subsection) const;
+
+  private:
+    static constexpr double as_peak = -1;
+  };
+
+
   /// Entries of subsection "Mohr-Coulomb"; angles in degrees.
-  struct MohrCoulombParameters
+  struct MohrCoulombParameters : LawEntries
   {
     double young_modulus   = 1e6;                 ///< E, Pa
     double poisson_ratio   = 0.3;                 ///< nu, -
@@ -26,24 +186,284 @@ namespace scree
     /// sin(phi) of the law.
     double sine() const;
 
+    /// Isotropic tension that friction and cohesion allow, c cot(phi), Pa.
+    double apex() const;
+
     /// The same soil with residual strength from the start.
     MohrCoulombParameters residual() const;
 
-    /// Declares the entries in the subsection that is open.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm) override;
+    void check(const std::string &subsection) const override;
+    LawEntry modulus() const override
+    {
+      return { "Young's modulus", young_modulus };
+    }
 
-    /// Throws EntryError if a combination is impossible.
-    void check(const std::string &subsection) const;
-
-    /// See LawEntries.
-    LawEntry modulus() const;
-
-    /// See LawEntries. Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
-    void divide_strength(const double factor);
+    /// Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
+    bool divide_strength(const double factor) override;
+    std::optional<double> sine_of_friction() const override
+    {
+      return sine();
+    }
 
   private:
     void check_softening(const std::string &subsection) const;
   };
+
+
+  /// Three numbers in falling order, and what it takes to bring others of their places back.
+  template <typename Number>
+  struct Sorted
+  {
+    /// Sorts the numbers.
+    DEAL_II_ALWAYS_INLINE inline explicit Sorted(const PrincipalNumbers<Number> &numbers)
+        : numbers(numbers)
+    {
+      exchanged[0] = exchange(this->numbers, 0, this->numbers[0] < this->numbers[1]);
+      exchanged[1] = exchange(this->numbers, 1, this->numbers[1] < this->numbers[2]);
+      exchanged[2] = exchange(this->numbers, 0, this->numbers[0] < this->numbers[1]);
+    }
+
+    /// In the order before, for sorted `result`.
+    DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number> unsorted(PrincipalNumbers<Number> result) const
+    {
+      exchange(result, 0, exchanged[2]);
+      exchange(result, 1, exchanged[1]);
+      exchange(result, 0, exchanged[0]);
+      return result;
+    }
+
+    PrincipalNumbers<Number> numbers; ///< in falling order
+
+  private:
+    DEAL_II_ALWAYS_INLINE inline static simd::Mask<Number>
+    exchange(PrincipalNumbers<Number> &numbers, const unsigned int i, const simd::Mask<Number> &condition)
+    {
+      const Number first = numbers[i], second = numbers[i + 1];
+      numbers[i]     = simd::select<Number>(condition, second, first);
+      numbers[i + 1] = simd::select<Number>(condition, first, second);
+      return condition;
+    }
+
+    simd::Mask<Number> exchanged[3];
+  };
+
+
+  /// Mohr-Coulomb's strength, of all points (double) or of each point of a Batch.
+  template <typename S>
+  struct MohrCoulombStrength
+  {
+    S sine;          ///< sin(phi)
+    S dilation_sine; ///< sin(psi)
+    S limit;         ///< 2 c cos(phi), Pa
+  };
+
+
+  /// The planes that bound sorted stresses, tau_1 >= tau_2 >= tau_3: friction of each pair, then the cut-off of each;
+  /// and the return to those of them that a sorted stress can meet together, each set a small linear system.
+  template <typename S>
+  class MohrCoulombSurfaces
+  {
+  public:
+    /// @param strength of all points, or of each
+    /// @param cut_off largest principal stress, Pa, at most that of the apex of each point
+    /// @param bulk modulus, Pa
+    /// @param shear modulus, Pa
+    /// @param has_cut_off whether the cut-off is met but at the apex
+    DEAL_II_ALWAYS_INLINE inline MohrCoulombSurfaces(const MohrCoulombStrength<S> &strength,
+                                                     const double cut_off,
+                                                     const double bulk,
+                                                     const double shear,
+                                                     const bool has_cut_off)
+        : shear(shear)
+        , has_cut_off(has_cut_off)
+    {
+      for (unsigned int s = 0; s < n_surfaces; ++s)
+        {
+          Surface &surface    = surfaces[s];
+          surface.normal      = direction(s, strength.sine);
+          surface.flow        = direction(s, strength.dilation_sine);
+          const auto &flow    = surface.flow;
+          const S volume_part = (bulk - 2. / 3. * shear) * (flow[0] + flow[1] + flow[2]);
+          for (unsigned int i = 0; i < 3; ++i)
+            surface.relaxation[i] = volume_part + 2 * shear * flow[i];
+          surface.limit = s < cut_1 ? strength.limit : simd::broadcast<S>(cut_off);
+        }
+      if constexpr (is_constant)
+        for_each_set([&](const unsigned int number, const auto &set) { systems[number] = system_of(set); });
+    }
+
+    /// Returns a sorted stress of the points `todo` and sets their plastic strain; those that meet no set of surfaces
+    /// stay in it. The strain of cut-offs is no plastic strain.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline void
+    return_sorted(PrincipalNumbers<Number> &stress, PrincipalNumbers<Number> &plastic, simd::Mask<Number> &todo) const;
+
+    /// Largest of all yield functions, Pa; negative inside.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline Number yield(const Number &largest, const Number &smallest) const
+    {
+      const Surface &shear = surfaces[f13];
+      return simd::max<Number>(shear.normal[0] * largest + shear.normal[2] * smallest - shear.limit,
+                               largest - surfaces[cut_1].limit);
+    }
+
+  private:
+    /// Friction of the largest and the smallest stress, of the larger two and of the smaller two; cut-off of the
+    /// largest and the middle one, which that of the smallest follows.
+    static constexpr unsigned int f13 = 0, f12 = 1, f23 = 2, cut_1 = 3, cut_2 = 4, n_surfaces = 6, n_sets = 9;
+    static constexpr bool is_constant = std::is_same_v<S, double>; // systems are solved once
+
+    /// A plane normal . tau <= limit; relaxation: elastic stiffness times flow direction, Pa.
+    struct Surface
+    {
+      PrincipalNumbers<S> normal, flow, relaxation;
+      S limit;
+    };
+
+    /// Surfaces that are met together.
+    template <std::size_t n>
+    using Set = std::array<unsigned int, n>;
+
+    /// The factors of normal_a . relaxation_b, with inverse pivots.
+    struct System
+    {
+      S factors[3][3];
+    };
+
+    /// Calls `act(number, set)` for the sets in the order in which they are tried.
+    template <typename Act>
+    DEAL_II_ALWAYS_INLINE inline void for_each_set(const Act &act) const
+    {
+      act(0, Set<1>{ { f13 } });
+      act(1, Set<2>{ { f13, f12 } });
+      act(2, Set<2>{ { f13, f23 } });
+      if (!has_cut_off)
+        return;
+      act(3, Set<1>{ { cut_1 } });
+      act(4, Set<2>{ { cut_1, cut_2 } });
+      act(5, Set<2>{ { f13, cut_1 } });
+      act(6, Set<3>{ { f13, f12, cut_1 } });
+      // The edge where four surfaces meet, as two cones.
+      act(7, Set<3>{ { f13, cut_1, cut_2 } });
+      act(8, Set<3>{ { f13, f23, cut_1 } });
+      // The three cut-offs meet at the vertex, which needs no system.
+    }
+
+    /// Normal, or flow direction, of a friction plane with this sine of phi, or of psi; of a cut-off, whatever the
+    /// sine.
+    static PrincipalNumbers<S> direction(const unsigned int surface, const S &sine)
+    {
+      constexpr unsigned int largest[3] = { 0, 0, 1 }, smallest[3] = { 2, 1, 2 };
+      PrincipalNumbers<S> result;
+      result.fill(simd::broadcast<S>(0.));
+      if (surface >= cut_1)
+        result[surface - cut_1] = simd::broadcast<S>(1.);
+      else
+        {
+          result[largest[surface]]  = 1. + sine;
+          result[smallest[surface]] = sine - 1.;
+        }
+      return result;
+    }
+
+    /// Elimination needs no pivots: principal minors are positive for sin(psi) <= sin(phi) < 1.
+    template <std::size_t n>
+    DEAL_II_ALWAYS_INLINE inline System system_of(const Set<n> &set) const
+    {
+      System system;
+      auto &m = system.factors;
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          {
+            const auto &normal = surfaces[set[a]].normal, &relaxation = surfaces[set[b]].relaxation;
+            m[a][b] = normal[0] * relaxation[0] + normal[1] * relaxation[1] + normal[2] * relaxation[2];
+          }
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          m[a][a] = 1. / m[a][a];
+          for (unsigned int b = a + 1; b < n; ++b)
+            {
+              m[b][a] = m[b][a] * m[a][a];
+              for (unsigned int c = a + 1; c < n; ++c)
+                m[b][c] -= m[b][a] * m[a][c];
+            }
+        }
+      return system;
+    }
+
+    /// How far a stress is beyond a surface, Pa.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline static Number excess(const Surface &surface, const PrincipalNumbers<Number> &stress)
+    {
+      return surface.normal[0] * stress[0] + surface.normal[1] * stress[1] + surface.normal[2] * stress[2] -
+             surface.limit;
+    }
+
+    const double shear; // modulus, Pa
+    const bool has_cut_off;
+    Surface surfaces[n_surfaces];
+    System systems[is_constant ? n_sets : 1];
+  };
+
+
+  template <typename S>
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline void MohrCoulombSurfaces<S>::return_sorted(PrincipalNumbers<Number> &stress,
+                                                                          PrincipalNumbers<Number> &plastic,
+                                                                          simd::Mask<Number> &todo) const
+  {
+    const PrincipalNumbers<Number> trial = stress;
+    const Number zero                    = simd::broadcast<Number>(0.);
+    const Number tolerance =
+        1e-12 * simd::max<Number>(surfaces[f13].limit + zero,
+                                  simd::max<Number>(simd::abs<Number>(trial[0]), simd::abs<Number>(trial[2])));
+    for_each_set([&](const unsigned int number, const auto &set) {
+      if (!simd::any(todo))
+        return;
+      constexpr unsigned int n = std::tuple_size_v<std::decay_t<decltype(set)>>;
+      System of_points;
+      if constexpr (!is_constant)
+        of_points = system_of(set);
+      const System &system = is_constant ? systems[number] : of_points;
+      Number multiplier[n];
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          multiplier[a] = excess<Number>(surfaces[set[a]], trial);
+          for (unsigned int b = 0; b < a; ++b)
+            multiplier[a] -= system.factors[a][b] * multiplier[b];
+        }
+      for (unsigned int a = n; a-- > 0;)
+        {
+          for (unsigned int b = a + 1; b < n; ++b)
+            multiplier[a] -= system.factors[a][b] * multiplier[b];
+          multiplier[a] = multiplier[a] * system.factors[a][a];
+        }
+
+      simd::Mask<Number> is_found       = todo;
+      PrincipalNumbers<Number> returned = trial, flowed;
+      flowed.fill(zero);
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          const Surface &surface = surfaces[set[a]];
+          is_found               = is_found & (multiplier[a] * shear >= -1. * tolerance);
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              returned[i] -= multiplier[a] * surface.relaxation[i];
+              if (set[a] < cut_1)
+                flowed[i] += multiplier[a] * surface.flow[i];
+            }
+        }
+      for (const Surface &surface : surfaces)
+        is_found = is_found & (excess<Number>(surface, returned) <= tolerance);
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          stress[i]  = simd::select<Number>(is_found, returned[i], stress[i]);
+          plastic[i] = simd::select<Number>(is_found, flowed[i], plastic[i]);
+        }
+      todo = todo & !is_found;
+    });
+  }
 
 
   /// Perfectly plastic Mohr-Coulomb with tension cut-off on Hencky elasticity (@source{desouzaneto2008}, 8.2).
@@ -57,53 +477,48 @@ namespace scree
   /// is the derivative of energy(). Soil is apart beyond the vertex (all tau_i at the smaller of cut-off and c cot
   /// phi), without cohesion at eps_v >= 0, with cohesion at openings above `largest_opening`: b_e becomes isotropic,
   /// keeps eps_v as a gap to be closed, as in NorSand, and does not dilate.
-  class MohrCoulomb
+  class MohrCoulomb : public ConstitutiveLaw
   {
   public:
-    static constexpr unsigned int n_internal_variables = 1;     ///< plastic shear strain
-    static constexpr bool is_elastic                   = false; ///< the law has plastic strain
-    static constexpr double largest_opening            = 0.05;  ///< volume strain beyond which cohesive soil is apart
+    static constexpr unsigned int n_internal_variables = 1;    ///< plastic shear strain
+    static constexpr double largest_opening            = 0.05; ///< volume strain beyond which cohesive soil is apart
 
     /// Builds the yield surfaces, and the sets of them that a return can meet.
     explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 
-    /// No limit: the equations of a return are linear and have one root.
-    double substep_strain() const;
-
     /// Pa.
-    double shear_modulus() const;
+    double shear_modulus() const
+    {
+      return shear;
+    }
 
-    /// Pa.
-    double bulk_modulus(const double pressure) const;
+    /// Pa, at any pressure.
+    double bulk_modulus(const double) const
+    {
+      return bulk;
+    }
 
     /// J per m^3 of reference volume: elastic energy, and the work of the cut-off in what is open.
     double energy(const PrincipalValues &strain) const;
 
-    /// Zero: the law has no pores.
-    double initial_porosity() const;
-
     /// tau/sigma on a plane of shear, sin(phi) cos(psi)/(1 - sin(phi) sin(psi)); infinite with cohesion.
-    double plane_friction() const;
+    double plane_friction() const
+    {
+      return cohesionless ? on_plane : std::numeric_limits<double>::infinity();
+    }
 
-    /// Half the sum of the largest and the smallest compression, Pa.
+    /// See Material::grain_diameter().
+    double grain_diameter() const
+    {
+      return inertial_friction.is_active() ? inertial_friction.diameter() : 0;
+    }
+
+    /// See ConstitutiveLaw.
     template <typename Number>
-    Number friction_pressure(const PrincipalNumbers<Number> &stress) const;
-
-    /// Elastic principal stress, Pa.
-    template <typename Number>
-    PrincipalNumbers<Number> stress_of(const PrincipalNumbers<Number> &strain) const;
-
-    /// From trial to returned `strain` and internal variables; sets `stress`, counts in `report`.
-    Response return_map(PrincipalValues &strain,
-                        double *internal_variables,
-                        const double volume_ratio,
-                        PrincipalValues &stress,
-                        UpdateReport &report) const;
-
-    /// The same of a point or of a Batch of them; see law.h.
-    template <typename Number>
-    PrincipalResponse<Number>
-    respond(PrincipalNumbers<Number> &strain, Number *internal_variables, PrincipalNumbers<Number> &stress) const;
+    LawResponse<Number> respond(const LawStep<Number> &step,
+                                PrincipalNumbers<Number> &strain,
+                                Number *internal_variables,
+                                PrincipalNumbers<Number> &stress) const;
 
     /// See Material::initialise(). Throws if the stress is outside the yield surface.
     void initialise(const PrincipalValues &wanted_stress,
@@ -112,129 +527,257 @@ namespace scree
                     double *internal_variables) const;
 
     /// Plastic shear strain, -.
-    static std::vector<Quantity> internal_quantities();
-
-    /// No derived fields.
-    static std::vector<Quantity> output_quantities();
-
-    /// Writes nothing, see output_quantities().
-    void output(const PrincipalValues &strain,
-                const double *internal_variables,
-                const double volume_ratio,
-                double *values) const;
+    static std::vector<Quantity> internal_quantities()
+    {
+      return { { "plastic_shear_strain", "-" } };
+    }
 
     /// Largest of all yield functions, Pa; negative inside.
     template <typename Number>
-    Number yield(const PrincipalNumbers<Number> &stress) const;
-
-    const InertialFriction inertial_friction; ///< friction that grows with the rate of shear
+    Number yield(const PrincipalNumbers<Number> &stress) const
+    {
+      return surfaces.yield(largest_of(stress), smallest_of(stress));
+    }
 
   protected:
-    /// Sorts the stress of the points that yield, returns it by `return_sorted(stress, plastic, todo)`, which adds the
-    /// plastic strain and leaves in `todo` those that go to the vertex, and sets strain and stress. Returns the
-    /// deviator of the plastic strain, 0 at the vertex.
-    /// @param cohesionless points whose grains are apart without any opening
-    template <typename Number, typename ReturnSorted>
-    PrincipalNumbers<Number> plastic_return(PrincipalNumbers<Number> &strain,
-                                            PrincipalNumbers<Number> &stress,
-                                            PrincipalResponse<Number> &response,
-                                            const simd::Mask<Number> &cohesionless,
-                                            const ReturnSorted &return_sorted) const;
+    /// The largest of three numbers.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline static Number largest_of(const PrincipalNumbers<Number> &numbers)
+    {
+      return simd::max<Number>(numbers[0], simd::max<Number>(numbers[1], numbers[2]));
+    }
 
-    /// Counts a point in the report.
-    Response count(const PrincipalResponse<double> &response, UpdateReport &report) const;
+    /// The smallest of three numbers.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline static Number smallest_of(const PrincipalNumbers<Number> &numbers)
+    {
+      return simd::min<Number>(numbers[0], simd::min<Number>(numbers[1], numbers[2]));
+    }
+
+    /// Elastic principal stress, Pa.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number> stress_of(const PrincipalNumbers<Number> &strain) const
+    {
+      const Number volume_part = (bulk - 2. / 3. * shear) * (strain[0] + strain[1] + strain[2]);
+      return { { volume_part + 2 * shear * strain[0],
+                 volume_part + 2 * shear * strain[1],
+                 volume_part + 2 * shear * strain[2] } };
+    }
+
+    /// The return of the points that are plastic, from trial strain and stress. Sets internal variables: plastic shear
+    /// strain sqrt(2/3 e:e), and kappa = e_1 - e_3 of the plane that shears, twice, if there are three of them.
+    /// @param cohesionless points whose grains are apart without any opening
+    template <unsigned int n_variables, typename Number, typename S>
+    void return_to(const MohrCoulombSurfaces<S> &surfaces,
+                   const simd::Mask<Number> &cohesionless,
+                   const LawStep<Number> &step,
+                   PrincipalNumbers<Number> &strain,
+                   Number *internal_variables,
+                   PrincipalNumbers<Number> &stress,
+                   LawResponse<Number> &response) const;
 
     const LinearElastic elastic;           ///< the law without plastic strain
     const double shear;                    ///< modulus, Pa
     const double bulk;                     ///< modulus, Pa
     const double vertex;                   ///< tau of the vertex, Pa
-    const double on_plane;                 ///< tau/sigma on a plane of shear, without cohesion
-    const bool cohesionless;               ///< whether the vertex of friction and cohesion is at 0
     const double largest_principal_stress; ///< of the cut-off, Pa
 
   private:
-    /// A plane of the yield surface, normal . tau <= limit.
-    struct Surface
-    {
-      PrincipalValues normal, flow, relaxation; // relaxation: elastic stiffness times flow direction, Pa
-      double limit;                             // Pa
-    };
-
-    /// Surfaces met together, and the inverse of normal_a . relaxation_b.
-    struct ActiveSet
-    {
-      std::vector<unsigned int> surfaces;
-      dealii::Tensor<2, 3> inverse;
-    };
-
-    void add_active_set(const std::vector<unsigned int> &surfaces);
-
-    /// Returns a sorted stress of the points `todo` and sets their plastic strain; those that meet no set of surfaces
-    /// stay in it.
-    template <typename Number>
-    void
-    return_sorted(PrincipalNumbers<Number> &stress, PrincipalNumbers<Number> &plastic, simd::Mask<Number> &todo) const;
-
-    /// The return of the points that yield, from trial strain and stress.
-    template <typename Number>
-    void plastic_return(PrincipalNumbers<Number> &strain,
-                        Number *internal_variables,
-                        PrincipalNumbers<Number> &stress,
-                        PrincipalResponse<Number> &response) const;
-
-    std::vector<Surface> surfaces; // of sorted stresses: 13, 12, 23, then cut-off 1, 2, 3
-    std::vector<ActiveSet> active_sets;
+    const double on_plane;   // tau/sigma on a plane of shear, without cohesion
+    const bool cohesionless; // whether the vertex of friction and cohesion is at 0
+    const InertialFriction inertial_friction;
+    const MohrCoulombSurfaces<double> surfaces;
   };
 
 
-  inline double MohrCoulomb::substep_strain() const
+  template <unsigned int n_variables, typename Number, typename S>
+  DEAL_II_ALWAYS_INLINE inline void MohrCoulomb::return_to(const MohrCoulombSurfaces<S> &surfaces,
+                                                           const simd::Mask<Number> &cohesionless,
+                                                           const LawStep<Number> &step,
+                                                           PrincipalNumbers<Number> &strain,
+                                                           Number *internal_variables,
+                                                           PrincipalNumbers<Number> &stress,
+                                                           LawResponse<Number> &response) const
   {
-    return std::numeric_limits<double>::infinity();
+    const PrincipalNumbers<Number> trial = strain;
+    const Number volume_strain = strain[0] + strain[1] + strain[2], zero = simd::broadcast<Number>(0.);
+    const Number of_apart =
+        simd::select<Number>(cohesionless, zero, simd::broadcast<Number>(vertex / bulk + largest_opening));
+    const simd::Mask<Number> is_kept_apart = response.is_plastic & (volume_strain >= of_apart);
+
+    Sorted<Number> sorted(stress);
+    simd::Mask<Number> left = response.is_plastic & !is_kept_apart;
+    PrincipalNumbers<Number> plastic;
+    plastic.fill(zero);
+    surfaces.return_sorted(sorted.numbers, plastic, left);
+    stress  = sorted.unsorted(sorted.numbers);
+    plastic = sorted.unsorted(plastic);
+
+    const simd::Mask<Number> at_vertex = left | is_kept_apart;
+    const Number corner = simd::max<Number>(volume_strain, simd::broadcast<Number>(vertex / bulk)) * (1. / 3.);
+    const Number mean   = (plastic[0] + plastic[1] + plastic[2]) * (1. / 3.);
+    Number square       = zero;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        strain[i] = simd::select<Number>(at_vertex, corner, strain[i] - plastic[i]);
+        stress[i] = simd::select<Number>(at_vertex, simd::broadcast<Number>(vertex), stress[i]);
+        plastic[i] -= mean; // 0 at the vertex
+        square += plastic[i] * plastic[i];
+      }
+    response.is_unresolved = at_vertex & (volume_strain < vertex / bulk * (1 - 1e-10));
+    (vertex > 0 ? response.is_vertex : response.is_separated) = at_vertex & !response.is_unresolved;
+
+    Number increments[] = { simd::sqrt<Number>(2. / 3. * square), largest_of(plastic) - smallest_of(plastic) };
+    if (inertial_friction.is_active())
+      {
+        const Number part = inertial_friction.take_back<Number>(
+            trial, shear, -0.5 * (largest_of(stress) + smallest_of(stress)), response.is_plastic, step, strain);
+        const PrincipalNumbers<Number> kept = stress_of(strain);
+        for (unsigned int i = 0; i < 3; ++i)
+          stress[i] = simd::select<Number>(part > 0., kept[i], stress[i]);
+        for (Number &increment : increments)
+          increment *= 1. - part;
+      }
+    for (unsigned int i = 0; i < n_variables; ++i)
+      internal_variables[i] += increments[i > 0];
   }
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::yield(const PrincipalNumbers<Number> &stress) const
+  DEAL_II_ALWAYS_INLINE inline LawResponse<Number> MohrCoulomb::respond(const LawStep<Number> &step,
+                                                                        PrincipalNumbers<Number> &strain,
+                                                                        Number *internal_variables,
+                                                                        PrincipalNumbers<Number> &stress) const
   {
-    const Number largest  = simd::max<Number>(stress[0], simd::max<Number>(stress[1], stress[2]));
-    const Number smallest = simd::min<Number>(stress[0], simd::min<Number>(stress[1], stress[2]));
-    const Surface &shear  = surfaces[0];
-    return simd::max<Number>(shear.normal[0] * largest + shear.normal[2] * smallest - shear.limit,
-                             largest - largest_principal_stress);
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number MohrCoulomb::friction_pressure(const PrincipalNumbers<Number> &stress) const
-  {
-    const Number largest  = simd::max<Number>(stress[0], simd::max<Number>(stress[1], stress[2]));
-    const Number smallest = simd::min<Number>(stress[0], simd::min<Number>(stress[1], stress[2]));
-    return -0.5 * (largest + smallest);
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number>
-  MohrCoulomb::stress_of(const PrincipalNumbers<Number> &strain) const
-  {
-    const Number volume_part = (bulk - 2. / 3. * shear) * (strain[0] + strain[1] + strain[2]);
-    return {
-      { volume_part + 2 * shear * strain[0], volume_part + 2 * shear * strain[1], volume_part + 2 * shear * strain[2] }
+    stress = stress_of(strain);
+    LawResponse<Number> response{};
+    response.bulk_modulus     = simd::broadcast<Number>(bulk);
+    response.is_plastic       = yield(stress) > 0.;
+    const auto plastic_return = [&]() __attribute__((noinline)) // elastic points have short code
+    {
+      // Grains with a gap do not dilate.
+      const auto cohesionless_points = cohesionless ? response.is_plastic : simd::Mask<Number>{};
+      return_to<1, Number>(surfaces, cohesionless_points, step, strain, internal_variables, stress, response);
     };
+    if (simd::any(response.is_plastic))
+      plastic_return();
+    return response;
+  }
+
+
+  /// MohrCoulomb whose cohesion, tan(phi) and tan(psi) fall from peak to residual with the plastic shear strain of the
+  /// plane of shear, kappa = sum of (d eps_1^p - d eps_3^p), which is gamma^p in simple shear:
+  ///   value = residual + (peak - residual) exp(-kappa/softening strain).
+  ///
+  /// Strength is that of kappa before the step, so that a return is perfectly plastic: the error is of first order in
+  /// the strain of a step. kappa does not grow while grains are apart. Where the law has a length, the strain that sets
+  /// the strength is averaged over space between two steps, see NonlocalAverage.
+  class SofteningMohrCoulomb : public MohrCoulomb
+  {
+  public:
+    /// Plastic shear strain sqrt(2/3 e:e), kappa, and the kappa that sets the strength.
+    static constexpr unsigned int n_internal_variables = 3;
+
+    /// Strength between that of the parameters and of their residual().
+    explicit SofteningMohrCoulomb(const MohrCoulombParameters &parameters);
+
+    /// tau/sigma on a plane of shear after much strain; infinite with residual cohesion.
+    double plane_friction() const
+    {
+      return residual_plane_friction;
+    }
+
+    /// See ConstitutiveLaw.
+    template <typename Number>
+    LawResponse<Number> respond(const LawStep<Number> &step,
+                                PrincipalNumbers<Number> &strain,
+                                Number *internal_variables,
+                                PrincipalNumbers<Number> &stress) const;
+
+    /// See Material::initialise(). Throws if the stress is outside the yield surface of the peak.
+    void initialise(const PrincipalValues &wanted_stress,
+                    PrincipalValues &strain,
+                    PrincipalValues &stress,
+                    double *internal_variables) const
+    {
+      MohrCoulomb::initialise(wanted_stress, strain, stress, internal_variables);
+      internal_variables[own_kappa] = internal_variables[acting_kappa] = 0;
+    }
+
+    /// Plastic strains, -.
+    static std::vector<Quantity> internal_quantities()
+    {
+      return { { "plastic_shear_strain", "-" }, { "softening_strain", "-" }, { "nonlocal_softening_strain", "-" } };
+    }
+
+    /// kappa and the one that sets the strength.
+    NonlocalVariable nonlocal_variable() const
+    {
+      return { nonlocal_length, own_kappa, acting_kappa };
+    }
+
+    /// The strength at this kappa.
+    template <typename Number>
+    MohrCoulombStrength<Number> strength(const Number &kappa) const;
+
+    /// Largest of all yield functions, Pa, at this strength; negative inside.
+    template <typename Number>
+    Number yield(const PrincipalNumbers<Number> &stress, const MohrCoulombStrength<Number> &strength) const
+    {
+      const Number largest = largest_of(stress), smallest = smallest_of(stress);
+      return simd::max<Number>((1. + strength.sine) * largest - (1. - strength.sine) * smallest - strength.limit,
+                               largest - largest_principal_stress);
+    }
+
+  private:
+    /// A strength that falls with kappa.
+    struct Falling
+    {
+      double residual, fall;
+    };
+
+    static constexpr unsigned int own_kappa = 1, acting_kappa = 2; // internal variables
+
+    const double softening_strain;
+    const double nonlocal_length; // m
+    const double residual_plane_friction;
+    Falling tangent, dilation_tangent, cohesion; // tan(phi), tan(psi), c, Pa
+    const double least_limit;                    // 2 c cos(phi) of grains without cohesion, Pa
+  };
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline MohrCoulombStrength<Number> SofteningMohrCoulomb::strength(const Number &kappa) const
+  {
+    const Number positive  = simd::max<Number>(kappa, simd::broadcast<Number>(0.));
+    const Number remaining = simd::exp<Number>(positive * (-1. / softening_strain));
+    const auto at          = [&](const Falling &value) { return value.residual + value.fall * remaining; };
+    const Number tan_phi = at(tangent), tan_psi = at(dilation_tangent);
+    const Number cos_phi = 1. / simd::sqrt<Number>(1. + tan_phi * tan_phi);
+    const Number cos_psi = 1. / simd::sqrt<Number>(1. + tan_psi * tan_psi);
+    return { tan_phi * cos_phi, tan_psi * cos_psi, 2. * at(cohesion) * cos_phi };
   }
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline PrincipalResponse<Number> MohrCoulomb::respond(PrincipalNumbers<Number> &strain,
-                                                                              Number *internal_variables,
-                                                                              PrincipalNumbers<Number> &stress) const
+  DEAL_II_ALWAYS_INLINE inline LawResponse<Number> SofteningMohrCoulomb::respond(const LawStep<Number> &step,
+                                                                                 PrincipalNumbers<Number> &strain,
+                                                                                 Number *internal_variables,
+                                                                                 PrincipalNumbers<Number> &stress) const
   {
-    stress = stress_of<Number>(strain);
-
-    PrincipalResponse<Number> response{};
-    response.is_plastic = yield<Number>(stress) > 0.;
+    stress                                         = stress_of(strain);
+    const MohrCoulombStrength<Number> of_last_step = strength<Number>(internal_variables[acting_kappa]);
+    LawResponse<Number> response{};
+    response.bulk_modulus     = simd::broadcast<Number>(bulk);
+    response.is_plastic       = yield(stress, of_last_step) > 0.;
+    const auto plastic_return = [&]() __attribute__((noinline))
+    {
+      const MohrCoulombSurfaces<Number> surfaces(of_last_step, largest_principal_stress, bulk, shear, true);
+      return_to<3, Number>(
+          surfaces, of_last_step.limit <= least_limit, step, strain, internal_variables, stress, response);
+    };
     if (simd::any(response.is_plastic))
-      plastic_return(strain, internal_variables, stress, response);
+      plastic_return();
     return response;
   }
 } // namespace scree

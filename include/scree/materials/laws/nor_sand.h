@@ -3,215 +3,490 @@
 #ifndef scree_materials_laws_nor_sand_h
 #define scree_materials_laws_nor_sand_h
 
-#include <scree/materials/law.h>
 #include <scree/materials/law_entries.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <algorithm>
 
 namespace scree
 {
-  /// Entries of subsection "Nor-Sand". Defaults: @source{xie2024}, Table 1, dense.
-  struct NorSandParameters
+  /// Entries of both forms of Nor-Sand.
+  struct SandParameters : LawEntries
   {
-    double shear_modulus                  = 4e6;    ///< G, Pa
-    double swelling_index                 = 0.002;  ///< kappa, elastic compressibility in ln P
-    double compression_index              = 0.012;  ///< lambda, slope of the critical state line in ln P
-    double critical_state_specific_volume = 1.88;   ///< v_c0, on that line at the reference pressure
-    double reference_pressure             = 1;      ///< p_ref, Pa
-    double critical_stress_ratio          = 0.7097; ///< M, q/P at critical state
-    double yield_constant                 = 0.3;    ///< N, curvature of the yield surface; 0: Cam-Clay
-    double potential_constant             = 0.3;    ///< Nbar, curvature of the plastic potential, at most N
-    double hardening_coefficient          = 300;    ///< h, hardening coefficient
-    double dilatancy_multiplier           = -4.5;   ///< alpha, largest dilatancy over state parameter; negative
-    double initial_specific_volume        = 1.629;  ///< v_0, 1 + void ratio at the start
-    double initial_overconsolidation      = 1;      ///< the yield surface passes through the initial stress times this
-    double minimum_pressure               = 1;      ///< Pa; no stress below it
-    double substep_strain                 = 1e-3;   ///< largest component of dF - I in one return map
+    double shear_modulus;                 ///< G, Pa; at the reference pressure, if it grows with pressure
+    double compression_index;             ///< lambda, slope of the critical state line in ln p
+    double reference_pressure;            ///< p_ref, Pa
+    double critical_stress_ratio;         ///< M, q/p at critical state; in triaxial compression
+    double initial_overconsolidation = 1; ///< image pressure over that of the yield surface through the stress
+    double minimum_pressure          = 1; ///< Pa; no stress below it
+    double substep_strain;                ///< largest component of dF - I in one return map
 
-    /// Sine of the friction angle at critical state in triaxial compression.
-    double sine() const;
+    LawEntry modulus() const override
+    {
+      return { "Shear modulus", shear_modulus };
+    }
 
-    /// Declares the entries in the subsection that is open.
-    void add_parameters(dealii::ParameterHandler &prm);
+    /// Divides M, from whichever entry; dilatancy and hardening are as before, so that the peak falls with M.
+    bool divide_strength(const double factor) override
+    {
+      critical_stress_ratio /= factor;
+      return true;
+    }
 
-    /// Throws EntryError if a combination is impossible.
-    void check(const std::string &subsection) const;
+    /// At critical state in triaxial compression.
+    std::optional<double> sine_of_friction() const override
+    {
+      return 3 * critical_stress_ratio / (6 + critical_stress_ratio);
+    }
 
-    /// See LawEntries.
-    LawEntry modulus() const;
+  protected:
+    /// Values that forms do not share; see the members.
+    SandParameters(const double shear_modulus,
+                   const double compression_index,
+                   const double reference_pressure,
+                   const double critical_stress_ratio,
+                   const double substep_strain);
 
-    /// See LawEntries.
-    LawEntry stiffest() const;
+    /// The last of the entries: overconsolidation, minimum pressure, and sub-steps with more `text`.
+    void add_limits(dealii::ParameterHandler &prm, const std::string &text);
 
-    /// See LawEntries. Divides M, from whichever entry; dilatancy is as before, so that the peak falls with M.
-    void divide_strength(const double factor);
+    /// Throws EntryError if one of these entries is not positive.
+    void check_positive(const std::string &subsection) const;
   };
 
 
-  /// Nor-Sand, critical state plasticity of sand in finite strain (@source{borja2006}; @source{andrade2006}).
+  /// Entries of subsection "Nor-Sand". Defaults: @source{xie2024}, Table 1, dense.
+  struct NorSandParameters : SandParameters
+  {
+    double swelling_index                 = 0.002; ///< kappa, elastic compressibility in ln P
+    double critical_state_specific_volume = 1.88;  ///< v_c0, on that line at the reference pressure
+    double yield_constant                 = 0.3;   ///< N, curvature of the yield surface; 0: Cam-Clay
+    double potential_constant             = 0.3;   ///< Nbar, curvature of the plastic potential, at most N
+    double hardening_coefficient          = 300;   ///< h, hardening coefficient
+    double dilatancy_multiplier           = -4.5;  ///< alpha, largest dilatancy over state parameter; negative
+    double initial_specific_volume        = 1.629; ///< v_0, 1 + void ratio at the start
+
+    NorSandParameters();
+
+    void add_parameters(dealii::ParameterHandler &prm) override;
+    void check(const std::string &subsection) const override;
+    LawEntry stiffest() const override;
+  };
+
+
+  /// Entries of subsection "Nor-Sand (Jefferies-Been)". Defaults: Erksak sand, fitted to drained tests G667 and G682
+  /// (@source{been1991}).
+  struct JefferiesBeenParameters : SandParameters
+  {
+    double poisson_ratio       = 0.2;   ///< of the moduli at q = 0
+    double modulus_exponent    = 0.5;   ///< n: moduli grow with (p/p_ref)^n
+    double critical_void_ratio = 0.816; ///< Gamma, at 1 kPa
+    double volumetric_coupling = 0.05;  ///< N
+    double state_dilatancy     = 4.3;   ///< chi_tc
+    double hardening_modulus   = 77.7;  ///< H_0
+    double hardening_slope     = 633;   ///< H_psi
+    double initial_void_ratio  = 0.65;  ///< e_0
+
+    JefferiesBeenParameters();
+
+    void add_parameters(dealii::ParameterHandler &prm) override;
+    void check(const std::string &subsection) const override;
+  };
+
+
+  /// Specific volume at critical state: v_c = Gamma - lambda ln(p/p_ref).
+  struct CriticalLine
+  {
+    /// The state parameter psi = v - v_c.
+    template <typename Number>
+    Number state(const Number &volume, const Number &log_pressure) const
+    {
+      return volume - intercept + slope * (log_pressure - log_reference);
+    }
+
+    double intercept,  ///< Gamma
+        slope,         ///< lambda
+        log_reference; ///< ln p_ref
+  };
+
+
+  /// Elasticity of constant G with a bulk modulus in proportion to pressure (@source{borja2006}): P = P_0
+  /// exp(e_v/kappa), q = 3 G e_s, energy kappa P + 3/2 G e_s^2; P_0 = 1 kPa only fixes the zero of e_v. Strains as in
+  /// PressureElasticity.
+  struct ConstantShear
+  {
+    /// e_v and e_s of p (and its logarithm) and eta = q/p.
+    template <typename Number>
+    void strain_of(const Number &log_pressure, const Number &p, const Number &eta, Number &volume, Number &shear) const
+    {
+      volume = (log_pressure - log_zero_strain_pressure) * kappa;
+      shear  = p * eta * (1. / (3. * G));
+    }
+
+    /// ln p.
+    template <typename Number>
+    Number log_pressure(const Number &volume_strain) const
+    {
+      return log_zero_strain_pressure + volume_strain * (1. / kappa);
+    }
+
+    /// Tangent, Pa.
+    template <typename Number>
+    Number bulk_modulus(const Number &, const Number &p, const Number &) const
+    {
+      return p * (1. / kappa);
+    }
+
+    /// J/m^3 of reference volume.
+    double energy(const double volume_strain, const double shear_strain) const
+    {
+      return kappa * std::exp(log_pressure(volume_strain)) + 1.5 * G * shear_strain * shear_strain;
+    }
+
+    static constexpr double log_zero_strain_pressure = 6.907755278982137; ///< ln(1 kPa/1 Pa)
+    double kappa,                                                         ///< compressibility in ln p
+        G;                                                                ///< Pa
+  };
+
+
+  /// Elasticity of sand from a stored energy, with moduli that grow with pressure (@source{houlsby2005}): at q = 0 both
+  /// are G = g p_r (p/p_r)^n and K = k p_r (p/p_r)^n. Invariants of logarithmic strain, compression positive: volume
+  /// strain e_v, which is 0 at p = p_r, and shear strain e_s = sqrt(2/3) |dev strain|. With a = k (1-n)/(3 g) and
+  /// X = 1 + k (1-n) e_v,
+  ///   eta = q/p = 3 g e_s/X,    p = p_r [X (1 + a eta^2)^{n/2}]^{1/(1-n)},
+  ///   W = p_r/(k (2-n)) [X^2 + 3 g k (1-n) e_s^2]^{(2-n)/(2-2n)}.
+  /// X <= 0 is a gap without stress.
+  struct PressureElasticity
+  {
+    /// @param shear_modulus at the reference pressure, Pa
+    /// @param poisson_ratio of the two moduli at q = 0
+    /// @param exponent n, from 0 to less than 1
+    /// @param reference_pressure p_r, Pa
+    PressureElasticity(const double shear_modulus,
+                       const double poisson_ratio,
+                       const double exponent,
+                       const double reference_pressure)
+        : n(exponent)
+        , p_r(reference_pressure)
+        , log_p_r(std::log(reference_pressure))
+        , g(shear_modulus / reference_pressure)
+        , k(g * 2. * (1. + poisson_ratio) / (3. * (1. - 2. * poisson_ratio)))
+        , k_n(k * (1. - exponent))
+        , a(k_n / (3. * g))
+        , inverse(1. / (1. - exponent))
+        , constant_shear(g * p_r * std::pow(1e3 / p_r, n))
+    {
+    }
+
+    /// X of a volume strain.
+    template <typename Number>
+    Number opening(const Number &volume_strain) const
+    {
+      return 1. + k_n * volume_strain;
+    }
+
+    /// ln p of X > 0 and eta.
+    template <typename Number>
+    Number log_pressure(const Number &X, const Number &eta) const
+    {
+      return log_p_r + inverse * (simd::log<Number>(X) + (0.5 * n) * simd::log<Number>(1. + a * eta * eta));
+    }
+
+    /// X of ln p and eta.
+    template <typename Number>
+    Number opening_at(const Number &log_pressure, const Number &eta) const
+    {
+      return simd::exp<Number>((1. - n) * (log_pressure - log_p_r) - (0.5 * n) * simd::log<Number>(1. + a * eta * eta));
+    }
+
+    /// See ConstantShear.
+    template <typename Number>
+    void strain_of(const Number &log_pressure, const Number &, const Number &eta, Number &volume, Number &shear) const
+    {
+      const Number X = opening_at(log_pressure, eta);
+      volume         = (X - 1.) * (1. / k_n);
+      shear          = eta * X * (1. / (3. * g));
+    }
+
+    /// Such that it and 4/3 of `constant_shear` are the modulus of waves: largest second derivative of W for a change
+    /// of one principal strain.
+    template <typename Number>
+    Number bulk_modulus(const Number &log_pressure, const Number &, const Number &eta) const
+    {
+      const Number square = 1. + a * eta * eta;
+      const Number along  = std::sqrt(k_n) + std::sqrt(4. / 3. * g * a) * simd::abs<Number>(eta);
+      return p_r * simd::exp<Number>(n * (log_pressure - log_p_r) + (0.5 * n) * simd::log<Number>(square)) *
+                 (k_n + 4. / 3. * g + n * inverse * along * along / square) -
+             4. / 3. * constant_shear;
+    }
+
+    /// Stored energy W, J/m^3 of reference volume.
+    double energy(const double volume_strain, const double shear_strain) const
+    {
+      const double X = opening(volume_strain);
+      return X <= 0. ? 0.
+                     : p_r / (k * (2. - n)) *
+                           std::pow(X * X + 3. * g * k_n * shear_strain * shear_strain, 0.5 * (2. - n) * inverse);
+    }
+
+    double n,           ///< exponent of both moduli
+        p_r,            ///< Pa
+        log_p_r,        ///< ln p_r
+        g,              ///< G/p_r at p_r
+        k,              ///< K/p_r at p_r
+        k_n,            ///< k (1 - n)
+        a,              ///< k_n/(3 g)
+        inverse,        ///< 1/(1 - n)
+        constant_shear; ///< G at 1 kPa and q = 0, Pa
+  };
+
+
+  /// What both forms of Nor-Sand share: critical state plasticity of sand in finite strain, with p the mean compressive
+  /// Kirchhoff stress, q = sqrt(3/2)|dev tau|, eta = q/p, p_i the image pressure, r = ln(p/p_i), v the specific volume,
+  /// psi = v - v_c(p_i). Backward Euler. Flow is along the deviator of the trial state, so that the Lode angle is its
+  /// own: a return is two equations in r and one more unknown of the form.
   ///
-  /// With P the mean compressive Kirchhoff stress, q = sqrt(3/2)|dev tau|, Pi the image pressure, r = ln(P/Pi):
-  /// elastic P = P_0 exp(-eps_v/kappa), q = 3 G eps_s, energy kappa P + 3/2 G eps_s^2; P_0 = 1 kPa only fixes the zero
-  /// of eps_v. Yield zeta q = P eta(r), eta = (M/N)(1 - (1-N) exp(r N/(1-N))), for N = 0 eta = M (1 - r); zeta = 1.
-  /// Flow d eps_s^p = gamma, d eps_v^p = gamma D, D = (eta - M)/((1 - Nbar) zeta). Hardening d Pi = h (Pi* - Pi) gamma
-  /// towards Pi* = P x^{-(1-N)/N}, x = max(1 - Abar psi N/M, 0.15), Abar = alpha (1-Nbar)/(1-N),
-  /// psi = v - v_c0 + lambda ln(Pi/p_ref), v = v_0 J. Backward Euler; psi is taken at the returned Pi, v at the end of
-  /// the step.
+  /// At the vertex q = 0 the plastic multiplier exceeds the plastic shear strain; dilatancy and hardening go with it,
+  /// so isotropic compression hardens.
   ///
-  /// At the vertex q = 0 the multiplier gamma exceeds the plastic shear strain; D and the hardening go with gamma, so
-  /// isotropic compression hardens.
+  /// No tension: a point whose trial or returned p is below the minimum pressure has no stress. Its b_e becomes
+  /// isotropic and keeps the volume strain: the gap, to be closed before stress returns; grains apart do not dilate.
+  /// Its image pressure becomes the limit at the minimum pressure.
   ///
-  /// No tension: a point whose trial or returned P is below the minimum pressure has no stress. Its b_e becomes
-  /// isotropic and keeps eps_v: the gap, to be closed before stress returns; grains apart do not dilate. Pi becomes
-  /// Pi* of the minimum pressure.
-  class NorSand
+  /// A `Form` has its own Trial, trial(), solve(), search(), limit_at(), image_through() and `elastic`.
+  template <typename Form, typename Elasticity>
+  class SandLaw : public ConstitutiveLaw
   {
   public:
-    static constexpr unsigned int n_internal_variables = 2;     ///< image pressure Pi, Pa, and plastic shear strain
-    static constexpr bool is_elastic                   = false; ///< the law has plastic strain
+    static constexpr unsigned int n_internal_variables = 2;    ///< image pressure, Pa, and plastic shear strain
+    static constexpr bool in_invariants                = true; ///< see ConstitutiveLaw
+    static constexpr bool leaves_returns               = true; ///< see ConstitutiveLaw
 
-    /// Computes the constants of the equations from the entries.
-    explicit NorSand(const NorSandParameters &parameters);
-
-    /// Largest strain of one return map.
-    double substep_strain() const;
-
-    /// Pa.
-    double shear_modulus() const;
-
-    /// Tangent at a mean compressive Kirchhoff stress, Pa.
-    double bulk_modulus(const double pressure) const;
-
-    /// Invariants of the trial state.
+    /// What a return starts from, as far as forms share it.
     template <typename Number>
     struct Trial
     {
-      Number pressure,     ///< P, Pa
-          log_pressure;    ///< ln P
-      Number deviator;     ///< q, Pa
-      Number stress_ratio; ///< eta
-      Number image,        ///< Pi at the start, Pa
-          log_image;       ///< ln Pi
-      Number volume;       ///< v
+      Number volume_strain;          ///< e_v, compression positive
+      Number shear_strain;           ///< e_s
+      Number log_pressure;           ///< ln p
+      Number eta;                    ///< q/p
+      Number log_image;              ///< ln p_i, after the cap of an elastic step
+      Number volume;                 ///< v
+      simd::Mask<Number> is_apart;   ///< no stress
+      simd::Mask<Number> is_capped;  ///< the cap lowered p_i
+      simd::Mask<Number> is_plastic; ///< has to return
     };
 
-    /// See law.h.
+    /// A state on the yield surface.
     template <typename Number>
-    Trial<Number> trial(const Number &volume_strain,
-                        const Number &deviator_square,
-                        const Number &volume_ratio,
-                        const Number *internal_variables) const;
+    struct Returned
+    {
+      Number log_pressure; ///< ln p
+      Number log_ratio;    ///< r
+      Number eta;          ///< q/p
+    };
 
-    /// Whether the trial state is within the yield surface and P is at least the minimum pressure.
+    /// Two residuals of the unknowns x and r, and their derivatives.
     template <typename Number>
-    simd::Mask<Number> is_admissible(const Trial<Number> &trial) const;
+    struct Residual
+    {
+      Number first;      ///< residual
+      Number first_x;    ///< derivative in x
+      Number first_r;    ///< derivative in r
+      Number second;     ///< residual
+      Number second_x;   ///< derivative in x
+      Number second_r;   ///< derivative in r
+      Number scale;      ///< size of what `first` is made of
+      Number multiplier; ///< plastic multiplier
+    };
 
-    /// Mean Kirchhoff stress -P, Pa, tension positive.
-    template <typename Number>
-    Number mean_stress(const Trial<Number> &trial) const;
+    /// Largest strain of one return map.
+    double substep_strain() const
+    {
+      return largest_strain;
+    }
 
-    /// Tangent P/kappa at a mean Kirchhoff stress, Pa.
-    template <typename Number>
-    Number bulk_modulus_at(const Number &mean_stress) const;
-
-    /// Returns the points `todo`: sets `result` and internal variables. The mask has the points for which it converged.
-    template <typename Number>
-    simd::Mask<Number> return_to_surface(const Trial<Number> &trial,
-                                         const simd::Mask<Number> &todo,
-                                         Number *internal_variables,
-                                         InvariantReturn<Number> &result) const;
+    /// Tangent, Pa, which with 4/3 of the shear modulus is the modulus of waves at the pressure.
+    double bulk_modulus(const double pressure) const
+    {
+      const double p = std::max(pressure, std::exp(log_minimum_pressure));
+      return std::max(elastic.bulk_modulus(std::log(p), p, 0.), 0.);
+    }
 
     /// J per m^3 of reference volume.
     double energy(const PrincipalValues &strain) const;
 
     /// 1 - 1/v_0.
-    double initial_porosity() const;
+    double initial_porosity() const
+    {
+      return 1 - 1 / initial_volume;
+    }
 
-    /// tau/sigma on a plane of shear at critical state, M/sqrt(3).
-    double plane_friction() const;
-
-    /// Mean compression, Pa.
-    double friction_pressure(const PrincipalValues &stress) const;
-
-    /// Elastic principal stress, Pa.
-    PrincipalValues stress_of(const PrincipalValues &strain) const;
-
-    /// Mean Kirchhoff stress of an elastic volume strain, Pa, tension positive.
+    /// See ConstitutiveLaw.
     template <typename Number>
-    Number mean_stress_of(const Number &volume_strain) const;
+    InvariantResponse<Number>
+    respond(const LawStep<Number> &step, const StrainInvariants<Number> &strain, Number *internal_variables) const;
 
-    /// From trial to returned `strain` and internal variables, at J = `volume_ratio`; sets `stress`, counts in
-    /// `report`.
-    Response return_map(PrincipalValues &strain,
-                        double *internal_variables,
-                        const double volume_ratio,
-                        PrincipalValues &stress,
-                        UpdateReport &report) const;
-
-    /// See Material::initialise(). The yield surface passes through the stress, times the overconsolidation ratio.
-    /// Throws for tension and for q/P >= M/N. A stress below the minimum pressure becomes no stress and no gap.
+    /// See Material::initialise(). The yield surface passes through the stress, times the overconsolidation ratio, as
+    /// far as a cap allows. Throws for tension and for stresses that no yield surface has. A stress below the minimum
+    /// pressure becomes no stress and no gap.
     void initialise(const PrincipalValues &wanted_stress,
                     PrincipalValues &strain,
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
     /// Image pressure, Pa, and plastic shear strain, -.
-    static std::vector<Quantity> internal_quantities();
+    static std::vector<Quantity> internal_quantities()
+    {
+      return { { "image_pressure", "Pa" }, { "plastic_shear_strain", "-" } };
+    }
 
-    /// Specific volume v and state parameter psi, -.
-    static std::vector<Quantity> output_quantities();
+    /// Measure of volume and state parameter psi, -.
+    static std::vector<Quantity> output_quantities()
+    {
+      return { { Form::volume_name, "-" }, { "state_parameter", "-" } };
+    }
 
-    /// Writes v and psi at J = `volume_ratio`; psi at the minimum pressure where P is less.
+    /// Writes v or e and psi at J = `volume_ratio`; psi at the minimum pressure where p is less.
     void output(const PrincipalValues &strain,
                 const double *internal_variables,
                 const double volume_ratio,
                 double *values) const;
 
-    /// (zeta q - P eta)/P of a state, for tests; negative inside.
-    double yield(const PrincipalValues &strain, const double image_pressure) const;
+    /// The trial state of principal strains, for tests.
+    auto trial_of(const PrincipalValues &strain, const double volume_ratio, const double *internal_variables) const
+    {
+      return form().trial(invariants(strain), volume_ratio, internal_variables);
+    }
+
+    const Elasticity elastic; ///< stored energy
+    const CriticalLine line;  ///< of critical states
+
+  protected:
+    /// From the entries and the parts of the form; v_0 is the `initial_volume`.
+    SandLaw(const SandParameters &parameters,
+            const Elasticity &elastic,
+            const CriticalLine &line,
+            const double initial_volume);
+
+    /// Sets what forms share of a trial state but pressure, eta and masks.
+    template <typename Number>
+    void set_trial(const StrainInvariants<Number> &strain,
+                   const Number &volume_ratio,
+                   const Number *internal_variables,
+                   Trial<Number> &trial) const
+    {
+      trial.volume_strain = -1. * strain.volume;
+      trial.shear_strain  = simd::sqrt<Number>(2. / 3. * strain.square);
+      trial.log_image     = simd::log<Number>(internal_variables[0]);
+      trial.volume        = initial_volume * volume_ratio;
+    }
+
+    /// Newton's method for the points `todo` from x and r, whose residuals are `now`; says which converged. Steps are
+    /// halved until the sum of squares falls.
+    /// @param residual of x and r
+    /// @param room how far x may change in a step, from the step and x
+    /// @param largest_ratio of r; a step goes at most nine tenths of the way
+    template <typename Number, typename Residuals, typename Room>
+    static simd::Mask<Number> newton(const Residuals &residual,
+                                     const Room &room,
+                                     const double largest_ratio,
+                                     const double tolerance,
+                                     Residual<Number> now,
+                                     simd::Mask<Number> todo,
+                                     Number &x,
+                                     Number &r);
+
+    const double log_minimum_pressure;      ///< of Pa
+    const double initial_overconsolidation; ///< see SandParameters
 
   private:
-    /// zeta. The data show no dependence on the Lode angle; Gudehus-Argyris or Willam-Warnke would enter here.
-    static constexpr double lode_factor = 1;
-
-    /// Invariants after the return.
-    template <typename Number>
-    struct Returned
+    const Form &form() const
     {
-      Number log_pressure; // ln P
+      return static_cast<const Form &>(*this);
+    }
+
+    static StrainInvariants<double> invariants(const PrincipalValues &strain);
+
+    const double largest_strain, initial_volume;
+  };
+
+
+  /// Nor-Sand of @source{borja2006} and @source{andrade2006} on ConstantShear.
+  ///
+  /// Yield eta = (M/N)(1 - (1-N) exp(r N/(1-N))), for N = 0 eta = M (1 - r). Flow d eps_s^p = gamma, d eps_v^p = gamma
+  /// D (tension positive), D = (eta - M)/(1 - Nbar). Hardening d Pi = h (Pi* - Pi) gamma towards Pi* = P x^{-(1-N)/N},
+  /// x = max(1 - Abar psi N/M, 0.15), Abar = alpha (1-Nbar)/(1-N); psi is taken at the returned Pi, v at the end of the
+  /// step. The unknown beside r is gamma. The data show no dependence on the Lode angle.
+  class NorSand : public SandLaw<NorSand, ConstantShear>
+  {
+  public:
+    static constexpr char volume_name[] = "specific_volume"; ///< see output_quantities()
+    static constexpr double volume_zero = 0;                 ///< what it is less than v
+
+    /// Computes the constants of the equations from the entries.
+    explicit NorSand(const NorSandParameters &parameters);
+
+    /// G, Pa.
+    double shear_modulus() const
+    {
+      return parameters.shear_modulus;
+    }
+
+    /// tau/sigma on a plane of shear at critical state, M/sqrt(3).
+    double plane_friction() const
+    {
+      return parameters.critical_stress_ratio / std::sqrt(3.);
+    }
+
+    /// (q - P eta)/P of a state, for tests; negative inside.
+    double yield(const PrincipalValues &strain, const double image_pressure) const
+    {
+      const double internal_variables[2] = { image_pressure, 0 };
+      const auto now                     = trial_of(strain, 1, internal_variables);
+      return now.eta - now.stress_ratio;
+    }
+
+  private:
+    friend SandLaw<NorSand, ConstantShear>;
+
+    template <typename Number>
+    struct Trial : SandLaw::Trial<Number>
+    {
       Number pressure;     // P, Pa
-      Number log_ratio;    // r
-      Number deviator;     // q, Pa
+      Number stress_ratio; // eta of the yield surface
     };
 
-    /// Residuals of (gamma, r) and their derivatives.
     template <typename Number>
-    struct Residual
+    Trial<Number>
+    trial(const StrainInvariants<Number> &strain, const Number &volume_ratio, const Number *internal_variables) const;
+
+    /// Deviatoric stress over strain of an elastic state, and p, Pa.
+    template <typename Number>
+    Number elastic_factor(const Trial<Number> &, const Number &) const
     {
-      Number deviator_ratio; // q_tr/P
-      Number yield, yield_gamma, yield_ratio;
-      Number image, image_gamma, image_ratio;
-    };
-
-    /// A step of Newton's method, and the part of it that keeps gamma and r within their bounds.
+      return simd::broadcast<Number>(2. * parameters.shear_modulus);
+    }
     template <typename Number>
-    struct NewtonStep
+    Number pressure_of(const Trial<Number> &trial) const
     {
-      Number multiplier, log_ratio, part;
-    };
+      return trial.pressure;
+    }
 
-    template <typename Number>
-    Number log_pressure_of(const Number &volume_strain) const;
     template <typename Number>
     Number stress_ratio(const Number &log_ratio) const;
     template <typename Number>
-    Number dilatancy(const Number &stress_ratio) const;
+    Number dilatancy(const Number &stress_ratio) const
+    {
+      return (stress_ratio - parameters.critical_stress_ratio) * dilatancy_factor;
+    }
 
     /// ln(Pi*/P) and its derivative in ln Pi.
     template <typename Number>
     Number log_limit(const Number &log_image, const Number &volume, Number &derivative) const;
+    template <typename Number>
+    Number limit_at(const Number &volume, const Number &log_image) const
+    {
+      Number derivative;
+      return log_limit(log_image, volume, derivative);
+    }
 
     template <typename Number>
     Residual<Number> residual(const Trial<Number> &trial, const Number &multiplier, const Number &log_ratio) const;
@@ -220,67 +495,347 @@ namespace scree
     template <typename Number>
     Residual<Number> first_residual(const Trial<Number> &trial, const Number &log_ratio) const;
 
+    /// The return of the points `todo`; says which of them converged.
     template <typename Number>
-    NewtonStep<Number> newton_step(const Residual<Number> &residual,
-                                   const Number &multiplier,
-                                   const Number &log_ratio,
-                                   const Number &largest_multiplier) const;
+    simd::Mask<Number>
+    solve(const Trial<Number> &trial, const simd::Mask<Number> &todo, Returned<Number> &returned) const;
 
-    /// Where the residual falls along a step, which is halved where it does not: the first such place in `part`. Lanes
-    /// that find none leave `todo`.
-    template <typename Number>
-    Residual<Number> residual_after(NewtonStep<Number> &step,
-                                    const Trial<Number> &trial,
-                                    const Number &multiplier,
-                                    const Number &log_ratio,
-                                    const Residual<Number> &now,
-                                    simd::Mask<Number> &todo) const;
-
-    /// The return of the lanes `todo`; says which of them converged.
-    template <typename Number>
-    simd::Mask<Number> newton(const Trial<Number> &trial, simd::Mask<Number> todo, Returned<Number> &returned) const;
-
-    /// Where both residuals vanish, or the state of grains that are apart.
-    template <typename Number>
-    InvariantReturn<Number>
-    finish(const Trial<Number> &trial, const Returned<Number> &returned, Number *internal_variables) const;
-
-    Response plastic_return(const Trial<double> &trial,
-                            PrincipalValues &strain,
-                            double *internal_variables,
-                            PrincipalValues &stress,
-                            UpdateReport &report) const;
-    Returned<double> search(const Trial<double> &trial, UpdateReport &report) const;
-    Returned<double> search_vertex(const Trial<double> &trial, UpdateReport &report) const;
+    /// What solve() has left.
+    Returned<double> search(const Trial<double> &trial, LawResponse<double> &response) const;
     double ratio_on_yield(const Trial<double> &trial, const double log_deviator, const double multiplier) const;
     double image_residual(const Trial<double> &trial, const double multiplier, const double log_ratio) const;
 
-    /// Pi of grains that are apart, Pa.
-    template <typename Number>
-    Number image_of_separated(const Number &volume) const;
+    /// ln Pi of the yield surface through a stress.
+    double image_through(const StrainInvariants<double> &, const double log_pressure, const double eta) const;
 
     const NorSandParameters parameters;
-    const double inverse_swelling_index;
-    const double log_minimum_pressure;
-    const double log_reference_pressure;
     const double exponent, inverse_exponent; // N/(1-N) and (1-N)/N
-    const double dilatancy_factor;           // 1/((1-Nbar) zeta)
+    const double dilatancy_factor;           // 1/(1-Nbar)
     const double largest_log_ratio;          // r at q = 0
     const double limit_factor;               // Abar N/M
   };
 
 
-  inline double NorSand::substep_strain() const
+  /// Nor-Sand as practice has it (@source{jefferiesbeen2015}) on PressureElasticity.
+  ///
+  /// With e = v - 1 the void ratio, chi = chi_tc/(1 - lambda chi_tc/M_tc), theta the Lode angle:
+  ///   M(theta) = M_tc - M_tc^2/(3 + M_tc) cos(3 theta/2 + pi/4),    M_i = M(theta) (1 - N chi |psi|/M_tc),
+  ///   yield eta = q/p = M_i (1 - r),    flow d e_v^p = M_i r d e_s^p,    L = -chi psi/M_i,tc,
+  ///   d ln p_i = H M(theta)/M_tc e^{2r} (e^L - e^{-r}) d e_s^p,    H = H_0 - H_psi psi of the start of a step.
+  /// The cap p_i <= p e^L holds after elastic and after plastic steps: where the hardening law lags behind,
+  /// p_i = p e^L replaces it. The unknown beside r is ln p.
+  class JefferiesBeen : public SandLaw<JefferiesBeen, PressureElasticity>
   {
-    return parameters.substep_strain;
+  public:
+    static constexpr char volume_name[] = "void_ratio"; ///< see output_quantities()
+    static constexpr double volume_zero = 1;            ///< what it is less than v
+
+    /// Computes the constants of the equations from the entries.
+    explicit JefferiesBeen(const JefferiesBeenParameters &parameters);
+
+    /// At 1 kPa and q = 0, Pa: the constant part of the modulus of waves, see bulk_modulus().
+    double shear_modulus() const
+    {
+      return elastic.constant_shear;
+    }
+
+    /// tau/sigma on a plane of shear at critical state, with M of theta = 0: the flow keeps the volume there, and the
+    /// stress across the plane is the mean.
+    double plane_friction() const
+    {
+      const double M = parameters.critical_stress_ratio;
+      return (M - M * M / (3. + M) * std::sqrt(0.5)) / std::sqrt(3.);
+    }
+
+    /// What the image pressure makes of the specific volume, and derivatives in ln p_i.
+    template <typename Number>
+    struct Image
+    {
+      Number state;  ///< psi
+      Number ratio;  ///< M_i
+      Number ratio_; ///< derivative of M_i
+      Number limit;  ///< L
+      Number limit_; ///< derivative of L
+    };
+
+    /// See Image.
+    template <typename Number>
+    Image<Number> image(const Number &volume, const Number &log_image, const Number &lode_ratio) const;
+
+    /// M(theta) of a deviator of strain; that of compression without one.
+    template <typename Number>
+    Number lode_ratio(const StrainInvariants<Number> &strain) const;
+
+    /// Where a return starts.
+    template <typename Number>
+    struct Trial : SandLaw::Trial<Number>
+    {
+      Number X;          ///< see PressureElasticity
+      Number lode_ratio; ///< M(theta)
+      Number hardening;  ///< H M(theta)/M_tc
+    };
+
+    /// The equations that a return solves.
+    enum class Hardening
+    {
+      law, ///< hardening law
+      cap  ///< p_i = p e^L in its place
+    };
+
+    /// Residuals of flow rule and hardening in (ln p, r) with the trial state's X and e_s.
+    template <Hardening hardening, typename Number>
+    Residual<Number> residual(const Trial<Number> &trial,
+                              const Number &X,
+                              const Number &shear_strain,
+                              const Number &log_pressure,
+                              const Number &log_ratio) const;
+
+    /// See Trial.
+    template <typename Number>
+    Trial<Number>
+    trial(const StrainInvariants<Number> &strain, const Number &volume_ratio, const Number *internal_variables) const;
+
+    /// (q/p - M_i (1 - r)) of a state, for tests; negative inside.
+    double yield(const PrincipalValues &strain, const double *internal_variables, const double volume_ratio) const
+    {
+      const auto now         = trial_of(strain, volume_ratio, internal_variables);
+      const double log_image = std::log(internal_variables[0]);
+      return now.eta - image(now.volume, log_image, now.lode_ratio).ratio * (1. - now.log_pressure + log_image);
+    }
+
+    /// ln(p_i/(p e^L)) of a state, for tests; positive beyond the cap.
+    double beyond_cap(const PrincipalValues &strain, const double *internal_variables, const double volume_ratio) const
+    {
+      const auto now         = trial_of(strain, volume_ratio, internal_variables);
+      const double log_image = std::log(internal_variables[0]);
+      return log_image - now.log_pressure - image(now.volume, log_image, now.lode_ratio).limit;
+    }
+
+  private:
+    friend SandLaw<JefferiesBeen, PressureElasticity>;
+
+    /// Unknowns of a return.
+    template <typename Number>
+    struct Root
+    {
+      Number log_pressure, log_ratio;
+    };
+
+    template <typename Number>
+    Number elastic_factor(const Trial<Number> &trial, const Number &p) const
+    {
+      return 2. * elastic.g * p / trial.X;
+    }
+    template <typename Number>
+    Number pressure_of(const Trial<Number> &trial) const
+    {
+      return simd::exp<Number>(trial.log_pressure);
+    }
+    template <typename Number>
+    Number limit_at(const Number &volume, const Number &log_image) const
+    {
+      return image(volume, log_image, simd::broadcast<Number>(parameters.critical_stress_ratio)).limit;
+    }
+
+    /// Newton's method from `root`, with another X and e_s than those of the trial state.
+    template <Hardening hardening, typename Number>
+    simd::Mask<Number> newton_to(const Trial<Number> &trial,
+                                 const Number &X,
+                                 const Number &shear_strain,
+                                 const simd::Mask<Number> &todo,
+                                 Root<Number> &root) const;
+
+    /// Whether a root is beyond the cap.
+    template <typename Number>
+    simd::Mask<Number> is_beyond_cap(const Trial<Number> &trial, const Root<Number> &root) const;
+
+    template <typename Number>
+    Returned<Number> returned_to(const Trial<Number> &trial, const Root<Number> &root) const
+    {
+      const Image<Number> i = image<Number>(trial.volume, root.log_pressure - root.log_ratio, trial.lode_ratio);
+      return { root.log_pressure,
+               root.log_ratio,
+               i.ratio * simd::max<Number>(1. - root.log_ratio, simd::broadcast<Number>(0.)) };
+    }
+
+    /// The return of the points `todo`; says which of them converged.
+    template <typename Number>
+    simd::Mask<Number>
+    solve(const Trial<Number> &trial, const simd::Mask<Number> &todo, Returned<Number> &returned) const;
+
+    /// What solve() has left.
+    Returned<double> search(const Trial<double> &trial, LawResponse<double> &response) const;
+
+    /// The root where q = 0, if there is one.
+    bool find_vertex(const Trial<double> &trial, Root<double> &root) const;
+
+    /// Of trial states on the way from the yield surface.
+    bool continue_to(const Trial<double> &trial, Root<double> &root) const;
+
+    /// Bisection in r along the flow rule.
+    bool search_ratio(const Trial<double> &trial, Root<double> &root) const;
+
+    /// Bisection in ln p_i along the cap.
+    bool search_cap(const Trial<double> &trial, Root<double> &root) const;
+
+    /// ln p_i of the yield surface through a stress.
+    double image_through(const StrainInvariants<double> &strain, const double log_pressure, const double eta) const;
+
+    const JefferiesBeenParameters parameters;
+    const double chi;
+  };
+
+
+  template <typename Form, typename Elasticity>
+  template <typename Number, typename Residuals, typename Room>
+  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number> SandLaw<Form, Elasticity>::newton(const Residuals &residual,
+                                                                                    const Room &room,
+                                                                                    const double largest_ratio,
+                                                                                    const double tolerance,
+                                                                                    Residual<Number> now,
+                                                                                    simd::Mask<Number> todo,
+                                                                                    Number &x,
+                                                                                    Number &r)
+  {
+    constexpr unsigned int largest_number_of_iterations = 14, largest_number_of_halvings = 6;
+    constexpr double largest_change_of_ratio = 1, largest_part_of_the_way = 0.9; // to a bound
+    const Number one = simd::broadcast<Number>(1.);
+
+    simd::Mask<Number> converged = todo & !todo;
+    for (unsigned int i = 0; i < largest_number_of_iterations; ++i)
+      {
+        const Number inverse_determinant = 1. / (now.first_x * now.second_r - now.first_r * now.second_x);
+        const Number step_x              = (now.first_r * now.second - now.second_r * now.first) * inverse_determinant;
+        const Number step_r              = (now.second_x * now.first - now.first_x * now.second) * inverse_determinant;
+        Number part                      = one;
+
+        // A branch, as it is nearly always taken: minima would hold up the next residual.
+        const Number room_x = room(step_x, x), ahead = largest_part_of_the_way * (largest_ratio - r);
+        const auto is_full = (simd::abs<Number>(step_r) <= largest_change_of_ratio) & (step_r <= ahead) &
+                             (simd::abs<Number>(step_x) <= room_x);
+        if (simd::any(todo & !is_full))
+          {
+            const Number to_bound = simd::select<Number>(step_r > 0., ahead / step_r, one);
+            const Number shorter =
+                simd::min<Number>(simd::min<Number>(one, largest_change_of_ratio / simd::abs<Number>(step_r)),
+                                  simd::min<Number>(room_x / simd::abs<Number>(step_x), to_bound));
+            part = simd::select<Number>(is_full, one, shorter);
+          }
+
+        const auto is_last = todo & (part == 1.) & (now.multiplier >= -1e-12) &
+                             (simd::abs<Number>(now.first) <= tolerance * now.scale) &
+                             (simd::abs<Number>(now.second) <= tolerance);
+        converged = converged | is_last;
+        x         = simd::select<Number>(is_last, x + step_x, x);
+        r         = simd::select<Number>(is_last, r + step_r, r);
+        todo      = todo & !is_last;
+        if (!simd::any(todo))
+          break;
+
+        const Number merit = now.first * now.first + now.second * now.second;
+        for (unsigned int halving = 0;; ++halving)
+          {
+            const Residual<Number> next = residual(x + part * step_x, r + part * step_r);
+            const auto falls            = next.first * next.first + next.second * next.second < merit;
+            if (halving == largest_number_of_halvings)
+              todo = todo & falls;
+            if (!simd::any(todo & !falls))
+              {
+                now = next;
+                break;
+              }
+            part = simd::select<Number>(falls, part, 0.5 * part);
+          }
+        x = simd::select<Number>(todo, x + part * step_x, x);
+        r = simd::select<Number>(todo, r + part * step_r, r);
+      }
+    return converged;
   }
 
 
+  template <typename Form, typename Elasticity>
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number NorSand::log_pressure_of(const Number &volume_strain) const
+  DEAL_II_ALWAYS_INLINE inline InvariantResponse<Number>
+  SandLaw<Form, Elasticity>::respond(const LawStep<Number> &step,
+                                     const StrainInvariants<Number> &strain,
+                                     Number *internal_variables) const
   {
-    constexpr double log_zero_strain_pressure = 6.907755278982137; // ln(1 kPa/1 Pa)
-    return log_zero_strain_pressure - volume_strain * inverse_swelling_index;
+    const auto state  = form().trial(strain, step.volume_ratio, internal_variables);
+    const Number zero = simd::broadcast<Number>(0.), one = simd::broadcast<Number>(1.);
+    const simd::Mask<Number> is_plastic = state.is_plastic, changes = state.is_apart | is_plastic | state.is_capped;
+    Number p = form().pressure_of(state);
+
+    InvariantResponse<Number> response{};
+    response.volume_strain   = strain.volume;
+    response.deviator_factor = one;
+    response.mean_stress     = -1. * p;
+    response.stress_factor   = form().elastic_factor(state, p);
+    response.bulk_modulus    = elastic.bulk_modulus(state.log_pressure, p, state.eta);
+    response.is_plastic      = changes;
+    if (step.leaves_returns || !simd::any(changes))
+      {
+        response.is_left = changes;
+        return response;
+      }
+
+    simd::Mask<Number> is_apart = state.is_apart;
+    Number image_pressure = simd::exp<Number>(state.log_image), plastic_shear = zero;
+    if (simd::any(is_plastic))
+      {
+        Returned<Number> found{ state.log_pressure, state.log_pressure - state.log_image, state.eta };
+        const simd::Mask<Number> solved = form().solve(state, is_plastic, found);
+        for (unsigned int left = simd::bits_of(is_plastic & !solved); left != 0; left &= left - 1)
+          {
+            // Point by point.
+            const unsigned int l = __builtin_ctz(left);
+            const StrainInvariants<double> alone{ simd::lane(strain.volume, l),
+                                                  simd::lane(strain.square, l),
+                                                  simd::lane(strain.third, l) };
+            const double variables[2] = { simd::lane(internal_variables[0], l), 0 };
+            LawResponse<double> of_search{};
+            const Returned<double> root =
+                form().search(form().trial(alone, simd::lane(step.volume_ratio, l), variables), of_search);
+            simd::set_lane(found.log_pressure, l, root.log_pressure);
+            simd::set_lane(found.log_ratio, l, root.log_ratio);
+            simd::set_lane(found.eta, l, root.eta);
+            simd::set_bit(response.is_searched, l);
+            if (of_search.is_vertex)
+              simd::set_bit(response.is_vertex, l);
+            if (of_search.is_unresolved)
+              simd::set_bit(response.is_unresolved, l);
+          }
+        Number volume, shear;
+        const Number p_found = simd::exp<Number>(found.log_pressure);
+        elastic.strain_of(found.log_pressure, p_found, found.eta, volume, shear);
+        const Number inverse = 1. / simd::max<Number>(state.shear_strain, simd::broadcast<Number>(1e-300));
+        const auto set       = [&](Number &value, const Number &returned) {
+          value = simd::select<Number>(is_plastic, returned, value);
+        };
+        set(response.volume_strain, -1. * volume);
+        set(response.deviator_factor, shear * inverse);
+        set(response.mean_stress, -1. * p_found);
+        set(response.stress_factor, (2. / 3.) * p_found * found.eta * inverse);
+        set(response.bulk_modulus, elastic.bulk_modulus(found.log_pressure, p_found, found.eta));
+        set(image_pressure, simd::exp<Number>(found.log_pressure - found.log_ratio));
+        set(plastic_shear, simd::max<Number>(state.shear_strain - shear, zero));
+        is_apart = is_apart | (is_plastic & (found.log_pressure < log_minimum_pressure));
+      }
+    if (simd::any(is_apart))
+      {
+        const Number log_least = simd::broadcast<Number>(log_minimum_pressure);
+        for (Number *value : { &response.deviator_factor,
+                               &response.mean_stress,
+                               &response.stress_factor,
+                               &response.bulk_modulus,
+                               &plastic_shear })
+          *value = simd::select<Number>(is_apart, zero, *value);
+        image_pressure = simd::select<Number>(
+            is_apart, simd::exp<Number>(log_least + form().limit_at(state.volume, log_least)), image_pressure);
+      }
+    response.is_separated = is_apart;
+    internal_variables[0] = simd::select<Number>(changes, image_pressure, internal_variables[0]);
+    internal_variables[1] += plastic_shear;
+    return response;
   }
 
 
@@ -295,79 +850,324 @@ namespace scree
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number NorSand::dilatancy(const Number &stress_ratio) const
-  {
-    return (stress_ratio - parameters.critical_stress_ratio) * dilatancy_factor;
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline NorSand::Trial<Number> NorSand::trial(const Number &volume_strain,
-                                                                     const Number &deviator_square,
+  DEAL_II_ALWAYS_INLINE inline NorSand::Trial<Number> NorSand::trial(const StrainInvariants<Number> &strain,
                                                                      const Number &volume_ratio,
                                                                      const Number *internal_variables) const
   {
     Trial<Number> trial;
-    trial.deviator     = 3 * parameters.shear_modulus * simd::sqrt<Number>(2. / 3. * deviator_square);
-    trial.log_pressure = log_pressure_of(volume_strain);
+    set_trial(strain, volume_ratio, internal_variables, trial);
+    trial.log_pressure = elastic.log_pressure(trial.volume_strain);
     trial.pressure     = simd::exp<Number>(trial.log_pressure);
-    trial.image        = internal_variables[0];
-    trial.log_image    = simd::log<Number>(trial.image);
     trial.stress_ratio = stress_ratio<Number>(trial.log_pressure - trial.log_image);
-    trial.volume       = parameters.initial_specific_volume * volume_ratio;
+    const Number q     = 3. * parameters.shear_modulus * trial.shear_strain;
+    trial.eta          = q / trial.pressure;
+    trial.is_apart     = !(trial.log_pressure >= log_minimum_pressure);
+    trial.is_capped    = simd::Mask<Number>{};
+    trial.is_plastic   = !(trial.is_apart | (q <= trial.pressure * trial.stress_ratio));
     return trial;
   }
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number> NorSand::is_admissible(const Trial<Number> &trial) const
+  DEAL_II_ALWAYS_INLINE inline Number
+  NorSand::log_limit(const Number &log_image, const Number &volume, Number &derivative) const
   {
-    return (trial.log_pressure >= log_minimum_pressure) &
-           (lode_factor * trial.deviator <= trial.pressure * trial.stress_ratio);
+    constexpr double smallest_argument = 0.15; // Below, the limit pressure runs away for very dense sand.
+
+    const Number state = line.state(volume, log_image);
+    if (exponent == 0) // the limit N -> 0
+      {
+        const double factor =
+            parameters.dilatancy_multiplier * (1 - parameters.potential_constant) / parameters.critical_stress_ratio;
+        derivative = simd::broadcast<Number>(factor * line.slope);
+        return factor * state;
+      }
+    const Number argument = 1. - limit_factor * state;
+    const Number used     = simd::max<Number>(argument, simd::broadcast<Number>(smallest_argument));
+    derivative            = simd::select<Number>(
+        argument > smallest_argument, limit_factor * line.slope * inverse_exponent / used, simd::broadcast<Number>(0.));
+    return -1. * simd::log<Number>(used) * inverse_exponent;
   }
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number NorSand::mean_stress(const Trial<Number> &trial) const
+  DEAL_II_ALWAYS_INLINE inline NorSand::Residual<Number>
+  NorSand::residual(const Trial<Number> &trial, const Number &multiplier, const Number &log_ratio) const
   {
-    return -trial.pressure;
+    const double M = parameters.critical_stress_ratio, h = parameters.hardening_coefficient;
+    const double stiffness = 1. / elastic.kappa;
+    const Number E         = exponent > 0 ? simd::exp<Number>(exponent * log_ratio) : simd::broadcast<Number>(1.);
+    Number eta             = M * (1. - log_ratio);
+    if (exponent > 0)
+      eta = M / parameters.yield_constant * (1. - (1. - parameters.yield_constant) * E);
+    const Number eta_ratio          = -M * E; // d eta/dr
+    const Number D                  = dilatancy(eta);
+    const Number log_pressure_gamma = D * stiffness;
+    const Number log_pressure       = trial.log_pressure + multiplier * log_pressure_gamma;
+    const Number log_pressure_ratio = multiplier * eta_ratio * (dilatancy_factor * stiffness);
+
+    const Number compliance     = simd::exp<Number>(-1. * log_pressure);
+    const Number deviator_slope = 3 * parameters.shear_modulus * compliance;
+    const Number deviator_ratio = deviator_slope * (trial.shear_strain - multiplier); // q/P
+
+    // Pi (1 + h gamma) = Pi_n + h gamma Pi*, over P.
+    Number limit_slope;
+    const Number limit = h * simd::exp<Number>(log_limit<Number>(log_pressure - log_ratio, trial.volume, limit_slope));
+    const Number old   = simd::exp<Number>(trial.log_image - log_pressure);
+    const Number hardening   = 1. + h * multiplier;
+    const Number sum         = old + multiplier * limit;
+    const Number inverse_sum = 1. / sum;
+
+    Residual<Number> r;
+    r.scale      = 1. + deviator_slope * trial.shear_strain;
+    r.multiplier = multiplier;
+    r.first      = deviator_ratio - eta;
+    r.first_x    = -1. * (deviator_slope + deviator_ratio * log_pressure_gamma);
+    r.first_r    = -1. * deviator_ratio * log_pressure_ratio - eta_ratio;
+    r.second     = simd::log<Number>(hardening * inverse_sum) - log_ratio;
+    r.second_x = h / hardening - (limit + (multiplier * limit * limit_slope - old) * log_pressure_gamma) * inverse_sum;
+    r.second_r =
+        -1. - (multiplier * limit * limit_slope * (log_pressure_ratio - 1.) - old * log_pressure_ratio) * inverse_sum;
+    return r;
   }
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number NorSand::mean_stress_of(const Number &volume_strain) const
+  DEAL_II_ALWAYS_INLINE inline NorSand::Residual<Number> NorSand::first_residual(const Trial<Number> &trial,
+                                                                                 const Number &log_ratio) const
   {
-    return -1. * simd::exp<Number>(log_pressure_of(volume_strain));
+    const double G3    = 3 * parameters.shear_modulus;
+    const Number slope = dilatancy(trial.stress_ratio) * (1. / elastic.kappa);
+    const Number limit = limit_at(trial.volume, trial.log_image);
+
+    Residual<Number> r;
+    r.multiplier = simd::broadcast<Number>(0.);
+    r.scale      = 1. + trial.eta;
+    r.first      = trial.eta - trial.stress_ratio;
+    r.first_x    = -1. * (G3 / trial.pressure + trial.eta * slope);
+    r.first_r    = parameters.critical_stress_ratio - parameters.yield_constant * trial.stress_ratio;
+    if (parameters.yield_constant > 0) // M exp(r N/(1-N)), from eta
+      r.first_r *= 1. / (1. - parameters.yield_constant);
+    r.second   = simd::broadcast<Number>(0.);
+    r.second_x = parameters.hardening_coefficient * (1. - simd::exp<Number>(log_ratio + limit)) + slope;
+    r.second_r = simd::broadcast<Number>(-1.);
+    return r;
   }
 
 
   template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number NorSand::bulk_modulus_at(const Number &mean_stress) const
+  __attribute__((noinline)) simd::Mask<Number>
+  NorSand::solve(const Trial<Number> &trial, const simd::Mask<Number> &todo, Returned<Number> &returned) const
   {
-    return -mean_stress * inverse_swelling_index;
+    constexpr double tolerance = 1e-7, part_of_the_way = 0.9; // before the last step, which squares the residual
+    Number multiplier = simd::broadcast<Number>(0.);
+    Number log_ratio =
+        simd::min<Number>(trial.log_pressure - trial.log_image, simd::broadcast<Number>(largest_log_ratio));
+    Residual<Number> now = first_residual(trial, log_ratio);
+    const auto is_vertex = todo & !(log_ratio < largest_log_ratio);
+    if (simd::any(is_vertex))
+      {
+        using Member                  = Number Residual<Number>::*;
+        const Residual<Number> vertex = residual(trial, multiplier, log_ratio);
+        for (const Member member : { &Residual<Number>::first,
+                                     &Residual<Number>::first_x,
+                                     &Residual<Number>::first_r,
+                                     &Residual<Number>::second,
+                                     &Residual<Number>::second_x,
+                                     &Residual<Number>::second_r,
+                                     &Residual<Number>::scale })
+          now.*member = simd::select<Number>(is_vertex, vertex.*member, now.*member);
+      }
+    const auto converged =
+        newton<Number>([&](const Number &x, const Number &r) { return residual(trial, x, r); },
+                       [&](const Number &step, const Number &x) {
+                         return part_of_the_way * simd::select<Number>(step > 0., trial.shear_strain - x, x);
+                       },
+                       largest_log_ratio,
+                       tolerance,
+                       now,
+                       todo,
+                       multiplier,
+                       log_ratio);
+    // P from the flow rule, q from the yield surface: q_tr - 3 G gamma loses digits where gamma is large.
+    const Number eta      = stress_ratio<Number>(log_ratio);
+    returned.log_ratio    = log_ratio;
+    returned.log_pressure = trial.log_pressure + multiplier * dilatancy(eta) * (1. / elastic.kappa);
+    returned.eta          = eta;
+    return converged;
   }
 
 
-  inline Response NorSand::return_map(PrincipalValues &strain,
-                                      double *internal_variables,
-                                      const double volume_ratio,
-                                      PrincipalValues &stress,
-                                      UpdateReport &report) const
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline JefferiesBeen::Image<Number>
+  JefferiesBeen::image(const Number &volume, const Number &log_image, const Number &lode_ratio) const
   {
-    const double volume_strain = strain[0] + strain[1] + strain[2];
-    const double mean          = volume_strain / 3;
-    double deviator_square     = 0;
-    for (unsigned int i = 0; i < 3; ++i)
-      deviator_square += (strain[i] - mean) * (strain[i] - mean);
+    constexpr double rounding   = 1e-3; // of |psi|
+    constexpr double least_part = 0.2;  // of M that is left to M_i
+    // Without the first bound no stress ratio would be left to very loose sand at the cap, where r = -L.
+    constexpr double least_limit = -0.9, largest_limit = 3;
+    const double M = parameters.critical_stress_ratio, coupling = parameters.volumetric_coupling * chi / M;
 
-    const Trial<double> state = trial(volume_strain, deviator_square, volume_ratio, internal_variables);
-    if (!is_admissible(state))
-      return plastic_return(state, strain, internal_variables, stress, report);
+    Image<Number> image;
+    image.state       = line.state(volume, log_image);
+    const Number size = simd::sqrt<Number>(image.state * image.state + rounding * rounding);
+    const Number part = 1. - coupling * (size - rounding), zero = simd::broadcast<Number>(0.);
+    const Number used  = simd::max<Number>(part, simd::broadcast<Number>(least_part));
+    const Number part_ = simd::select<Number>(part > least_part, (-coupling * line.slope) * image.state / size, zero);
+    image.ratio        = lode_ratio * used;
+    image.ratio_       = lode_ratio * part_;
 
-    for (unsigned int i = 0; i < 3; ++i)
-      stress[i] = -state.pressure + 2 * parameters.shear_modulus * (strain[i] - mean);
-    report.largest_bulk_modulus = std::max(report.largest_bulk_modulus, bulk_modulus_at(-state.pressure));
-    return Response::elastic;
+    const Number inverse = 1. / used, limit = (-chi / M) * image.state * inverse;
+    image.limit = simd::min<Number>(simd::max<Number>(limit, simd::broadcast<Number>(least_limit)),
+                                    simd::broadcast<Number>(largest_limit));
+    image.limit_ =
+        simd::select<Number>(limit == image.limit, ((-chi / M * line.slope) - limit * part_) * inverse, zero);
+    return image;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline Number JefferiesBeen::lode_ratio(const StrainInvariants<Number> &strain) const
+  {
+    // With x = sin(3 theta), 1 in triaxial compression, cos(3 theta/2 + pi/4) = sqrt((1 - x)/2). There the root would
+    // make 1e-8 of rounding.
+    constexpr double rounding = 1e-12;
+    const double M            = parameters.critical_stress_ratio;
+    const Number inverse = 1. / simd::sqrt<Number>(strain.square + 1e-60), zero = simd::broadcast<Number>(0.);
+    const Number x    = -7.3484692283495345 * (strain.third * inverse) * inverse * inverse;
+    const Number half = simd::max<Number>(0.5 - rounding - 0.5 * x, zero);
+    return M - M * M / (3. + M) * simd::sqrt<Number>(simd::select<Number>(strain.square > 1e-30, half, zero));
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline JefferiesBeen::Trial<Number> JefferiesBeen::trial(const StrainInvariants<Number> &strain,
+                                                                                 const Number &volume_ratio,
+                                                                                 const Number *internal_variables) const
+  {
+    constexpr double least_hardening = 10; // H of very loose sand
+
+    Trial<Number> trial;
+    set_trial(strain, volume_ratio, internal_variables, trial);
+    trial.lode_ratio   = lode_ratio(strain);
+    const Number least = simd::broadcast<Number>(1e-12), X = elastic.opening(trial.volume_strain);
+    trial.X            = simd::max<Number>(X, least);
+    trial.eta          = 3. * elastic.g * trial.shear_strain / trial.X;
+    trial.log_pressure = elastic.log_pressure(trial.X, trial.eta);
+    trial.is_apart     = !((X > least) & (trial.log_pressure >= log_minimum_pressure));
+
+    // The cap first where the state is elastic: on a plastic trial state it would depend on the size of the step.
+    Image<Number> now         = image(trial.volume, trial.log_image, trial.lode_ratio);
+    const auto is_outside     = [&]() { return trial.eta > now.ratio * (1. - trial.log_pressure + trial.log_image); };
+    simd::Mask<Number> yields = is_outside();
+    trial.is_capped           = (!(trial.is_apart | yields)) & (trial.log_image > trial.log_pressure + now.limit);
+    if (simd::any(trial.is_capped))
+      {
+        for (unsigned int pass = 0; pass < 2; ++pass) // L is at p_i
+          {
+            const Number cap = simd::min<Number>(trial.log_image, trial.log_pressure + now.limit);
+            trial.log_image  = simd::select<Number>(trial.is_capped, cap, trial.log_image);
+            now              = image(trial.volume, trial.log_image, trial.lode_ratio);
+          }
+        yields = is_outside();
+      }
+    trial.is_plastic = yields & !trial.is_apart;
+    trial.hardening  = simd::max<Number>(parameters.hardening_modulus - parameters.hardening_slope * now.state,
+                                        simd::broadcast<Number>(least_hardening)) *
+                      trial.lode_ratio * (1. / parameters.critical_stress_ratio);
+    return trial;
+  }
+
+
+  template <JefferiesBeen::Hardening hardening, typename Number>
+  DEAL_II_ALWAYS_INLINE inline JefferiesBeen::Residual<Number> JefferiesBeen::residual(const Trial<Number> &trial,
+                                                                                       const Number &X,
+                                                                                       const Number &shear_strain,
+                                                                                       const Number &log_pressure,
+                                                                                       const Number &r) const
+  {
+    const Number log_image = log_pressure - r;
+    const Image<Number> i  = image(trial.volume, log_image, trial.lode_ratio);
+    const double n = elastic.n, to_shear = 1. / (3. * elastic.g);
+
+    // Of the yield surface: eta, elastic X and e_s, with derivatives in ln p and r.
+    const Number rest = 1. - r, eta = i.ratio * rest, eta_p = i.ratio_ * rest, eta_r = -1. * eta_p - i.ratio;
+    const Number square = 1. + elastic.a * eta * eta;
+    const Number Y =
+        simd::exp<Number>((1. - n) * (log_pressure - elastic.log_p_r) - (0.5 * n) * simd::log<Number>(square));
+    const Number Y_eta = (-n * elastic.a) * eta / square; // d ln Y/d eta
+    const Number Y_p = Y * ((1. - n) + Y_eta * eta_p), Y_r = Y * (Y_eta * eta_r);
+    const Number e_s = to_shear * (eta * Y), e_s_p = to_shear * (eta_p * Y + eta * Y_p),
+                 e_s_r = to_shear * (eta_r * Y + eta * Y_r);
+    const Number gamma = shear_strain - e_s, D = i.ratio * r, D_p = i.ratio_ * r, D_r = i.ratio - D_p;
+
+    // X - k_n gamma D = Y, over Y
+    Residual<Number> result;
+    const Number inverse = 1. / Y, part = (X - elastic.k_n * (gamma * D)) * inverse;
+    result.scale      = simd::broadcast<Number>(1.);
+    result.multiplier = gamma;
+    result.first      = part - 1.;
+    result.first_x    = inverse * (elastic.k_n * (e_s_p * D - gamma * D_p) - part * Y_p);
+    result.first_r    = inverse * (elastic.k_n * (e_s_r * D - gamma * D_r) - part * Y_r);
+    if constexpr (hardening == Hardening::cap)
+      {
+        result.second   = r + i.limit;
+        result.second_x = i.limit_;
+        result.second_r = 1. - i.limit_;
+      }
+    else
+      {
+        const Number B = simd::exp<Number>(r), A = B * B * simd::exp<Number>(i.limit), f = A - B;
+        const Number f_p = A * i.limit_, f_r = A * (2. - i.limit_) - B, h = trial.hardening;
+        result.second   = log_image - trial.log_image - h * f * gamma;
+        result.second_x = 1. - h * (f_p * gamma - f * e_s_p);
+        result.second_r = -1. - h * (f_r * gamma - f * e_s_r);
+      }
+    return result;
+  }
+
+
+  template <JefferiesBeen::Hardening hardening, typename Number>
+  __attribute__((noinline)) simd::Mask<Number> JefferiesBeen::newton_to(const Trial<Number> &trial,
+                                                                        const Number &X,
+                                                                        const Number &shear_strain,
+                                                                        const simd::Mask<Number> &todo,
+                                                                        Root<Number> &root) const
+  {
+    constexpr double tolerance = 1e-8, largest_change = 1, largest_log_pressure = 60;
+    const auto at = [&](const Number &log_pressure, const Number &log_ratio) {
+      return residual<hardening, Number>(trial, X, shear_strain, log_pressure, log_ratio);
+    };
+    const auto room      = [](const Number &, const Number &) { return simd::broadcast<Number>(largest_change); };
+    const auto converged = newton<Number>(
+        at, room, 1., tolerance, at(root.log_pressure, root.log_ratio), todo, root.log_pressure, root.log_ratio);
+    return converged & (simd::abs<Number>(root.log_pressure) < largest_log_pressure) & (root.log_ratio <= 1.);
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number> JefferiesBeen::is_beyond_cap(const Trial<Number> &trial,
+                                                                               const Root<Number> &root) const
+  {
+    const Image<Number> i = image<Number>(trial.volume, root.log_pressure - root.log_ratio, trial.lode_ratio);
+    return root.log_ratio + i.limit < -1e-12;
+  }
+
+
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline simd::Mask<Number>
+  JefferiesBeen::solve(const Trial<Number> &trial, const simd::Mask<Number> &todo, Returned<Number> &returned) const
+  {
+    constexpr double largest_first_ratio = 0.9; // towards the vertex
+    Root<Number> root{ trial.log_pressure,
+                       simd::min<Number>(trial.log_pressure - trial.log_image,
+                                         simd::broadcast<Number>(largest_first_ratio)) };
+    simd::Mask<Number> converged    = newton_to<Hardening::law>(trial, trial.X, trial.shear_strain, todo, root);
+    const simd::Mask<Number> to_cap = converged & is_beyond_cap(trial, root);
+    if (simd::any(to_cap))
+      converged = converged & (newton_to<Hardening::cap>(trial, trial.X, trial.shear_strain, to_cap, root) | !to_cap);
+    returned = returned_to(trial, root);
+    return converged;
   }
 } // namespace scree
 

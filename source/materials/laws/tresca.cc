@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <scree/input/input_error.h>
-#include <scree/materials/undrained/tresca.h>
-#include <scree/materials/principal_batch_material.h>
+#include <scree/materials/laws/tresca.h>
 
 #include <sstream>
 
@@ -106,7 +105,7 @@ namespace scree
 
   void TrescaParameters::check(const std::string &subsection) const
   {
-    LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
+    LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
     require_entry(
         !strength.empty(), subsection, "Undrained strength", strength, "write a strength in Pa, such as 10e3.");
     const TrescaParameters defaults;
@@ -134,31 +133,11 @@ namespace scree
   }
 
 
-  LawEntry TrescaParameters::modulus() const
+  HerschelBulkleyParameters::HerschelBulkleyParameters()
   {
-    return { "Young's modulus", young_modulus };
-  }
-
-
-  void TrescaParameters::divide_strength(const double factor)
-  {
-    reduction *= factor;
-    tension_cut_off /= factor;
-  }
-
-
-  TrescaParameters HerschelBulkleyParameters::tresca() const
-  {
-    TrescaParameters law;
-    law.young_modulus   = young_modulus;
-    law.poisson_ratio   = poisson_ratio;
-    law.strength        = text_of(yield_stress);
-    law.tension_cut_off = tension_cut_off;
-    law.consistency     = consistency;
-    law.index           = index;
-    law.strength_entry  = "Yield stress";
-    law.reduction       = reduction;
-    return law;
+    young_modulus  = 1e6;
+    consistency    = 100;
+    strength_entry = "Yield stress";
   }
 
 
@@ -187,7 +166,7 @@ namespace scree
 
   void HerschelBulkleyParameters::check(const std::string &subsection) const
   {
-    LinearElasticParameters{ young_modulus, poisson_ratio }.check(subsection);
+    LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
     require_entry(yield_stress > 0, subsection, "Yield stress", yield_stress, "a positive stress is needed, in Pa.");
     require_entry(consistency > 0 || index == HerschelBulkleyParameters().index,
                   subsection,
@@ -197,30 +176,27 @@ namespace scree
   }
 
 
-  LawEntry HerschelBulkleyParameters::modulus() const
-  {
-    return { "Young's modulus", young_modulus };
-  }
-
-
-  void HerschelBulkleyParameters::divide_strength(const double factor)
-  {
-    reduction *= factor;
-    tension_cut_off /= factor;
-  }
-
-
   namespace
   {
-    const RegisterLaw
-        registered_tresca("Tresca",
-                          "Tresca",
-                          std::make_unique<EntriesOf<TrescaParameters, PrincipalBatchMaterial, Tresca>>());
-    const RegisterLaw registered_herschel_bulkley(
-        "Herschel-Bulkley",
-        "Herschel-Bulkley",
-        std::make_unique<EntriesOf<HerschelBulkleyParameters, PrincipalBatchMaterial, Tresca>>());
+    const RegisterLaw registered_tresca = RegisterLaw::of<Tresca, TrescaParameters>("Tresca", "Tresca");
+    const RegisterLaw registered_herschel_bulkley =
+        RegisterLaw::of<Tresca, HerschelBulkleyParameters>("Herschel-Bulkley", "Herschel-Bulkley");
+
+
+    /// Mud as clay.
+    TrescaParameters tresca(const HerschelBulkleyParameters &mud)
+    {
+      TrescaParameters law = mud;
+      law.strength         = text_of(mud.yield_stress);
+      return law;
+    }
   } // namespace
+
+
+  Tresca::Tresca(const HerschelBulkleyParameters &parameters)
+      : Tresca(tresca(parameters))
+  {
+  }
 
 
   Tresca::Tresca(const TrescaParameters &parameters)
@@ -232,17 +208,6 @@ namespace scree
       , residual(1 / parameters.sensitivity)
       , decay(parameters.sensitivity > 1 ? 3 / parameters.remoulding_strain : 0)
   {
-  }
-
-
-  Response Tresca::return_map(const double time_step,
-                              PrincipalValues &strain,
-                              double *internal_variables,
-                              const double,
-                              PrincipalValues &stress,
-                              UpdateReport &report) const
-  {
-    return count(respond<double>(time_step, strain, internal_variables, stress), report);
   }
 
 
@@ -260,26 +225,5 @@ namespace scree
                            number_text(strength) + " Pa: shear stress " + number_text(shear_stress) +
                            " Pa. Write a K0 nearer to 1."));
     elastic.initialise(wanted_stress, strain, stress, nullptr);
-  }
-
-
-  std::vector<Quantity> Tresca::internal_quantities()
-  {
-    return { { "plastic_shear_strain", "-" },
-             { "softening_strain", "-" },
-             { "nonlocal_softening_strain", "-" },
-             { "undrained_strength", "Pa" } };
-  }
-
-
-  NonlocalVariable Tresca::nonlocal_variable() const
-  {
-    return { nonlocal_length, own_kappa, acting_kappa };
-  }
-
-
-  PlaceVariable Tresca::place_variable() const
-  {
-    return variable;
   }
 } // namespace scree
