@@ -81,7 +81,8 @@ for name in $parts; do
       grep 'tests passed' "$folder/tests.log"
       ;;
     package)
-      part package "$root" 'cd /scree
+      part package "$root" 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends dpkg-dev file
+        cd /scree
         cmake --preset package
         cmake --build --preset package --target scree scree-element
         cd build-package
