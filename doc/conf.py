@@ -19,27 +19,41 @@ release = VERSION.group(1) if VERSION else ""
 extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinxcontrib.bibtex"]
 myst_enable_extensions = ["dollarmath", "colon_fence", "html_image"]
 myst_heading_anchors = 3
-bibtex_bibfiles = ["references.bib"]
+# Lines of a paragraph may begin with a percentage.
+myst_disable_syntax = ["myst_line_comment"]
+bibtex_bibfiles = [str(FOLDER / "references.bib")]
 bibtex_default_style = "plain"
 # Code in the pages is C++, shell, Python, cases of Scree (text) and nothing else.
 highlight_language = "text"
 # Texts that are parts of pages, data, and the former manual.
 exclude_patterns = ["parameters/intro", "studies/reference"]
 
-html_theme = "furo"
+# Equations without a network: MathJax 2 of Debian's package libjs-mathjax becomes part of the site. Elsewhere Sphinx links to the newest.
+MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+MATHJAX_PARTS = ("MathJax.js", "extensions/*.js", "extensions/TeX/*.js", "jax/element/**/*.js", "jax/input/TeX/*.js", "jax/output/SVG/*.js",
+                 "jax/output/SVG/autoload/*.js", "jax/output/SVG/fonts/TeX/**/*.js")
+if MATHJAX.is_dir():
+    mathjax_path = "mathjax/MathJax.js"
+    mathjax2_config = {"jax": ["input/TeX", "output/SVG"], "extensions": ["tex2jax.js"], "TeX": {"extensions": ["AMSmath.js", "AMSsymbols.js"]},
+                       "tex2jax": {"processClass": "math", "ignoreClass": "document"}}
+
+# Debian's furo needs a web server.
+html_theme = "sphinx_rtd_theme"
+html_theme_options = {"navigation_depth": 3}
 html_title = f"Scree {release}"
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
-# Debian's MathJax where it is installed (libjs-mathjax), so that formulas show without a network; or else that of the network.
-MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
-MATHJAX_PARTS = ("MathJax.js", "config/TeX-AMS_CHTML.js", "extensions", "jax/element", "jax/input/TeX", "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
-if (MATHJAX / "MathJax.js").exists():
-    html_static_path.append("mathjax.js")
-    mathjax_path = "mathjax.js"
-    mathjax2_config = {"tex2jax": {"processClass": "math|tex2jax_process|mathjax_process"}}
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False
+
+
+def copy_mathjax(app):
+    if MATHJAX.is_dir() and app.builder.format == "html":
+        for file in (file for part in MATHJAX_PARTS for file in MATHJAX.glob(part)):
+            target = pathlib.Path(app.outdir) / "_static" / "mathjax" / file.relative_to(MATHJAX)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, target)
 
 
 def keep_beside_contents(_, name, source):
@@ -65,19 +79,8 @@ def hand_out_files(app, tree):
                                                           refdomain=None, reftype="myst", refexplicit=True, refwarn=False))
 
 
-def copy_mathjax(app, _):
-    """Puts the parts of Debian's MathJax that the pages use beside mathjax.js."""
-    for part in MATHJAX_PARTS if "mathjax_path" in globals() else ():
-        source, target = MATHJAX / part, pathlib.Path(app.outdir) / "_static" / "mathjax" / part
-        if source.is_dir():
-            shutil.copytree(source, target, dirs_exist_ok=True)
-        elif source.exists():
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(source, target)
-
-
 def setup(app):
-    app.connect("build-finished", copy_mathjax)
+    app.connect("builder-inited", copy_mathjax)
     app.connect("source-read", keep_beside_contents)
     # Before Sphinx collects the files of a page, which it does with priority 500.
     app.connect("doctree-read", hand_out_files, priority=100)

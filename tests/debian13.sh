@@ -1,11 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# sh tests/debian13.sh [FOLDER]: packages, build, quick start and quick tests in a Debian 13 of its own, made in FOLDER (build-debian13)
-# or found there from the last time. Ends with 1 if a part fails, and with 77 if it did not run. Needs root, debootstrap and 8 GB.
+# sh tests/debian13.sh [FOLDER [PART...]]: in a Debian 13 of its own, made in FOLDER (build-debian13) or found there from the last time:
+#   quickstart   packages, build, first run
+#   tests        quick tests
+#   package      cpack -G DEB; the package is installed and runs the quick start's case in another Debian 13, which has nothing else
+# Without PART all of these. Ends with 1 if a part fails, and with 77 if it did not run. Needs root, debootstrap and 12 GB.
 # The mirror can be set: MIRROR=http://... sh tests/debian13.sh
 
 source=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
-folder=${1:-$source/build-debian13}
 mirror=${MIRROR:-http://deb.debian.org/debian}
 
 did_not_run()
@@ -21,22 +23,31 @@ if [ -z "$SCREE_OWN_MOUNTS" ]; then
   unshare --mount true 2>/dev/null || did_not_run "since it may not mount anything."
   SCREE_OWN_MOUNTS=yes exec unshare --mount sh "$0" "$@"
 fi
+folder=${1:-$source/build-debian13}
+[ $# -eq 0 ] || shift
+parts=${*:-quickstart tests package}
 mkdir -p "$folder" && folder=$(cd "$folder" && pwd) || exit 1
 root=$folder/root
+clean=$folder/clean
 if [ ! -f "$folder/is_made" ]; then
-  debootstrap --variant=minbase trixie "$root" "$mirror" >"$folder/debootstrap.log" 2>&1 ||
+  rm -rf "$folder/system" "$root"
+  debootstrap --variant=minbase trixie "$folder/system" "$mirror" >"$folder/debootstrap.log" 2>&1 ||
     did_not_run "since debootstrap found no Debian 13 at $mirror: $(tail -n 1 "$folder/debootstrap.log")"
   # A folder to throw away: nothing waits for the disk.
-  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe"
-  touch "$folder/is_made"
+  echo force-unsafe-io >"$folder/system/etc/dpkg/dpkg.cfg.d/unsafe"
+  cp -a "$folder/system" "$root" && touch "$folder/is_made" || exit 1
 fi
 
-# The way to the mirror is that of this machine.
-cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
-apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$root/etc/apt/apt.conf.d/90machine"
-for mounted in proc sys dev dev/shm; do
-  mount --bind "/$mounted" "$root/$mounted" || did_not_run "since /$mounted cannot be mounted in the root."
-done
+# use_machine ROOT: its way to the mirror is that of this machine, and so are its devices.
+use_machine()
+{
+  cp -L /etc/resolv.conf /etc/hosts "$1/etc/"
+  apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$1/etc/apt/apt.conf.d/90machine"
+  for mounted in proc sys dev dev/shm; do
+    mount --bind "/$mounted" "$1/$mounted" || did_not_run "since /$mounted cannot be mounted in the root."
+  done
+}
+use_machine "$root"
 # What an interrupted run has left.
 chroot "$root" sh -c 'dpkg --configure -a && apt-get -y -f install' >"$folder/repair.log" 2>&1
 
@@ -45,11 +56,11 @@ mkdir -p "$root/scree"
 git -C "$source" ls-files -z | (cd "$source" && tar --null --files-from=- -c) | tar -x -C "$root/scree" || exit 1
 
 failed=0
-# part NAME SCRIPT: in the root, with the environment of a fresh login; what it says is in FOLDER/NAME.log.
+# part NAME ROOT COMMAND: a command of the shell in ROOT, in the environment of a fresh login; what it says is in FOLDER/NAME.log.
 part()
 {
   begin=$(date +%s)
-  if chroot "$root" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin ${CI:+CI="$CI"} sh "/scree/$2" >"$folder/$1.log" 2>&1; then
+  if chroot "$2" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin ${CI:+CI="$CI"} sh -ec "$3" >"$folder/$1.log" 2>&1; then
     state=passed
   else
     state=FAILED
@@ -58,8 +69,43 @@ part()
   fi
   echo "Debian 13, $1: $state after $(($(date +%s) - begin)) s ($folder/$1.log)"
 }
-part quickstart doc/quickstart.sh
-chroot "$root" /scree/build/scree --version
-[ "$failed" -eq 1 ] || part tests tests/run.sh
-grep 'tests passed' "$folder/tests.log" 2>/dev/null
+
+for name in $parts; do
+  [ "$failed" -eq 0 ] || break
+  case $name in
+    quickstart)
+      part quickstart "$root" 'sh /scree/doc/quickstart.sh; /scree/build/scree --version'
+      ;;
+    tests)
+      part tests "$root" 'sh /scree/tests/run.sh'
+      grep 'tests passed' "$folder/tests.log"
+      ;;
+    package)
+      part package "$root" 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends dpkg-dev file
+        cd /scree
+        cmake --preset package
+        cmake --build --preset package --target scree scree-element
+        cd build-package
+        rm -f scree_*.deb
+        cpack -G DEB'
+      [ "$failed" -eq 0 ] || break
+      rm -rf "$clean"
+      cp -a "$folder/system" "$clean" && use_machine "$clean" && cp "$root"/scree/build-package/scree_*.deb "$clean/tmp/" || exit 1
+      # Nobody needs a compiler or headers to run it, nor to be root.
+      # shellcheck disable=SC2016  # for dpkg-query
+      part installed "$clean" 'apt-get update
+        DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /tmp/scree_*.deb
+        du -ch /tmp/scree_*.deb
+        dpkg-query -W -f "\${Depends}\n" scree
+        if dpkg-query -W -f "\${Depends}" scree | grep -e "-dev"; then exit 1; fi
+        useradd --create-home somebody
+        su - somebody -c "scree --version && mpirun --oversubscribe -np 2 scree /usr/share/scree/prm/quickstart.prm &&
+          scree-render results/quickstart --field plastic_shear_strain && scree-element /usr/share/scree/prm/element/oedometer.prm"'
+      ;;
+    *)
+      echo "Debian 13: there is no part $name." >&2
+      exit 1
+      ;;
+  esac
+done
 exit "$failed"

@@ -131,15 +131,15 @@ namespace scree
     auto entries = parameters.bodies.begin();
     for (const auto &body : bodies)
       {
-        const auto [entry, region] = (entries++)->seeding.place();
+        const auto place = (entries++)->seeding.place();
         for (const Obstacle<dim> &obstacle : obstacles)
           {
             std::string fault;
             for_each_point(body.points, [&](const auto &point) {
               if (fault.empty() && obstacle.contains(point.location))
                 fault = entry_message(body.name,
-                                      entry,
-                                      region,
+                                      place.first,
+                                      place.second,
                                       "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) +
                                           ", for instance at " + number_text(point.location) +
                                           " m. Let it end where the obstacle begins.");
