@@ -133,7 +133,6 @@ namespace scree
                                               const unsigned int node) const
   {
     const double mass = nodes.soil[node][Field<dim>::mass] + nodes.water[node][Field<dim>::mass];
-    if (getenv("SC_OLD")) return 1.;
     return std::max(least_inertia(pressure, node) / mass, 1.);
   }
 
@@ -147,11 +146,6 @@ namespace scree
     const double share  = pressed_share(nodes, pressure, node);
     pair.soil_mass *= share;
     pair.water_mass *= share;
-    if (getenv("SC_OLD")) {
-      const double least = least_inertia(pressure, node);
-      if (pair.soil_mass > 0.) pair.soil_mass = std::max(pair.soil_mass, least);
-      if (pair.water_mass > 0.) pair.water_mass = std::max(pair.water_mass, least);
-    }
     return pair;
   }
 
@@ -259,16 +253,10 @@ namespace scree
           for (unsigned int c = 0; c < dim; ++c) // The motion is that of the pressed mass.
             values[Field<dim>::force + c] = (values[Field<dim>::force + c] + impulse[c] / time_step) / share;
         };
-        const double least = least_inertia(pressure, node);
-        const auto add_old = [&](double *values, const Tensor<1, dim> &impulse) {
-          const double f = std::max(1., least / values[Field<dim>::mass]);
-          for (unsigned int c = 0; c < dim; ++c) // The motion is that of the pressed mass.
-            values[Field<dim>::force + c] = (values[Field<dim>::force + c] + impulse[c] / time_step) / f;
-        };
         if (nodes.soil[node][Field<dim>::mass] > 0.)
-          getenv("SC_OLD") ? add_old(nodes.soil[node], of_phases.soil) : add(nodes.soil[node], of_phases.soil);
+          add(nodes.soil[node], of_phases.soil);
         if (nodes.water[node][Field<dim>::mass] > 0.)
-          getenv("SC_OLD") ? add_old(nodes.water[node], of_phases.water): add(nodes.water[node], of_phases.water);
+          add(nodes.water[node], of_phases.water);
       }
   }
 

@@ -362,8 +362,8 @@ namespace scree
   typename PressureSolver<dim>::Result
   PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *ground)
   {
-    const unsigned int most_sweeps = getenv("SC_SWEEPS") ? atoi(getenv("SC_SWEEPS")) : 5; // What changes after them is held without another solve.
-    const double coarser           = getenv("SC_COARSE") ? atof(getenv("SC_COARSE")) : 10.;
+    constexpr unsigned int most_sweeps = 5;   // What changes after them is held without another solve.
+    constexpr double coarser           = 10.; // friction that changes by less has been found
     rows                               = ground ? &ground->all : nullptr;
     for (Joint *vector : { &source, &solution, &scratch })
       vector->of_rows.assign(rows ? rows->size() : 0, Tensor<1, dim>());
@@ -379,15 +379,15 @@ namespace scree
     tolerance = task.relative_tolerance * std::sqrt(std::max(squares[0], squares[1]));
     is_held.assign(system.n_owned(), !task.has_pressure);
     Result result;
-    const bool rubs = rows && Utilities::MPI::logical_or(std::any_of(rows->begin(), rows->end(), [](const auto &row) {
-                        return row.is_unilateral && row.friction > 0.;
-                      }),
-                                                         grid.communicator());
-    const unsigned int most_passes = getenv("SC_PASSES") ? atoi(getenv("SC_PASSES")) : 2, n_rubs = getenv("SC_RUBS") ? atoi(getenv("SC_RUBS")) : 3;
-    double found = 0.;
-    unsigned int pass = 0;
-    for (;pass < (rubs ? most_passes : 1); ++pass)
+    const bool rubs = rows && Utilities::MPI::logical_or(
+                                  std::any_of(rows->begin(),
+                                              rows->end(),
+                                              [](const auto &row) { return row.is_unilateral && row.friction > 0.; }),
+                                  grid.communicator());
+    constexpr unsigned int most_passes = 2, n_rubs = 3; // between pressure and friction
+    for (unsigned int pass = 0; pass < (rubs ? most_passes : 1); ++pass)
       {
+        double found = 0.;
         for (unsigned int sweep = 0;; ++sweep)
           {
             converge(pass == 0 && sweep == 0 ? result.first : result.further);
@@ -402,13 +402,11 @@ namespace scree
             if (is_last || Utilities::MPI::sum(found, grid.communicator()) <= tolerance * tolerance)
               break;
           }
-        found = 0.;
         for (unsigned int i = 0; rubs && i < n_rubs; ++i)
           found = rub();
-        if (rubs && std::sqrt(Utilities::MPI::sum(found, grid.communicator())) <= coarser * tolerance)
+        if (rubs && Utilities::MPI::sum(found, grid.communicator()) <= std::pow(coarser * tolerance, 2))
           break;
       }
-    if (getenv("SC_LOG")) fprintf(stderr, "passes %u found %g tol %g its %u %u\n", pass, std::sqrt(found)/tolerance, tolerance, result.first.n_iterations, result.further.n_iterations);
     if (task.has_pressure)
       result.n_cavitating = std::count(is_held.begin(), is_held.end(), char(true));
     for (unsigned int i = 0; i < system.n_owned(); ++i)

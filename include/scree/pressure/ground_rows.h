@@ -20,9 +20,9 @@ namespace scree
   /// What of the motion at a row the ground constrains.
   enum class HeldMotion : unsigned int
   {
-    none,   ///< what lifts off
-    across, ///< what slides
-    all     ///< what sticks
+    none,   ///< nothing, as it lifts off
+    across, ///< that into it; friction is in the tractions
+    all     ///< all
   };
 
   /// Soil or water at a facet of rigid ground: its mean velocity there must not go into the ground, and by Coulomb's
@@ -38,13 +38,7 @@ namespace scree
     dealii::Tensor<1, dim> normal;   ///< unit, out of the open
     dealii::Tensor<1, dim> flow;     ///< m^dim/s: area times the velocity beside what is admissible, without tractions
     dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
-    HeldMotion held = HeldMotion::none;
-
-    /// What the ground holds while the row presses and does not slide.
-    HeldMotion sticking() const
-    {
-      return friction > 0. ? HeldMotion::all : HeldMotion::across;
-    }
+    HeldMotion held = HeldMotion::none; ///< in the current solve
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
