@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/input/named_file.h>
+#include <scree/input/case_entries.h>
 #include <scree/particles/region.h>
 #include <scree/bodies/water_parameters.h>
 

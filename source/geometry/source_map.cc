@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/source_map.h>
 #include <scree/input/input_error.h>
-#include <scree/input/named_file.h>
+#include <scree/input/case_entries.h>
 
 #include <algorithm>
 #include <cmath>

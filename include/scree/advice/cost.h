@@ -4,8 +4,9 @@
 
 #include <scree/advice/scene_numbers.h>
 #include <scree/io/output_parameters.h>
-#include <scree/step/timer_section.h>
+#include <scree/run/simulation.h>
 #include <scree/schemes/time_step.h>
+#include <scree/step/timer_section.h>
 
 #include <map>
 #include <vector>
@@ -92,6 +93,17 @@ namespace scree
 
   /// The run of the scene's soil without its water.
   Observation without_water(Observation seen, const SceneNumbers &scene);
+
+  /// Takes the time of the first steps of a run, until rank 0 has spent `seconds` core-seconds or the run is at its
+  /// end, and of what is written then; later steps count as the first. Collective.
+  template <int dim>
+  Observation measure_first_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator);
+
+  /// Takes the time of a whole run, of its first steps until `begin` s and of those that come later; or of less, once
+  /// rank 0 has spent `seconds` core-seconds. Nothing is written. Collective.
+  template <int dim>
+  Observation
+  measure_run(Simulation<dim> &simulation, const double begin, const double seconds, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

@@ -2,29 +2,89 @@
 #ifndef scree_case_parameters_h
 #define scree_case_parameters_h
 
-#include <scree/case/body_parameters.h>
-#include <scree/case/safety_parameters.h>
-#include <scree/mesh/background_grid.h>
+#include <scree/bodies/pressure_parameters.h>
+#include <scree/bodies/seepage_parameters.h>
+#include <scree/bodies/water_parameters.h>
 #include <scree/boundary/boundary_conditions.h>
+#include <scree/boundary/inflow/inflow_parameters.h>
+#include <scree/boundary/rain.h>
 #include <scree/boundary/water_walls.h>
+#include <scree/contact/contact_parameters.h>
+#include <scree/geometry/bed_parameters.h>
+#include <scree/initial/initial_state.h>
 #include <scree/input/case_entries.h>
 #include <scree/input/input_file.h>
 #include <scree/io/output_parameters.h>
-#include <scree/postprocess/probe_parameters.h>
-#include <scree/geometry/bed_parameters.h>
-#include <scree/geometry/obstacle_parameters.h>
-#include <scree/momentum/surface_load.h>
-#include <scree/bodies/water_parameters.h>
-#include <scree/contact/contact_parameters.h>
+#include <scree/materials/table.h>
+#include <scree/mesh/background_grid.h>
 #include <scree/momentum/explicit_update.h>
-#include <scree/boundary/inflow/inflow_parameters.h>
-#include <scree/boundary/rain.h>
-#include <scree/bodies/pressure_parameters.h>
+#include <scree/momentum/surface_load.h>
+#include <scree/postprocess/probes.h>
 #include <scree/schemes/time_step.h>
+#include <scree/seeding/seeding.h>
 #include <scree/transfer/transfer_parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
 
 namespace scree
 {
+  /// One body of soil: where it is, what it is made of, how it starts. One subsection of the `.prm`, named after the
+  /// body.
+  struct BodyParameters
+  {
+    std::string name;                     ///< name of its subsection
+    SeedingParameters seeding;            ///< where it is, and its points
+    SeepageParameters seepage;            ///< hydraulic conductivity
+    MaterialParameters material;          ///< law and its entries
+    InitialStateParameters initial_state; ///< stress before the first step
+
+    /// Declares the body's subsection and its entries.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations of entries.
+    /// @param water null in a dry scene
+    void check(const std::vector<double> &gravity, const WaterParameters *water) const;
+
+    /// Whether the body keeps its place.
+    bool is_rigid() const;
+
+    /// Volume of pores over total volume, as the entry or the law says.
+    double initial_porosity() const;
+
+    /// Density of the dry body, kg/m^3: grains times (1 - porosity).
+    double bulk_density() const;
+
+    /// Horizontal over vertical stress of a K0 start.
+    double k0() const;
+
+    /// Of pressure waves in the dry body at the entry of its pressure, m/s; 0 without stiffness.
+    double wave_speed() const;
+
+  private:
+    void check_rigid() const;
+  };
+
+  /// Subsection Safety: the search of scree --safety, and a strength that is reduced in a run.
+  struct SafetyParameters
+  {
+    double strength_factor = 1;    ///< divides the strength from the release on
+    double lower           = 0.5;  ///< smallest factor that is tried
+    double upper           = 5;    ///< largest factor that is tried
+    double tolerance       = 0.01; ///< of the factor
+    double displacement    = 0.02; ///< of a slope that fails, over its height
+
+    /// Longest duration of a trial, in sqrt(height of the soil/gravity); what moves then fails.
+    static constexpr double longest_trial = 40;
+
+    /// Declares the subsection and its entries.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations.
+    void check() const;
+  };
+
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
   class Parameters
   {
@@ -152,6 +212,29 @@ namespace scree
     std::vector<std::string> body_names{ "Soil" };
     dealii::ParameterHandler handler;
   };
+
+  /// A box around the ground of a raster.
+  struct BoxOfRaster
+  {
+    std::vector<double> lower, ///< corner, m; not yet of whole cells
+        upper;                 ///< corner, m; not yet of whole cells
+    double lowest,             ///< height of the raster, m
+        highest;               ///< height of the raster, m
+  };
+
+  /// The box that a bed's raster asks for: its outline, two cells below the lowest height, and four cells above the
+  /// highest soil. How high a body reaches that is given by an expression is not known: room for it is a quarter of the
+  /// relief and ten cells. Throws EntryError if a file cannot be read or has no heights.
+  BoxOfRaster
+  box_of_raster(const BedParameters &bed, const std::vector<BodyParameters> &bodies, const double cell_size);
+
+  /// Numbers as they must be written to be the same when they are read again, within 15 digits.
+  std::string exact_text(const std::vector<double> &numbers);
+
+  /// The coordinate system of the case's maps, see Raster::system: that of entry `Coordinate system`, else that of the
+  /// first raster that has one; empty if none is known. Throws EntryError if the entry is no such system, or if rasters
+  /// have others.
+  std::string system_of_maps(const Parameters &parameters);
 } // namespace scree
 
 #endif

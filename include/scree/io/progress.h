@@ -2,13 +2,42 @@
 #ifndef scree_io_progress_h
 #define scree_io_progress_h
 
+#include <scree/bodies/soil_body.h>
+#include <scree/bodies/water_phase.h>
 #include <scree/io/run_folder.h>
+#include <scree/mesh/background_grid.h>
 #include <scree/schemes/time_step.h>
 
 #include <deal.II/base/timer.h>
 
+#include <list>
+#include <string>
+#include <vector>
+
 namespace scree
 {
+  /// What a run has found in a check of itself.
+  struct CheckResult
+  {
+    std::string text;         ///< name and worst value, in words
+    std::string bound;        ///< what a sound run does not exceed, in words; empty: the value is for information
+    bool is_exceeded = false; ///< whether the bound is
+    std::string where;        ///< point, place and time of the worst value; may be empty
+
+    /// Saves or loads all of it (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &text &bound &is_exceeded &where;
+    }
+  };
+
+  /// A number with three digits.
+  std::string short_text(const double value);
+
+  /// The lines `Checks`: values out of bounds with their bounds and places, then the others.
+  std::string verdict(const std::vector<CheckResult> &results);
+
   /// Processor time that this process has taken so far, its own and the system's for it, s. (deal.II's CPUClock counts
   /// its own alone, which the system guesses from ticks: of short runs that is nothing or twice as much.)
   double processor_time();
@@ -84,6 +113,28 @@ namespace scree
     StepCounts counts                  = {};
     double others                      = 0; // steps that the run would have taken without 'Maximum time step'
   };
+
+  /// What the head of a log says of the case.
+  struct HeaderTexts
+  {
+    std::string case_file;        ///< as it was given
+    std::string output_directory; ///< the run folder
+    std::string model;            ///< dimension, phases and transfer
+  };
+
+  /// Logs the five lines of the head: program, commit, ranks and date; case and run folder; model and points; mesh;
+  /// memory, MB of all ranks. Records libraries, compiler and its flags, process and host. Collective.
+  /// @param expected_bytes that the run is estimated to take, of all ranks
+  template <int dim>
+  void log_header(RunFolder &folder,
+                  const HeaderTexts &texts,
+                  const BackgroundGrid<dim> &grid,
+                  const std::list<SoilBody<dim>> &bodies,
+                  const std::list<WaterPhase<dim>> &water,
+                  const double expected_bytes);
+
+  /// Records the largest memory so far, MB of all ranks. Collective.
+  void log_peak_memory(RunFolder &folder, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

@@ -2,17 +2,17 @@
 #ifndef scree_model_scene_h
 #define scree_model_scene_h
 
-#include <scree/boundary/constraints.h>
-#include <scree/initial/seepage_cells.h>
-#include <scree/initial/seepage_field.h>
-#include <scree/mesh/cut_cells.h>
-#include <scree/case/memory.h>
-#include <scree/postprocess/statistics.h>
-#include <scree/case/parameters.h>
-#include <scree/schemes/explicit_scheme.h>
 #include <scree/boundary/body_forces.h>
+#include <scree/boundary/constraints.h>
 #include <scree/boundary/inflow/inflow.h>
 #include <scree/boundary/rain.h>
+#include <scree/case/memory.h>
+#include <scree/case/parameters.h>
+#include <scree/initial/steady_seepage.h>
+#include <scree/mesh/cut_cells.h>
+#include <scree/mesh/occupied_blocks.h>
+#include <scree/postprocess/statistics.h>
+#include <scree/schemes/explicit_scheme.h>
 #include <scree/schemes/scheme.h>
 
 #include <deal.II/base/timer.h>
@@ -22,6 +22,10 @@
 
 namespace scree
 {
+  /// Where the case puts points at the start. Refers to the parameters.
+  template <int dim>
+  PlacesOfPoints<dim> places_of_points(const Parameters &parameters);
+
   /// What a case describes: the mesh, its walls, bodies of soil, water and loads.
   template <int dim>
   class Scene

@@ -2,20 +2,51 @@
 #ifndef scree_run_results_h
 #define scree_run_results_h
 
-#include <scree/postprocess/visualization/graphics.h>
-#include <scree/postprocess/visualization/maps.h>
-#include <scree/postprocess/output_times.h>
-#include <scree/postprocess/probes.h>
-#include <scree/step/background_writer.h>
-#include <scree/io/table_file.h>
-#include <scree/run/balance_checks.h>
-#include <scree/postprocess/run_checks.h>
-#include <scree/postprocess/statistics.h>
+#include <scree/io/files.h>
+#include <scree/io/output_parameters.h>
+#include <scree/io/run_folder.h>
 #include <scree/model/scene.h>
+#include <scree/postprocess/checks.h>
+#include <scree/postprocess/graphics.h>
+#include <scree/postprocess/maps.h>
+#include <scree/postprocess/probes.h>
+#include <scree/postprocess/statistics.h>
 #include <scree/schemes/scheme.h>
+
+#include <string>
 
 namespace scree
 {
+  /// The column of the progress table that says where a scene is: the front of the soil, or of the water without soil;
+  /// on a bed in space, where no axis is that of the motion, the largest speed.
+  template <int dim>
+  class ShownMotion
+  {
+  public:
+    /// The scene is kept by reference.
+    explicit ShownMotion(const Scene<dim> &scene);
+
+    /// Heading of the column, with the unit.
+    std::string heading() const;
+
+    /// Value of the column. Collective.
+    double value() const;
+
+    /// Kinetic energy of soil and water, J (2D: per m). Collective.
+    double kinetic_energy() const;
+
+  private:
+    enum class Kind
+    {
+      soil_front,
+      water_front,
+      largest_speed
+    };
+
+    const Scene<dim> &scene;
+    const Kind kind;
+  };
+
   /// What a run has come to, beside its points.
   template <int dim>
   struct RunState

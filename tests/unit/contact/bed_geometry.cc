@@ -7,9 +7,7 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 
-#include <scree/geometry/expression_surface.h>
-#include <scree/geometry/height_surface.h>
-#include <scree/geometry/profile.h>
+#include <scree/geometry/surfaces.h>
 #include <scree/mesh/rigid_boundary.h>
 
 #include <deal.II/base/mpi.h>

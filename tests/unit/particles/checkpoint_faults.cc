@@ -6,7 +6,7 @@
 
 #include <scree/input/input_error.h>
 #include <scree/io/checkpoint.h>
-#include <scree/io/whole_file.h>
+#include <scree/io/files.h>
 
 #include <deal.II/base/mpi.h>
 

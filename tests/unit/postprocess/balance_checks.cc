@@ -5,8 +5,8 @@
 
 #include "soil_scene.h"
 
-#include <scree/postprocess/point_sums.h>
-#include <scree/run/balance_checks.h>
+#include <scree/postprocess/measures.h>
+#include <scree/postprocess/checks.h>
 
 #include <iostream>
 

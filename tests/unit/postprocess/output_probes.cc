@@ -6,8 +6,8 @@
 #include "../expect.h"
 #include "soil_scene.h"
 
-#include <scree/postprocess/columns.h>
-#include <scree/postprocess/place_values.h>
+#include <scree/postprocess/measures.h>
+#include <scree/postprocess/probes.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -6,8 +6,8 @@
 #include "../expect.h"
 #include "soil_scene.h"
 
-#include <scree/io/table_file.h>
-#include <scree/postprocess/visualization/graphics.h>
+#include <scree/io/run_folder.h>
+#include <scree/postprocess/graphics.h>
 #include <scree/postprocess/statistics.h>
 
 #include <deal.II/base/mpi.h>

@@ -2,7 +2,7 @@
 // Columns of one file: registered here, they are the last ones of each row of the statistics, in order of their names.
 #include "../unit_test.h"
 
-#include <scree/io/table_file.h>
+#include <scree/io/run_folder.h>
 #include <scree/postprocess/statistics.h>
 
 #include <iostream>

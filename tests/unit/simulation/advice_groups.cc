@@ -4,8 +4,7 @@
 // conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
 
 #include <scree/advice/cost.h>
-#include <scree/advice/regime.h>
-#include <scree/advice/resolution.h>
+#include <scree/advice/recommendation.h>
 
 #include <cmath>
 #include <iostream>
