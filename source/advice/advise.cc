@@ -20,6 +20,22 @@ namespace scree
 
   namespace
   {
+    /// All that the text of an advice is made of.
+    struct Advice
+    {
+      SceneNumbers scene;       ///< numbers that describe the case
+      Observation seen;         ///< measured steps and their cost
+      Schedule schedule;        ///< entries of time step and output
+      GridParameters grid;      ///< box and cell size
+      double accuracy      = 0; ///< relative error for which cells are recommended
+      double settling_time = 0; ///< s, at most
+      unsigned int n_ranks = 1; ///< ranks that --advise runs on
+      unsigned int coarser = 1; ///< how many times as wide the cells were in the first steps that were taken
+      double pilot_coarser = 0; ///< and in the pilot; 0: there was none
+      std::string pilot_fault;  ///< what kept it from its end
+    };
+
+
     std::string rounded(const double value)
     {
       char text[32];
@@ -205,26 +221,24 @@ namespace scree
                       core_time(cost_of_run(soil, without_water(seen, wanted), schedule).seconds()));
         }
     }
-  } // namespace
 
 
-  void write_report(const Advice &advice, std::ostream &out)
-  {
-    Writer writer(out);
-    const SceneNumbers &scene = advice.scene;
-    const RunCost cost        = cost_of_run(scene, advice.seen, advice.schedule);
-    out << scene.dim << "D, " << name_of(regime_of(scene)) << '\n';
-    write_groups(scene, writer);
-    if (scene.has_soil && scene.has_water)
-      write_water(scene, cost.mean_step, writer);
-    write_size(advice, cost, writer);
-    write_cost(advice, cost, writer);
-    write_recommendation(advice, writer);
-  }
+    /// Writes groups, size, cost and recommendation, a line a number with its unit.
+    void write_report(const Advice &advice, std::ostream &out)
+    {
+      Writer writer(out);
+      const SceneNumbers &scene = advice.scene;
+      const RunCost cost        = cost_of_run(scene, advice.seen, advice.schedule);
+      out << scene.dim << "D, " << name_of(regime_of(scene)) << '\n';
+      write_groups(scene, writer);
+      if (scene.has_soil && scene.has_water)
+        write_water(scene, cost.mean_step, writer);
+      write_size(advice, cost, writer);
+      write_cost(advice, cost, writer);
+      write_recommendation(advice, writer);
+    }
 
 
-  namespace
-  {
     /// A run folder of its own for the steps that are looked at; removed with its owner.
     class PassingFolder
     {
@@ -314,9 +328,7 @@ namespace scree
     for (const InflowParameters &inflow : parameters.inflows)
       require_entry(
           false,
-          inflow.subsection,
-          "Body",
-          inflow.body,
+          { inflow.subsection, "Body", inflow.body },
           "--advise looks at the points of the start, and cannot tell what a case costs whose points enter on "
           "the way. Remove the inflow for it, and write its points as a body.");
     const PassingFolder folder(communicator);
@@ -366,6 +378,6 @@ namespace scree
     write_report(advice, out);
   }
 
-  template void advise<2>(Parameters &, const double, const MPI_Comm, std::ostream &);
-  template void advise<3>(Parameters &, const double, const MPI_Comm, std::ostream &);
+  template decltype(advise<2>) advise<2>;
+  template decltype(advise<3>) advise<3>;
 } // namespace scree

@@ -24,23 +24,23 @@ namespace scree
     class StepsSoFar
     {
     public:
-      StepsSoFar(const std::vector<Passage> &passages, const TimeStepper &clock, const double cell_size)
-          : passages(passages)
+      StepsSoFar(const std::vector<SpeedInterval> &intervals, const TimeStepper &clock, const double cell_size)
+          : intervals(intervals)
           , clock(clock)
           , cell_size(cell_size)
       {
-        Assert(!passages.empty(), dealii::ExcMessage("Nothing was seen of the run."));
+        Assert(!intervals.empty(), dealii::ExcMessage("Nothing was seen of the run."));
       }
 
       double operator()(const double time)
       {
-        while (time > begin + current().duration && index + 1 < passages.size())
+        while (time > begin + current().duration && index + 1 < intervals.size())
           {
             n += current().duration / step();
             begin += current().duration;
             ++index;
           }
-        return n + (time - begin) / step(); // The last passage goes on.
+        return n + (time - begin) / step(); // The last interval goes on.
       }
 
       /// Length of the steps at the time that was asked for last, s.
@@ -50,16 +50,16 @@ namespace scree
       }
 
     private:
-      const Passage &current() const
+      const SpeedInterval &current() const
       {
-        return passages[index];
+        return intervals[index];
       }
 
-      const std::vector<Passage> &passages;
+      const std::vector<SpeedInterval> &intervals;
       const TimeStepper &clock;
       const double cell_size;
       std::size_t index = 0;
-      double begin = 0, n = 0; // of the current passage
+      double begin = 0, n = 0; // of the current interval
     };
 
     /// Steps to `end` s, if they are shortened to meet the output times.
@@ -125,8 +125,8 @@ namespace scree
   double Observation::duration() const
   {
     double sum = 0;
-    for (const Passage &passage : passages)
-      sum += passage.duration;
+    for (const SpeedInterval &interval : intervals)
+      sum += interval.duration;
     return sum;
   }
 
@@ -134,7 +134,7 @@ namespace scree
   RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule)
   {
     const TimeStepper clock(schedule.time_step);
-    StepsSoFar so_far(seen.passages, clock, scene.cell_size);
+    StepsSoFar so_far(seen.intervals, clock, scene.cell_size);
     RunCost cost;
     cost.first_step     = so_far.step();
     cost.n_steps        = count_steps(schedule.output, scene.end_time, so_far);
@@ -167,11 +167,11 @@ namespace scree
       }
     const double time = first_steps.duration();
     double begin      = 0;
-    for (const Passage &passage : pilot.passages)
+    for (const SpeedInterval &interval : pilot.intervals)
       {
-        const double end = begin + passage.duration;
+        const double end = begin + interval.duration;
         if (end > time)
-          first_steps.passages.push_back({ end - std::max(begin, time), passage.wave, passage.speed });
+          first_steps.intervals.push_back({ end - std::max(begin, time), interval.wave, interval.speed });
         begin = end;
       }
     return first_steps;
@@ -275,7 +275,7 @@ namespace scree
       {
         const Speeds speeds   = simulation.limiting_speeds();
         const double duration = simulation.step(simulation.stable_step(), simulation.end_time());
-        seen.passages.push_back({ duration, speeds.wave, speeds.points });
+        seen.intervals.push_back({ duration, speeds.wave, speeds.points });
       }
 
       /// Steps while `more`, which gets how many were taken, the core-seconds that rank 0 spent on them and the time
@@ -365,8 +365,8 @@ namespace scree
     return seen;
   }
 
-  template Observation measure_first_steps(Simulation<2> &, const double, const MPI_Comm);
-  template Observation measure_first_steps(Simulation<3> &, const double, const MPI_Comm);
-  template Observation measure_run(Simulation<2> &, const double, const double, const MPI_Comm);
-  template Observation measure_run(Simulation<3> &, const double, const double, const MPI_Comm);
+  template decltype(measure_first_steps<2>) measure_first_steps<2>;
+  template decltype(measure_first_steps<3>) measure_first_steps<3>;
+  template decltype(measure_run<2>) measure_run<2>;
+  template decltype(measure_run<3>) measure_run<3>;
 } // namespace scree

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace scree
@@ -80,7 +81,75 @@ namespace scree
 
   namespace
   {
-    constexpr const char *run_out = "of the run-out";
+    /// Of which scenes a law of convergence is, the first that applies.
+    struct LawOfScenes
+    {
+      bool (*applies)(const SceneNumbers &scene);
+      ErrorLaw law;
+    };
+
+    // Measured: doc/studies/pages/run_out.md (dry, against the extrapolated front),
+    // saturated_slopes.md (against the run with H/h = 40); doc/verification/saturated_slopes.md: undrained heap in
+    // total stress, Terzaghi's column at T_v = .1 with 20 cells, order 1.9 to 2.25, the dam break's tip at h = .1 and
+    // .05 m.
+    const LawOfScenes laws[] = {
+      { [](const SceneNumbers &scene) { return !scene.has_soil; },
+        { "of the water's tip",
+          0.5,
+          1.,
+          "1.1 to 3.0 % at H/h = 20, against H/h = 80; the tip is then 12 % ahead of Martin & Moyce's experiment" } },
+      { [](const SceneNumbers &scene) { return scene.is_elastic; },
+        { "of stress and pressure", 0.33, 2., "0.03 to 0.08 % of the load at H/h = 20, Terzaghi's column" } },
+      { [](const SceneNumbers &scene) { return !scene.falls(); },
+        { "of the run-out", 3.8, 1., "", "its law is that of soil that falls and runs out" } },
+      { [](const SceneNumbers &scene) { return scene.has_water && regime_of(scene) == Regime::undrained; },
+        { "of the run-out",
+          3.8,
+          1.,
+          "-5.5 % at H/h = 10 to +18.5 % at H/h = 80, undrained heap against total stress",
+          "the front of undrained soil has not converged",
+          "its error grows with finer cells. Compare three cell sizes, and report their range" } },
+      { [](const SceneNumbers &scene) { return scene.has_water && scene.sticks; },
+        { "of the run-out",
+          3.8,
+          1.,
+          "13 to 24 % at H/h = 20, saturated loose slope on a fixed base against H/h = 40",
+          "fronts of saturated slopes on such a base have not converged" } },
+      { [](const SceneNumbers &scene) { return scene.has_water; },
+        { "of the run-out",
+          2.4,
+          1.,
+          "12 and 5 % of the way of the front of 90 % of the mass at H/h = 20 and 40 with TPIC, saturated loose slope "
+          "on "
+          "a base with friction, against the extrapolated front; extrapolated fronts of TPIC, FLIP and AFLIP differ by "
+          "12 %; the front of 99 % has no limit" } },
+      { [](const SceneNumbers &scene) {
+         constexpr double least_grain= 0.005; // of the height; smaller ones hardly slow the flow
+         return scene.grain_diameter > least_grain * scene.height;
+       },
+        { "of the run-out",
+          1.2,
+          1.,
+          "2 to 10 % of the way of the front at H/h = 48 to 12, columns with inertial friction, d/H = 0.011, against "
+          "the "
+          "extrapolated front" } },
+      { [](const SceneNumbers &scene) { return scene.sticks; },
+        { "of the run-out",
+          3.8,
+          1.,
+          "10 to 19 % of the way of the front at H/h = 20 on a base that holds the soil, against the extrapolated "
+          "front",
+          "",
+          "the front then runs ahead of experiments, by 20 to 40 % of its way. Set Grain diameter, or give the base "
+          "the "
+          "friction of the soil" } },
+      { [](const SceneNumbers &) { return true; },
+        { "of the run-out",
+          1.6,
+          1.,
+          "4 to 8 % of the way of the front of 90 % of the mass at H/h = 20 on a base with friction, against the "
+          "extrapolated front; the front of 99 % up to 14 % from H/h = 28 to 40" } }
+    };
 
     /// Why the law of elastic soil, measured where a constant load drains, does not decide; empty: it does.
     std::string gap_of_elastic_law(const SceneNumbers &scene)
@@ -96,83 +165,18 @@ namespace scree
         return "its law begins at T_v = 0.1, after the end of this run";
       return "";
     }
-
-
-    /// Of soil that runs out, dry.
-    ErrorLaw law_of_dry_soil(const SceneNumbers &scene)
-    {
-      constexpr double least_grain = 0.005; // of the height; smaller ones hardly slow the flow
-      if (scene.grain_diameter > least_grain * scene.height)
-        return { run_out,
-                 1.2,
-                 1.,
-                 "2 to 10 % of the way of the front at H/h = 48 to 12, columns with inertial friction, d/H = 0.011, "
-                 "against the extrapolated front" };
-      if (scene.sticks)
-        return { run_out,
-                 3.8,
-                 1.,
-                 "10 to 19 % of the way of the front at H/h = 20 on a base that holds the soil, against the "
-                 "extrapolated front",
-                 "",
-                 "the front then runs ahead of experiments, by 20 to 40 % of its way. Set Grain diameter, or give the "
-                 "base the friction of the soil" };
-      return { run_out,
-               1.6,
-               1.,
-               "4 to 8 % of the way of the front of 90 % of the mass at H/h = 20 on a base with friction, against the "
-               "extrapolated front; the front of 99 % up to 14 % from H/h = 28 to 40" };
-    }
-
-
-    /// Of soil with water that runs out.
-    ErrorLaw law_of_wet_soil(const SceneNumbers &scene)
-    {
-      if (regime_of(scene) == Regime::undrained)
-        return { run_out,
-                 3.8,
-                 1.,
-                 "-5.5 % at H/h = 10 to +18.5 % at H/h = 80, undrained heap against total stress",
-                 "the front of undrained soil has not converged",
-                 "its error grows with finer cells. Compare three cell sizes, and report their range" };
-      if (scene.sticks)
-        return { run_out,
-                 3.8,
-                 1.,
-                 "13 to 24 % at H/h = 20, saturated loose slope on a fixed base against H/h = 40",
-                 "fronts of saturated slopes on such a base have not converged" };
-      return { run_out,
-               2.4,
-               1.,
-               "12 and 5 % of the way of the front of 90 % of the mass at H/h = 20 and 40 with TPIC, saturated loose "
-               "slope on a base with friction, against the extrapolated front; extrapolated fronts of TPIC, FLIP and "
-               "AFLIP differ by 12 %; the front of 99 % has no limit" };
-    }
   } // namespace
 
 
   ErrorLaw error_law_of(const SceneNumbers &scene)
   {
-    // Measured: doc/studies/pages/run_out.md (dry, against the extrapolated front),
-    // saturated_slopes.md (against the run with H/h = 40); doc/verification/saturated_slopes.md: undrained heap in
-    // total stress, Terzaghi's column at T_v = .1 with 20 cells, order 1.9 to 2.25, the dam break's tip at h = .1 and
-    // .05 m.
-    const bool falls = scene.falls();
-    if (!scene.has_soil)
-      return { "of the water's tip",
-               0.5,
-               1.,
-               "1.1 to 3.0 % at H/h = 20, against H/h = 80; the tip is then 12 % ahead of Martin & Moyce's experiment",
-               falls ? "" : "its law is that of water that falls and runs" };
-    if (scene.is_elastic)
-      return { "of stress and pressure",
-               0.33,
-               2.,
-               "0.03 to 0.08 % of the load at H/h = 20, Terzaghi's column",
-               gap_of_elastic_law(scene) };
-    if (!falls)
-      return { run_out, 3.8, 1., "", "its law is that of soil that falls and runs out" };
-    return scene.has_water ? law_of_wet_soil(scene) : law_of_dry_soil(scene);
+    ErrorLaw law =
+        std::find_if(std::begin(laws), std::end(laws), [&](const auto &of) { return of.applies(scene); })->law;
+    if (!scene.has_soil && !scene.falls())
+      law.gap = "its law is that of water that falls and runs";
+    else if (scene.has_soil && scene.is_elastic)
+      law.gap = gap_of_elastic_law(scene);
+    return law;
   }
 
 

@@ -276,6 +276,6 @@ namespace scree
     return Surveyor<dim>(simulation, parameters, communicator).look();
   }
 
-  template SceneNumbers survey(const Simulation<2> &, const Parameters &, const MPI_Comm);
-  template SceneNumbers survey(const Simulation<3> &, const Parameters &, const MPI_Comm);
+  template decltype(survey<2>) survey<2>;
+  template decltype(survey<3>) survey<3>;
 } // namespace scree

@@ -21,7 +21,8 @@ namespace scree
     void check_type_for_water(const Parameters &parameters, const BedParameters &surface)
     {
       const auto require = [&](const bool possible, const std::string &remedy) {
-        require_entry(possible || !surface.no_slip(), surface.subsection, "Type for water", surface.for_water, remedy);
+        require_entry(
+            possible || !surface.no_slip(), { surface.subsection, "Type for water", surface.for_water }, remedy);
       };
       require(parameters.has_water, "this entry has no effect, as there is no subsection Water. Remove it.");
       require(
@@ -39,26 +40,20 @@ namespace scree
       if (parameters.has_water)
         names += (names.empty() ? "" : ", ") + std::string("Water");
       require_entry(body != nullptr || (inflow.is_water() && parameters.has_water),
-                    inflow.subsection,
-                    "Body",
-                    inflow.body,
+                    { inflow.subsection, "Body", inflow.body },
                     inflow.is_water() ? "there is no subsection Water. Add one, or write the name of a body."
                                       : "write what enters: " + names + ".");
       require_entry(body == nullptr || !body->is_rigid(),
-                    inflow.subsection,
-                    "Body",
-                    inflow.body,
+                    { inflow.subsection, "Body", inflow.body },
                     "a body of \"Material = rigid\" does not move. Write another one.");
       require_entry(!parameters.has_water || parameters.water.point_sets_kind() == PointSets::double_point,
-                    "Water",
-                    "Point sets",
-                    parameters.water.point_sets,
+                    { "Water", "Point sets", parameters.water.point_sets },
                     "with subsection " + inflow.subsection +
                         " water needs points of its own. Write double, or remove the inflow.");
       if (inflow.is_saturated)
         {
           const auto require = [&](const bool possible, const std::string &remedy) {
-            require_entry(possible, inflow.subsection, "Saturated", "true", remedy);
+            require_entry(possible, { inflow.subsection, "Saturated", "true" }, remedy);
           };
           require(parameters.has_water && body != nullptr,
                   "it is said of soil in a scene with water. Remove the entry, or add subsection Water.");
@@ -85,9 +80,7 @@ namespace scree
           });
       require_entry(
           are_those_of_soil || water.points_per_cell == WaterParameters().points_per_cell,
-          "Water",
-          "Points per cell",
-          water.points_per_cell,
+          { "Water", "Points per cell", water.points_per_cell },
           "this entry has no effect, as the soil points carry single-point water. Remove it, or write \"Point "
           "sets = double\".");
     }
@@ -110,9 +103,7 @@ namespace scree
         {
           const auto require = [&contact](const bool possible, const std::string &what) {
             require_entry(possible || !contact.is_set(),
-                          contact.subsection,
-                          "Bodies",
-                          contact.bodies,
+                          { contact.subsection, "Bodies", contact.bodies },
                           "bodies that slide are not possible with " + what +
                               " yet. Remove one of the two subsections.");
           };
@@ -129,9 +120,7 @@ namespace scree
       parameters.water_boundaries.check(parameters.dimension);
       for (const WaterWall &wall : parameters.water_boundaries.walls(parameters.dimension))
         require_entry(wall.type != WaterWallType::drained || wall.pressure >= parameters.pressure.cavitation_pressure,
-                      "Water/Pressure",
-                      "Cavitation pressure",
-                      parameters.pressure.cavitation_pressure,
+                      { "Water/Pressure", "Cavitation pressure", parameters.pressure.cavitation_pressure },
                       "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
                           " Pa. Water cavitates there. Write a lower number, or a higher pressure at the wall.");
       if (parameters.water.is_where_soil_is())
@@ -146,19 +135,13 @@ namespace scree
       const auto walls = parameters.boundaries.texts(3), defaults = BoundaryParameters().texts(3);
       for (unsigned int f = 0; f < walls.size(); ++f)
         require_entry(walls[f] == defaults[f],
-                      "Boundaries",
-                      FaceEntries::names(3)[f],
-                      walls[f],
+                      { "Boundaries", FaceEntries::names(3)[f], walls[f] },
                       no_soil + ", or move it to subsection Water of subsection Boundaries.");
       require_entry(!parameters.surface_load.is_set(),
-                    "Surface load",
-                    "Traction",
-                    parameters.surface_load.traction,
+                    { "Surface load", "Traction", parameters.surface_load.traction },
                     no_soil + '.');
       require_entry(parameters.settling.maximum_time == 0,
-                    "Settling",
-                    "Maximum time",
-                    parameters.settling.maximum_time,
+                    { "Settling", "Maximum time", parameters.settling.maximum_time },
                     no_soil + '.');
     }
 
@@ -168,9 +151,7 @@ namespace scree
     {
       const auto require = [&](const bool possible, const std::string &what) {
         require_entry(possible || parameters.time_step.mass_scaling == 1.,
-                      "Time step",
-                      "Mass scaling",
-                      parameters.time_step.mass_scaling,
+                      { "Time step", "Mass scaling", parameters.time_step.mass_scaling },
                       "it is for slow motion, and " + what + " depends on the true inertia. Write 1, or remove that.");
       };
       require(!parameters.body_forces.is_set(), "a base motion or body force");
@@ -187,23 +168,18 @@ namespace scree
   void check_case(const Parameters &parameters)
   {
     require_entry(parameters.gravity.size() == parameters.dimension,
-                  "",
-                  "Gravity",
-                  number_text(parameters.gravity),
+                  { "", "Gravity", number_text(parameters.gravity) },
                   "entry \"Dimension\" is " + std::to_string(parameters.dimension) + ". Write " +
                       std::to_string(parameters.dimension) + " components in m/s^2, separated by commas.");
     require_entry(parameters.dimension == 3 || (parameters.local_origin[0] == 0. && parameters.local_origin[1] == 0.),
-                  "",
-                  "Local origin",
-                  number_text(parameters.local_origin),
+                  { "", "Local origin", number_text(parameters.local_origin) },
                   "a scene in the plane has no map. Remove it.");
     require_entry(parameters.dimension == 3 || parameters.coordinate_system.empty(),
-                  "",
-                  "Coordinate system",
-                  parameters.coordinate_system,
+                  { "", "Coordinate system", parameters.coordinate_system },
                   "a scene in the plane has no map. Remove it.");
-    require_entry(
-        !parameters.output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
+    require_entry(!parameters.output_directory.empty(),
+                  { "", "Output directory", "" },
+                  "name a folder, for instance results/slope");
     parameters.grid.check(parameters.dimension);
     parameters.time_step.check();
     parameters.transfer.check();
@@ -229,9 +205,7 @@ namespace scree
     check_mass_scaling(parameters);
     check_points_of_water(parameters);
     require_entry(parameters.bed.turbulent_friction == 0. || !parameters.has_water,
-                  "Bed",
-                  "Turbulent friction",
-                  parameters.bed.turbulent_friction,
+                  { "Bed", "Turbulent friction", parameters.bed.turbulent_friction },
                   "it acts on dry soil only. Remove it, or subsection Water.");
     if (parameters.has_water)
       check_water(parameters);
@@ -254,13 +228,11 @@ namespace scree
         if (const double inside = make_material<2>(body.material)->plane_friction(); friction > rounding * inside)
           remarks.push_back(
               "Base stronger than the soil: " +
-              entry_message(subsection,
-                            entry,
-                            number_text(std::atan(friction) * 180 / dealii::numbers::PI) + " degrees",
-                            body.name + " shears on a plane at " +
-                                number_text(std::atan(inside) * 180 / dealii::numbers::PI) +
-                                " degrees. It does not slide on this base, and its lowest cells shear as on a fixed "
-                                "one. An angle of repose is \"Friction angle kind = direct shear or repose\"."));
+              entry_message(
+                  { subsection, entry, number_text(std::atan(friction) * 180 / dealii::numbers::PI) + " degrees" },
+                  body.name + " shears on a plane at " + number_text(std::atan(inside) * 180 / dealii::numbers::PI) +
+                      " degrees. It does not slide on this base, and its lowest cells shear as on a fixed "
+                      "one. An angle of repose is \"Friction angle kind = direct shear or repose\"."));
     }
 
 
@@ -270,12 +242,11 @@ namespace scree
       constexpr double rounding = 1e-9;
       const double length       = make_material<2>(body.material)->nonlocal_variable().length;
       if (length > 0 && cell_size > length / 2 * (1 + rounding))
-        remarks.push_back("Unusual value: " + entry_message(body.material.path(body.name),
-                                                            "Nonlocal length",
-                                                            number_text(length),
-                                                            "shear bands depend on cells wider than half of it, here " +
-                                                                number_text(cell_size) + " m. Use cells of at most " +
-                                                                number_text(length / 2) + " m."));
+        remarks.push_back("Unusual value: " +
+                          entry_message({ body.material.path(body.name), "Nonlocal length", number_text(length) },
+                                        "shear bands depend on cells wider than half of it, here " +
+                                            number_text(cell_size) + " m. Use cells of at most " +
+                                            number_text(length / 2) + " m."));
     }
 
 
@@ -288,9 +259,7 @@ namespace scree
       if (law.cohesion > 0. && law.tension_cut_off == 0.)
         remarks.push_back(
             "Unusual value: " +
-            entry_message(body.material.path(body.name),
-                          "Tension cut-off",
-                          "0",
+            entry_message({ body.material.path(body.name), "Tension cut-off", "0" },
                           "with cohesion, here " + number_text(law.cohesion) +
                               " Pa, soil in water opens in small waves, and the suction of the pores slows it. Write a "
                               "cut-off above 0, such as the cohesion."));
@@ -316,7 +285,7 @@ namespace scree
                            const std::string &unit) {
         if (value != 0. && !(value >= lowest && value <= highest))
           remarks.push_back("Unusual value: " +
-                            entry_message(subsection, entry, number_text(value), "the unit is " + unit + "."));
+                            entry_message({ subsection, entry, number_text(value) }, "the unit is " + unit + "."));
       };
       constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
       const WaterParameters &water       = parameters.water;
@@ -352,9 +321,7 @@ namespace scree
                        [&](const auto &point) { is_below = is_below && wet.contains(point.location + up); });
       if (dealii::Utilities::MPI::min(int(is_below), communicator) == 1)
         remarks.push_back("Unusual value: " +
-                          entry_message("Water",
-                                        entry,
-                                        value,
+                          entry_message({ "Water", entry, value },
                                         "all soil lies more than a cell below it, and no water stands outside the "
                                         "soil. Check unit (m) and datum; write a \"Reservoir level\" for water above "
                                         "the ground."));
@@ -386,8 +353,8 @@ namespace scree
     return remarks;
   }
 
-  template std::vector<std::string> remarks_on(const Parameters &, const std::list<SoilBody<2>> &, const MPI_Comm);
-  template std::vector<std::string> remarks_on(const Parameters &, const std::list<SoilBody<3>> &, const MPI_Comm);
+  template decltype(remarks_on<2>) remarks_on<2>;
+  template decltype(remarks_on<3>) remarks_on<3>;
 
 
   namespace
@@ -471,83 +438,58 @@ namespace scree
     }
 
 
-    /// The differences, those of whole subsections last.
-    class Differences
+    /// The differences. Those of whole subsections come last, at the top first: they say what has happened.
+    std::vector<Difference> differences_of(const CaseEntries &before, const CaseEntries &now)
     {
-    public:
-      Differences(const CaseEntries &before, const CaseEntries &now)
-      {
-        for (const CaseEntry &entry : now.all())
-          compare(entry, before.find(entry.subsection, entry.name), &entry, before.has_subsection(entry.subsection));
-        for (const CaseEntry &entry : before.all())
-          if (!now.find(entry.subsection, entry.name))
-            compare(entry, &entry, nullptr, now.has_subsection(entry.subsection));
-      }
-
-      std::vector<Difference> of_kind(const Change kind) const
-      {
-        std::vector<Difference> result;
-        for (const Difference &difference : entries)
-          if (difference.kind == kind)
-            result.push_back(difference);
-        // Those at the top say what has happened.
-        for (const bool at_top : { true, false })
-          for (const auto &[path, before] : subsections)
-            if (kind == Change::refused && at_top == (path.find('/') == std::string::npos))
-              result.push_back({ kind, "subsection " + path, "", before });
-        return result;
-      }
-
-    private:
-      void compare(const CaseEntry &entry,
-                   const CaseEntry *before,
-                   const CaseEntry *now,
-                   const bool both_have_its_subsection)
-      {
-        if (before && now && same_value(*before, *now))
+      std::vector<Difference> result;
+      std::map<std::string, std::string> subsections; // that one of the cases has, and whether there was one
+      const auto compare = [&](const CaseEntry &entry, const CaseEntry *was, const CaseEntry *is, const bool in_both) {
+        if (was && is && same_value(*was, *is))
           return;
-        const Change kind = kind_of(entry, before, now);
-        if (both_have_its_subsection)
-          entries.push_back(
-              { kind, entry_name(entry.subsection, entry.name), " = " + value_text(now), text_before(before, now) });
+        const Change kind = kind_of(entry, was, is);
+        if (in_both)
+          result.push_back(
+              { kind, entry_name(entry.subsection, entry.name), " = " + value_text(is), text_before(was, is) });
         else if (kind == Change::refused)
-          subsections[entry.subsection] = now ? "none" : "one";
-      }
-
-      std::vector<Difference> entries;
-      std::map<std::string, std::string> subsections; // and whether there was one
-    };
-
-
-    /// Throws EntryError if there are differences: names the first and a few others.
-    void refuse(const std::vector<Difference> &differences, const Checkpoint &checkpoint)
-    {
-      if (differences.empty())
-        return;
-      constexpr unsigned int most_names = 4;
-      std::string others;
-      for (unsigned int d = 1; d < std::min<std::size_t>(differences.size(), most_names); ++d)
-        others += (others.empty() ? " Changed, too: " : "; ") + differences[d].name;
-      if (differences.size() > most_names)
-        others += "; and " + std::to_string(differences.size() - most_names) + " more";
-      const Difference &first = differences.front();
-      throw EntryError(first.name + first.now + ": the run that wrote " + checkpoint.folder + " had " + first.before +
-                       ", and --resume cannot change that. Write it as it was, or run without --resume in another "
-                       "\"Output directory\"." +
-                       others + (others.empty() ? "" : "."));
+          subsections[entry.subsection] = is ? "none" : "one";
+      };
+      for (const CaseEntry &entry : now.all())
+        compare(entry, before.find(entry.subsection, entry.name), &entry, before.has_subsection(entry.subsection));
+      for (const CaseEntry &entry : before.all())
+        if (!now.find(entry.subsection, entry.name))
+          compare(entry, &entry, nullptr, now.has_subsection(entry.subsection));
+      for (const bool at_top : { true, false })
+        for (const auto &[path, was] : subsections)
+          if (at_top == (path.find('/') == std::string::npos))
+            result.push_back({ Change::refused, "subsection " + path, "", was });
+      return result;
     }
   } // namespace
 
 
   std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &entries)
   {
-    const Differences differences(checkpoint.entries, entries);
-    refuse(differences.of_kind(Change::refused), checkpoint);
+    constexpr unsigned int most_names = 4;
     std::vector<std::string> notes;
-    for (const Difference &difference : differences.of_kind(Change::noted))
-      notes.push_back("Changed from here on: " + difference.name + difference.now + ", before " + difference.before +
-                      '.');
-    return notes;
+    std::vector<Difference> refused;
+    for (const Difference &difference : differences_of(checkpoint.entries, entries))
+      if (difference.kind == Change::refused)
+        refused.push_back(difference);
+      else if (difference.kind == Change::noted)
+        notes.push_back("Changed from here on: " + difference.name + difference.now + ", before " + difference.before +
+                        '.');
+    if (refused.empty())
+      return notes;
+    std::string others;
+    for (unsigned int d = 1; d < std::min<std::size_t>(refused.size(), most_names); ++d)
+      others += (others.empty() ? " Changed, too: " : "; ") + refused[d].name;
+    if (refused.size() > most_names)
+      others += "; and " + std::to_string(refused.size() - most_names) + " more";
+    const Difference &first = refused.front();
+    throw EntryError(first.name + first.now + ": the run that wrote " + checkpoint.folder + " had " + first.before +
+                     ", and --resume cannot change that. Write it as it was, or run without --resume in another "
+                     "\"Output directory\"." +
+                     others + (others.empty() ? "" : "."));
   }
 
 

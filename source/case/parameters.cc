@@ -5,7 +5,7 @@
 #include <scree/input/input_error.h>
 #include <scree/input/input_file.h>
 #include <scree/materials/friction_angle.h>
-#include <scree/seeding/unit_weights.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -20,6 +20,145 @@
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// A box around the ground of a raster.
+    struct BoxOfRaster
+    {
+      std::vector<double> lower, ///< corner, m; not yet of whole cells
+          upper;                 ///< corner, m; not yet of whole cells
+      double lowest,             ///< height of the raster, m
+          highest;               ///< height of the raster, m
+    };
+
+
+    /// How far above the ground's highest place the body may reach, m.
+    double room_for(const BodyParameters &body,
+                    const BedParameters &bed,
+                    const double highest,
+                    const double relief,
+                    const double cell_size)
+    {
+      const SourceMapParameters &source = body.seeding.source;
+      const auto largest                = [&](const std::string &entry, const std::string &file) {
+        return read_raster(file, entry_name(body.name, entry), bed.map_origin).range().second;
+      };
+      if (!source.thickness.empty())
+        return largest("Thickness", source.thickness);
+      if (!source.upper_surface.empty())
+        return std::max(0., largest("Upper surface", source.upper_surface) - highest);
+      return 0.25 * relief + 10. * cell_size;
+    }
+
+
+    /// The box that a bed's raster asks for: its outline, two cells below the lowest height, and four cells above the
+    /// highest soil. How high a body reaches that is given by an expression is not known: room for it is a quarter of
+    /// the relief and ten cells. Throws EntryError if a file cannot be read or has no heights.
+    BoxOfRaster
+    box_of_raster(const BedParameters &bed, const std::vector<BodyParameters> &bodies, const double cell_size)
+    {
+      const Raster raster          = read_raster(bed.raster(), entry_name(bed.subsection, "Raster"), bed.map_origin);
+      const auto [lowest, highest] = raster.range();
+      require_entry(lowest <= highest,
+                    { bed.subsection, "Raster", bed.raster() },
+                    "all its heights are missing (NODATA). Look at the file.");
+      double room = 0.;
+      for (const BodyParameters &body : bodies)
+        room = std::max(room, room_for(body, bed, highest, highest - lowest, cell_size));
+      const double floor = cell_size * (std::floor(lowest / cell_size) - 2.);
+      return { { raster.x, raster.y, floor },
+               { raster.last_x(), raster.last_y(), highest + room + 4. * cell_size },
+               lowest,
+               highest };
+    }
+
+
+    /// Numbers as they must be written to be the same when they are read again, within 15 digits.
+    std::string exact_text(const std::vector<double> &numbers)
+    {
+      std::ostringstream text;
+      text.precision(15);
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        text << (i == 0 ? "" : ", ") << numbers[i];
+      return text.str();
+    }
+
+
+    /// The rasters of a case in space: what messages call their entries, and the files.
+    std::vector<std::pair<std::string, std::string>> rasters_of(const Parameters &parameters)
+    {
+      std::vector<std::pair<std::string, std::string>> result;
+      const auto add = [&](const std::string &subsection, const std::string &entry, const std::string &file) {
+        if (!file.empty())
+          result.emplace_back(entry_name(subsection, entry), file);
+      };
+      add(parameters.bed.subsection, "Raster", parameters.bed.raster());
+      for (const ObstacleParameters &obstacle : parameters.obstacles)
+        add(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
+      for (const BodyParameters &body : parameters.bodies)
+        {
+          const SourceMapParameters &source = body.seeding.source;
+          add(body.name, "Thickness", source.thickness);
+          add(body.name, "Upper surface", source.upper_surface);
+        }
+      return result;
+    }
+
+
+    /// Throws EntryError if an outline has another coordinate system than the maps; without one of theirs it has none.
+    void check_outlines(const Parameters &parameters,
+                        const std::string &system,
+                        const std::string &source,
+                        const dealii::Point<2> &place)
+    {
+      for (const BodyParameters &body : parameters.bodies)
+        if (const std::string &file = body.seeding.source.outline; !file.empty())
+          {
+            const std::string entry = entry_name(body.name, "Outline"), of_outline = read_outline_system(file, entry);
+            if (!system.empty() && !of_outline.empty() && !is_same_system(system, of_outline, place))
+              throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_outline) +
+                               ", but that of " + source + " is " + name_of_system(system) +
+                               ". All maps of a case must have the same one: convert the outline with ogr2ogr -t_srs.");
+          }
+    }
+
+
+    /// The coordinate system of the case's maps, see Raster::system: that of entry `Coordinate system`, else that of
+    /// the first raster that has one; empty if none is known. Throws EntryError if the entry is no such system, or if
+    /// rasters have others.
+    std::string system_of_maps(const Parameters &parameters)
+    {
+      if (parameters.dimension != 3)
+        return "";
+      std::string system = parameters.coordinate_system, source;
+      if (!system.empty())
+        {
+          source = entry_name("", "Coordinate system");
+          require_system_in_metres(system, source + " = " + system + ": ");
+        }
+      // A place of the map.
+      const dealii::Point<2> place(parameters.local_origin[0] + parameters.grid.lower_corner[0],
+                                   parameters.local_origin[1] + parameters.grid.lower_corner[1]);
+      for (const auto &[entry, file] : rasters_of(parameters))
+        {
+          const std::string of_raster = read_raster_system(file, entry);
+          if (of_raster.empty())
+            continue;
+          if (system.empty())
+            system = of_raster, source = entry + " = " + file;
+          if (!is_same_system(system, of_raster, place))
+            throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_raster) +
+                             ", but that of " + source + " is " + name_of_system(system) +
+                             ". All maps of a case must have the same one: convert the raster with gdalwarp -t_srs.");
+        }
+      check_outlines(parameters, system, source, place);
+      if (parameters.output.maps.write && parameters.output.maps.writes_geo_tiff() && !system.empty())
+        require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
+      return system;
+    }
+  } // namespace
+
 
   void BodyParameters::add_parameters(ParameterHandler &prm)
   {
@@ -46,14 +185,10 @@ namespace scree
   void BodyParameters::check_rigid() const
   {
     require_entry(seeding.initial_velocity.empty(),
-                  name,
-                  "Initial velocity",
-                  seeding.initial_velocity,
+                  { name, "Initial velocity", seeding.initial_velocity },
                   "\"Material = rigid\" does not move. Remove one of the two.");
     require_entry(initial_state.stress_kind() == InitialStress::none,
-                  name + "/Initial state",
-                  "Type",
-                  initial_state.type,
+                  { name + "/Initial state", "Type", initial_state.type },
                   "the stress of \"Material = rigid\" is not known. Remove the entry.");
   }
 
@@ -122,9 +257,7 @@ namespace scree
   void SafetyParameters::check() const
   {
     require_entry(lower + tolerance < upper,
-                  "Safety",
-                  "Upper factor",
-                  upper,
+                  { "Safety", "Upper factor", upper },
                   "it must exceed \"Lower factor\" = " + number_text(lower) + " by more than the tolerance.");
   }
 
@@ -148,9 +281,12 @@ namespace scree
     try
       {
         name_bodies();
-        name_obstacles();
-        name_inflows();
-        name_contacts();
+        for (const std::string &subsection : named_subsections(ObstacleParameters::prefix, "obstacle"))
+          obstacles.emplace_back(subsection);
+        for (const std::string &subsection : named_subsections(InflowParameters::prefix, "inflow"))
+          inflows.emplace_back(subsection);
+        for (const std::string &subsection : file.subsections(ContactParameters::prefix))
+          contacts.emplace_back(subsection);
         has_water = file.has_subsection("Water");
         // Suggestions include water's entries also where a dry run's list of all entries leaves them out: read again,
         // that list must not make the scene wet.
@@ -227,9 +363,7 @@ namespace scree
                               name.rfind(InflowParameters::prefix, 0) == 0 ||
                               name.rfind(ContactParameters::prefix, 0) == 0;
         require_entry(!name.empty() && is_new && !is_taken && name != "none",
-                      "",
-                      "Bodies",
-                      names,
+                      { "", "Bodies", names },
                       (name.empty()     ? "a name is missing"
                        : !is_new        ? quoted(name) + " stands there twice"
                        : name == "none" ? "\"none\" stands for no body at all"
@@ -253,27 +387,6 @@ namespace scree
                            "statistics. Write another name.");
       }
     return subsections;
-  }
-
-
-  void Parameters::name_obstacles()
-  {
-    for (const std::string &subsection : named_subsections(ObstacleParameters::prefix, "obstacle"))
-      obstacles.emplace_back(subsection);
-  }
-
-
-  void Parameters::name_inflows()
-  {
-    for (const std::string &subsection : named_subsections(InflowParameters::prefix, "inflow"))
-      inflows.emplace_back(subsection);
-  }
-
-
-  void Parameters::name_contacts()
-  {
-    for (const std::string &subsection : file.subsections(ContactParameters::prefix))
-      contacts.emplace_back(subsection);
   }
 
 
@@ -429,14 +542,13 @@ namespace scree
 
   void Parameters::check_dry() const
   {
-    require_entry(
-        !bodies.empty(), "", "Bodies", "none", "the scene is empty. Name a body of soil, or add a subsection Water.");
+    require_entry(!bodies.empty(),
+                  { "", "Bodies", "none" },
+                  "the scene is empty. Name a body of soil, or add a subsection Water.");
     const std::string subsection = "Boundaries/Water";
     for (const auto &face : FaceEntries::names(3))
       require_entry(!file.sets(subsection, face),
-                    subsection,
-                    face,
-                    file.value(subsection, face, ""),
+                    { subsection, face, file.value(subsection, face, "") },
                     "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
   }
 
@@ -452,9 +564,7 @@ namespace scree
           const auto [entry, value] = file.changed_entry(path, defaults);
           if (entry.empty())
             continue;
-          const std::string text = entry_message(path,
-                                                 entry,
-                                                 value,
+          const std::string text = entry_message({ path, entry, value },
                                                  "this entry has no effect, as \"Material\" is " + body.material.law +
                                                      ". Write \"Material = " + law.name + "\", or remove the entry.");
           if (!file.sets(body.name, "Material")) // a law by default is hardly meant
@@ -629,9 +739,7 @@ namespace scree
           given.porosity = porosity;
         const GrainsAndPores result = grains_and_pores(body.name, given, size_of_gravity(), water.density);
         require_entry(has_water || seeding.dry_unit_weight > 0,
-                      body.name,
-                      "Saturated unit weight",
-                      seeding.saturated_unit_weight,
+                      { body.name, "Saturated unit weight", seeding.saturated_unit_weight },
                       "the scene is dry, and the soil would weigh less than this. Write \"Dry unit weight\" (in total "
                       "stress the same value), or add subsection Water.");
         handler.enter_subsection(body.name);
@@ -654,9 +762,7 @@ namespace scree
         body.material.check(body.name); // The law must be possible with that strength, too.
       }
     require_entry(has_strength,
-                  "Safety",
-                  "Strength factor",
-                  factor,
+                  { "Safety", "Strength factor", factor },
                   "no body has a law with strength that could be reduced. Write another \"Material\".");
 
     const auto reduce = [factor](double &angle) { angle = divided_angle(angle, factor); };
@@ -673,131 +779,5 @@ namespace scree
                                &boundaries.top })
       if (const std::string friction = "friction "; wall->rfind(friction, 0) == 0)
         *wall = friction + exact_text({ divided_angle(number_of(wall->substr(friction.size())), factor) });
-  }
-
-
-  namespace
-  {
-    /// How far above the ground's highest place the body may reach, m.
-    double room_for(const BodyParameters &body,
-                    const BedParameters &bed,
-                    const double highest,
-                    const double relief,
-                    const double cell_size)
-    {
-      const SourceMapParameters &source = body.seeding.source;
-      const auto largest                = [&](const std::string &entry, const std::string &file) {
-        return read_raster(file, entry_name(body.name, entry), bed.map_origin).range().second;
-      };
-      if (!source.thickness.empty())
-        return largest("Thickness", source.thickness);
-      if (!source.upper_surface.empty())
-        return std::max(0., largest("Upper surface", source.upper_surface) - highest);
-      return 0.25 * relief + 10. * cell_size;
-    }
-  } // namespace
-
-
-  BoxOfRaster box_of_raster(const BedParameters &bed, const std::vector<BodyParameters> &bodies, const double cell_size)
-  {
-    const Raster raster          = read_raster(bed.raster(), entry_name(bed.subsection, "Raster"), bed.map_origin);
-    const auto [lowest, highest] = raster.range();
-    require_entry(lowest <= highest,
-                  bed.subsection,
-                  "Raster",
-                  bed.raster(),
-                  "all its heights are missing (NODATA). Look at the file.");
-    double room = 0.;
-    for (const BodyParameters &body : bodies)
-      room = std::max(room, room_for(body, bed, highest, highest - lowest, cell_size));
-    const double floor = cell_size * (std::floor(lowest / cell_size) - 2.);
-    return { { raster.x, raster.y, floor },
-             { raster.last_x(), raster.last_y(), highest + room + 4. * cell_size },
-             lowest,
-             highest };
-  }
-
-
-  std::string exact_text(const std::vector<double> &numbers)
-  {
-    std::ostringstream text;
-    text.precision(15);
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      text << (i == 0 ? "" : ", ") << numbers[i];
-    return text.str();
-  }
-
-
-  namespace
-  {
-    /// The rasters of a case in space: what messages call their entries, and the files.
-    std::vector<std::pair<std::string, std::string>> rasters_of(const Parameters &parameters)
-    {
-      std::vector<std::pair<std::string, std::string>> result;
-      const auto add = [&](const std::string &subsection, const std::string &entry, const std::string &file) {
-        if (!file.empty())
-          result.emplace_back(entry_name(subsection, entry), file);
-      };
-      add(parameters.bed.subsection, "Raster", parameters.bed.raster());
-      for (const ObstacleParameters &obstacle : parameters.obstacles)
-        add(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
-      for (const BodyParameters &body : parameters.bodies)
-        {
-          const SourceMapParameters &source = body.seeding.source;
-          add(body.name, "Thickness", source.thickness);
-          add(body.name, "Upper surface", source.upper_surface);
-        }
-      return result;
-    }
-
-
-    /// Throws EntryError if an outline has another coordinate system than the maps; without one of theirs it has none.
-    void check_outlines(const Parameters &parameters,
-                        const std::string &system,
-                        const std::string &source,
-                        const dealii::Point<2> &place)
-    {
-      for (const BodyParameters &body : parameters.bodies)
-        if (const std::string &file = body.seeding.source.outline; !file.empty())
-          {
-            const std::string entry = entry_name(body.name, "Outline"), of_outline = read_outline_system(file, entry);
-            if (!system.empty() && !of_outline.empty() && !is_same_system(system, of_outline, place))
-              throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_outline) +
-                               ", but that of " + source + " is " + name_of_system(system) +
-                               ". All maps of a case must have the same one: convert the outline with ogr2ogr -t_srs.");
-          }
-    }
-  } // namespace
-
-
-  std::string system_of_maps(const Parameters &parameters)
-  {
-    if (parameters.dimension != 3)
-      return "";
-    std::string system = parameters.coordinate_system, source;
-    if (!system.empty())
-      {
-        source = entry_name("", "Coordinate system");
-        require_system_in_metres(system, source + " = " + system + ": ");
-      }
-    // A place of the map.
-    const dealii::Point<2> place(parameters.local_origin[0] + parameters.grid.lower_corner[0],
-                                 parameters.local_origin[1] + parameters.grid.lower_corner[1]);
-    for (const auto &[entry, file] : rasters_of(parameters))
-      {
-        const std::string of_raster = read_raster_system(file, entry);
-        if (of_raster.empty())
-          continue;
-        if (system.empty())
-          system = of_raster, source = entry + " = " + file;
-        if (!is_same_system(system, of_raster, place))
-          throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_raster) +
-                           ", but that of " + source + " is " + name_of_system(system) +
-                           ". All maps of a case must have the same one: convert the raster with gdalwarp -t_srs.");
-      }
-    check_outlines(parameters, system, source, place);
-    if (parameters.output.maps.write && parameters.output.maps.writes_geo_tiff() && !system.empty())
-      require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
-    return system;
   }
 } // namespace scree

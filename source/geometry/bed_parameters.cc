@@ -40,7 +40,7 @@ namespace scree
 
   void ShapeRequest::require(const bool possible, const std::string &remedy) const
   {
-    require_entry(possible, subsection, entry, value, remedy);
+    require_entry(possible, { subsection, entry, value }, remedy);
   }
 
 
@@ -184,7 +184,7 @@ namespace scree
   void BedParameters::check(const unsigned int dim) const
   {
     const auto require = [this](const bool possible, const auto &entry, const std::string &remedy) {
-      require_entry(possible, subsection, entry.first, entry.second, remedy);
+      require_entry(possible, { subsection, entry.first, entry.second }, remedy);
     };
     const auto given    = geometry();
     const bool is_rough = type_kind() == BedType::friction;
@@ -229,10 +229,8 @@ namespace scree
     return parameters.is_set() ? make_shape<dim>(parameters, lower, upper, cell_size) : nullptr;
   }
 
-  template std::unique_ptr<LevelSet<2>>
-  make_bed<2>(const BedParameters &, const std::vector<double> &, const std::vector<double> &, const double);
-  template std::unique_ptr<LevelSet<3>>
-  make_bed<3>(const BedParameters &, const std::vector<double> &, const std::vector<double> &, const double);
+  template decltype(make_bed<2>) make_bed<2>;
+  template decltype(make_bed<3>) make_bed<3>;
 
 
   const std::string ObstacleParameters::prefix = "Obstacle ";
@@ -274,9 +272,7 @@ namespace scree
     if (!velocity.empty())
       parse_expression<1>(entry_name(surface.subsection, "Velocity"), velocity, dim);
     require_entry(pivot.empty() || Utilities::split_string_list(pivot).size() == dim,
-                  surface.subsection,
-                  "Moment about",
-                  pivot,
+                  { surface.subsection, "Moment about", pivot },
                   "write " + std::to_string(dim) + " numbers in m, separated by commas.");
   }
 } // namespace scree

@@ -243,20 +243,24 @@ namespace scree
   }
 
 
-  std::string text_of_system(const OGRSpatialReference &with_heights)
+  namespace
   {
-    OGRSpatialReference system(with_heights);
-    system.StripVertical();
-    const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
-    if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
-      return std::string("EPSG:") + code;
-    char *text            = nullptr;
-    const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
-    const bool is_known   = system.exportToWkt(&text, options) == OGRERR_NONE;
-    const std::string wkt = is_known ? text : "";
-    CPLFree(text);
-    return wkt;
-  }
+    /// The code of the EPSG if the system has it, else the text of a .prj file; without its vertical part.
+    std::string text_of_system(const OGRSpatialReference &with_heights)
+    {
+      OGRSpatialReference system(with_heights);
+      system.StripVertical();
+      const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
+      if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
+        return std::string("EPSG:") + code;
+      char *text            = nullptr;
+      const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
+      const bool is_known   = system.exportToWkt(&text, options) == OGRERR_NONE;
+      const std::string wkt = is_known ? text : "";
+      CPLFree(text);
+      return wkt;
+    }
+  } // namespace
 
 
   std::string ascii_grid(const Raster &raster)
@@ -600,31 +604,39 @@ namespace scree
   }
 
 
-  Polygon checked_polygon(std::vector<Point<2>> corners, const std::string &name)
+  namespace
   {
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    if (corners.size() > 1 && corners.front() == corners.back())
-      corners.pop_back();
-    if (corners.size() < 3)
-      throw EntryError(name + "it has " + std::to_string(corners.size()) +
-                       " corners. Write three or more, x, y in m, one a line, in their order around the place.");
-    const Polygon polygon(corners);
-    const unsigned int edge = polygon.first_crossing();
-    if (edge < corners.size())
-      throw EntryError(name + "its edge from " + number_text(corners[edge]) +
-                       " m is crossed or touched by another. Write the corners in their order around the place.");
-    return polygon;
-  }
+    /// The polygon of these corners, m; the last may repeat the first. Throws EntryError, which begins with `name`, if
+    /// they are fewer than three, or if edges cross.
+    Polygon checked_polygon(std::vector<Point<2>> corners, const std::string &name)
+    {
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+      if (corners.size() > 1 && corners.front() == corners.back())
+        corners.pop_back();
+      if (corners.size() < 3)
+        throw EntryError(name + "it has " + std::to_string(corners.size()) +
+                         " corners. Write three or more, x, y in m, one a line, in their order around the place.");
+      const Polygon polygon(corners);
+      const unsigned int edge = polygon.first_crossing();
+      if (edge < corners.size())
+        throw EntryError(name + "its edge from " + number_text(corners[edge]) +
+                         " m is crossed or touched by another. Write the corners in their order around the place.");
+      return polygon;
+    }
 
 
-  Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
-  {
-    const std::string name = where + " = " + file + ": ";
-    std::vector<Point<2>> corners;
-    for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
-      corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
-    return checked_polygon(std::move(corners), name);
-  }
+    /// Reads the corners "x, y", m, one a line; the last may repeat the first. Throws EntryError, which begins with
+    /// `where` (see entry_name()), if they are fewer than three, or if edges cross.
+    /// @param origin where the map has the origin of the polygon's x and y, m
+    Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
+    {
+      const std::string name = where + " = " + file + ": ";
+      std::vector<Point<2>> corners;
+      for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
+        corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
+      return checked_polygon(std::move(corners), name);
+    }
+  } // namespace
 
 
   Outline::Outline(std::vector<std::vector<Polygon>> areas)

@@ -155,17 +155,18 @@ namespace scree
   }
 
 
-  Profile read_profile(const std::string &file, const std::string &where)
-  {
-    std::vector<Point<2>> points;
-    for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }))
-      points.emplace_back(row[0], row[1]);
-    return Profile(points);
-  }
-
-
   namespace
   {
+    /// Reads the points "x, y", m, by read_number_table().
+    Profile read_profile(const std::string &file, const std::string &where)
+    {
+      std::vector<Point<2>> points;
+      for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }))
+        points.emplace_back(row[0], row[1]);
+      return Profile(points);
+    }
+
+
     std::unique_ptr<LevelSet<2>> make_profile(const ShapeRequest &request)
     {
       auto profile = std::make_unique<Profile>(read_profile(request.value, request.where()));

@@ -190,12 +190,10 @@ namespace scree
 
   template class Overburden<2>;
   template class Overburden<3>;
-  template void
-  set_k0_stress(SoilBody<2> &, Overburden<2> &, const double, const std::string &, const SuctionAbove<2> &);
-  template void
-  set_k0_stress(SoilBody<3> &, Overburden<3> &, const double, const std::string &, const SuctionAbove<3> &);
-  template void set_isotropic_stress(SoilBody<2> &, const double, const std::string &, const MPI_Comm);
-  template void set_isotropic_stress(SoilBody<3> &, const double, const std::string &, const MPI_Comm);
+  template decltype(set_k0_stress<2>) set_k0_stress<2>;
+  template decltype(set_k0_stress<3>) set_k0_stress<3>;
+  template decltype(set_isotropic_stress<2>) set_isotropic_stress<2>;
+  template decltype(set_isotropic_stress<3>) set_isotropic_stress<3>;
 
 
   template <int dim>
@@ -364,32 +362,14 @@ namespace scree
     });
   }
 
-  template std::vector<Overburden<2>::Layer> effective_weight_layers<2>(const std::vector<SoilRegion> &,
-                                                                        const WaterParameters *);
-  template std::vector<Overburden<3>::Layer> effective_weight_layers<3>(const std::vector<SoilRegion> &,
-                                                                        const WaterParameters *);
-  template std::vector<Overburden<2>::Layer> water_layers<2>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template std::vector<Overburden<3>::Layer> water_layers<3>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template SuctionAbove<2> suction_at_start(const WaterParameters *,
-                                            const std::shared_ptr<const SeepageField<2>> &,
-                                            const BackgroundGrid<2> &,
-                                            const std::vector<SoilRegion> &,
-                                            const Tensor<1, 2> &);
-  template SuctionAbove<3> suction_at_start(const WaterParameters *,
-                                            const std::shared_ptr<const SeepageField<3>> &,
-                                            const BackgroundGrid<3> &,
-                                            const std::vector<SoilRegion> &,
-                                            const Tensor<1, 3> &);
-  template void set_hydrostatic_pressure(WaterPhase<2> &, Overburden<2> &, const SuctionAbove<2> &, const double);
-  template void set_hydrostatic_pressure(WaterPhase<3> &, Overburden<3> &, const SuctionAbove<3> &, const double);
-  template void set_seepage_pressure(WaterPhase<2> &,
-                                     const SeepageField<2> &,
-                                     const SeepageSurvey<2> &,
-                                     const double,
-                                     const MPI_Comm);
-  template void set_seepage_pressure(WaterPhase<3> &,
-                                     const SeepageField<3> &,
-                                     const SeepageSurvey<3> &,
-                                     const double,
-                                     const MPI_Comm);
+  template decltype(effective_weight_layers<2>) effective_weight_layers<2>;
+  template decltype(effective_weight_layers<3>) effective_weight_layers<3>;
+  template decltype(water_layers<2>) water_layers<2>;
+  template decltype(water_layers<3>) water_layers<3>;
+  template decltype(suction_at_start<2>) suction_at_start<2>;
+  template decltype(suction_at_start<3>) suction_at_start<3>;
+  template decltype(set_hydrostatic_pressure<2>) set_hydrostatic_pressure<2>;
+  template decltype(set_hydrostatic_pressure<3>) set_hydrostatic_pressure<3>;
+  template decltype(set_seepage_pressure<2>) set_seepage_pressure<2>;
+  template decltype(set_seepage_pressure<3>) set_seepage_pressure<3>;
 } // namespace scree

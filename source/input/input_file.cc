@@ -514,7 +514,7 @@ namespace scree
                               const EntryRemedy &entry_remedy) const
   {
     const auto error = [&](const std::string &remedy) {
-      return statement.error(entry_message(statement.path, statement.name, statement.value, remedy));
+      return statement.error(entry_message({ statement.path, statement.name, statement.value }, remedy));
     };
     const DeclaredNames::Name *entry = declared.entry(statement.path, statement.name);
     std::string remedy = entry_remedy ? entry_remedy(statement.path, statement.name, statement.value) : "";

@@ -145,34 +145,6 @@ namespace scree
   }
 
 
-  void append_to_file(const std::string &file, const std::uintmax_t size, const std::string &content)
-  {
-    Descriptor out(file, O_WRONLY | O_APPEND | (size == 0 ? O_CREAT | O_TRUNC : 0));
-    if (!out.write(content))
-      {
-        const FileError error = error_of_writing(file, content.size());
-        out.truncate(size); // A part of a row must not stay.
-        throw error;
-      }
-    if (!out.close())
-      throw error_of_writing(file, content.size());
-  }
-
-
-  void cut_file(const std::string &file, const std::uintmax_t size)
-  {
-    if (!Descriptor(file, O_WRONLY).truncate(size))
-      throw error_of_writing(file, 0);
-  }
-
-
-  void sync_file(const std::string &file)
-  {
-    if (!Descriptor(file, O_WRONLY).sync())
-      throw error_of_writing(file, 0);
-  }
-
-
   void sync_folder(const std::string &folder)
   {
     // Some disks cannot sync a folder, and need not: then errno is EINVAL.
@@ -190,7 +162,15 @@ namespace scree
   void RowFile::append(const std::string &rows)
   {
     waiting += rows;
-    append_to_file(file, size, waiting);
+    Descriptor out(file, O_WRONLY | O_APPEND | (size == 0 ? O_CREAT | O_TRUNC : 0));
+    if (!out.write(waiting))
+      {
+        const FileError error = error_of_writing(file, waiting.size());
+        out.truncate(size); // A part of a row must not stay.
+        throw error;
+      }
+    if (!out.close())
+      throw error_of_writing(file, waiting.size());
     size += waiting.size();
     waiting.clear();
   }
@@ -198,8 +178,8 @@ namespace scree
 
   void RowFile::sync() const
   {
-    if (size > 0)
-      sync_file(file);
+    if (size > 0 && !Descriptor(file, O_WRONLY).sync())
+      throw error_of_writing(file, 0);
   }
 
 
@@ -210,13 +190,10 @@ namespace scree
     const std::uint64_t wanted = size;
     if (is_missing)
       size = 0;
-    else if (found >= size)
-      cut_file(file, size);
-    else
-      {
-        size = read_whole_file(file).rfind('\n') + 1; // 0 if there is none
-        cut_file(file, size);
-      }
+    else if (found < size)
+      size = read_whole_file(file).rfind('\n') + 1; // 0 if there is none
+    if (!is_missing && !Descriptor(file, O_WRONLY).truncate(size))
+      throw error_of_writing(file, 0);
     return size == wanted ? ""
                           : file + " has lost " + std::to_string(wanted - size) + " of the " + std::to_string(wanted) +
                                 " bytes that it had at the checkpoint: rows are missing there.";

@@ -71,24 +71,16 @@ namespace scree
   {
     const std::string subsection = "Output/Maps";
     require_entry(!write || has_soil,
-                  subsection,
-                  "Write",
-                  "true",
+                  { subsection, "Write", "true" },
                   "maps are of soil, and there is none: entry \"Bodies\" is none. Remove it.");
     require_entry(write || least_thickness == MapParameters().least_thickness,
-                  subsection,
-                  "Least thickness",
-                  least_thickness,
+                  { subsection, "Least thickness", least_thickness },
                   "this entry has no effect. Remove it, or write \"Write = true\".");
     require_entry(write || format == MapParameters().format,
-                  subsection,
-                  "Format",
-                  format,
+                  { subsection, "Format", format },
                   "this entry has no effect. Remove it, or write \"Write = true\".");
     require_entry(dim == 3 || format == MapParameters().format,
-                  subsection,
-                  "Format",
-                  format,
+                  { subsection, "Format", format },
                   "maps of a scene in the plane are tables (.csv). Remove it.");
   }
 
@@ -130,9 +122,7 @@ namespace scree
                                           { "Statistics interval", statistics_interval },
                                           { "Checkpoint interval", checkpoint_interval } })
       require_entry(interval == 0 || end_time / interval <= most,
-                    "Output",
-                    name,
-                    interval,
+                    { "Output", name, interval },
                     "until \"End time\" = " + number_text(end_time) + " s it would be due " +
                         number_text(end_time / interval) + " times, and at most 1e8 are possible. Write a longer one.");
   }

@@ -55,7 +55,7 @@ namespace scree
       , communicator(communicator)
   {
     const std::string fault = Utilities::MPI::broadcast(communicator, writer ? open() : std::string());
-    require_entry(fault.empty(), "", "Output directory", path, fault);
+    require_entry(fault.empty(), { "", "Output directory", path }, fault);
   }
 
 
@@ -108,9 +108,7 @@ namespace scree
   {
     throw_on_all_ranks(!writer || is_present()
                            ? ""
-                           : entry_message("",
-                                           "Output directory",
-                                           path,
+                           : entry_message({ "", "Output directory", path },
                                            "it was removed or renamed while the run wrote to it. Leave it alone until "
                                            "the run has ended, and start anew."),
                        communicator);

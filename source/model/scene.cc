@@ -470,7 +470,7 @@ namespace scree
   void Scene<dim>::let_in(const double time,
                           const double time_step,
                           const PressureOfCell<dim> &pressure,
-                          RunTotals<dim> &totals)
+                          RunBalance<dim> &totals)
   {
     for (const Inflow<dim> &inflow : inflows)
       if (inflow.water_share > 0.)
@@ -533,7 +533,7 @@ namespace scree
   void Scene<dim>::let_rain(const double time,
                             const double time_step,
                             const PressureOfCell<dim> &pressure,
-                            RunTotals<dim> &totals)
+                            RunBalance<dim> &totals)
   {
     if (!rain->count(time, time_step))
       return;
@@ -574,7 +574,7 @@ namespace scree
                                      PointSet<dim> &points,
                                      const unsigned int mass_slot,
                                      const Fill &fill,
-                                     RunTotals<dim> &totals) const
+                                     RunBalance<dim> &totals) const
   {
     std::vector<double> properties(points.stride());
     const Tensor<1, dim> &velocity = inflow.velocity();
@@ -605,7 +605,7 @@ namespace scree
 
 
   template <int dim>
-  unsigned int Scene<dim>::add_soil(const Inflow<dim> &inflow, const unsigned int back, RunTotals<dim> &totals)
+  unsigned int Scene<dim>::add_soil(const Inflow<dim> &inflow, const unsigned int back, RunBalance<dim> &totals)
   {
     SoilBody<dim> &body =
         *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
@@ -639,7 +639,7 @@ namespace scree
   unsigned int Scene<dim>::add_water(const Inflow<dim> &inflow,
                                      const unsigned int back,
                                      const PressureOfCell<dim> &pressure,
-                                     RunTotals<dim> &totals)
+                                     RunBalance<dim> &totals)
   {
     WaterPhase<dim> &phase = water.front();
     return add_layer(
@@ -762,7 +762,7 @@ namespace scree
   {
     if (parameters.has_water && water_at_start.seepage_start.is_steady)
       {
-        seepage = SteadySeepage<dim>(grid, seepage_survey()).solve(forcing.gravity().norm());
+        seepage = solve_seepage(seepage_survey(), forcing.gravity().norm());
         water_at_start.set_table<dim>(seepage);
       }
     fill_with_points();
@@ -811,9 +811,7 @@ namespace scree
             below[dim - 1]     = bottom - rounding;
             const bool is_high = wet.contains(above);
             if (is_high || !(wet.contains(below) || parameters.table<dim>()))
-              throw ValueError(entry_message("Water",
-                                             entry,
-                                             value,
+              throw ValueError(entry_message({ "Water", entry, value },
                                              std::string("it leaves the box of subsection Mesh ") +
                                                  (is_high ? "through its top" : "through its bottom") + " at " +
                                                  number_text(point.location) +
@@ -861,9 +859,7 @@ namespace scree
             std::string fault;
             for_each_point(body.points, [&](const auto &point) {
               if (fault.empty() && obstacle.contains(point.location))
-                fault = entry_message(body.name,
-                                      entry,
-                                      region,
+                fault = entry_message({ body.name, entry, region },
                                       "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) +
                                           ", for instance at " + number_text(point.location) +
                                           " m. Let it end where the obstacle begins.");
@@ -875,9 +871,7 @@ namespace scree
       for (const Obstacle<dim> &obstacle : obstacles)
         for (const auto &place : inflow.places())
           require_entry(!obstacle.contains(place.location),
-                        InflowParameters::prefix + inflow.name,
-                        "Region",
-                        inflow.region,
+                        { InflowParameters::prefix + inflow.name, "Region", inflow.region },
                         "points would enter in " + quoted(ObstacleParameters::prefix + obstacle.name) +
                             ", for instance at " + number_text(place.location) +
                             " m. Let it end where the obstacle begins.");
@@ -1039,9 +1033,7 @@ namespace scree
     const double stress =
         parameters.water.viscosity / parameters.water.density * stable_step / (grid.cell_size() * grid.cell_size());
     require_entry(stress <= most,
-                  "Water",
-                  "Viscosity",
-                  parameters.water.viscosity,
+                  { "Water", "Viscosity", parameters.water.viscosity },
                   "in a step of " + number_text(stable_step) + " s it would spread momentum over " +
                       number_text(std::sqrt(stress)) + " cells, and at most 1e5 are possible. Write a smaller one.");
   }
@@ -1061,9 +1053,7 @@ namespace scree
                                " steps, and at most 1e10 are possible.";
     const TimeStepParameters &step = parameters.time_step;
     require_entry(stable_step < step.maximum_time_step,
-                  "Time step",
-                  "Maximum time step",
-                  step.maximum,
+                  { "Time step", "Maximum time step", step.maximum },
                   remedy + " Write a larger one.");
     const bool by_waves = speeds.wave >= speeds.points;
     const std::string c = number_text(by_waves ? speeds.wave : speeds.points) + " m/s: ";
@@ -1081,12 +1071,10 @@ namespace scree
       }
     for (const BodyParameters &body : parameters.bodies)
       require_entry(body.seeding.initial_velocity.empty(),
-                    body.name,
-                    "Initial velocity",
-                    body.seeding.initial_velocity,
+                    { body.name, "Initial velocity", body.seeding.initial_velocity },
                     "points move at " + c + remedy + " Write slower ones.");
     require_entry(
-        false, "Water", "Initial velocity", parameters.water.initial_velocity, "points move at " + c + remedy);
+        false, { "Water", "Initial velocity", parameters.water.initial_velocity }, "points move at " + c + remedy);
   }
 
 

@@ -357,11 +357,11 @@ namespace scree
   template <int dim>
   void BalanceChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
                                 const std::list<WaterPhase<dim>> &water,
-                                const RunTotals<dim> &local,
+                                const RunBalance<dim> &local,
                                 const double time)
   {
-    const MPI_Comm communicator = grid.communicator();
-    const RunTotals<dim> totals = local.sum_over_ranks(communicator);
+    const MPI_Comm communicator  = grid.communicator();
+    const RunBalance<dim> totals = local.sum_over_ranks(communicator);
     PointSums<dim> sums(bodies, water, gravity, communicator);
     sums.kinetic *= mass_scaling;
     sums.momentum *= mass_scaling;

@@ -54,10 +54,8 @@ namespace scree
     return contents;
   }
 
-  template std::vector<CellContents>
-  contents_of_cells(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
-  template std::vector<CellContents>
-  contents_of_cells(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  template decltype(contents_of_cells<2>) contents_of_cells<2>;
+  template decltype(contents_of_cells<3>) contents_of_cells<3>;
 
 
   /// Elastic energies of points, as many at a time as a batch has lanes.
@@ -240,9 +238,9 @@ namespace scree
 
 
   template <int dim>
-  std::vector<Lump<dim>> lumps_of(const std::list<SoilBody<dim>> &bodies)
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies)
   {
-    std::vector<Lump<dim>> lumps;
+    std::vector<PointVolume<dim>> lumps;
     for (const auto &body : bodies)
       for_each_point(body.points, [&](const auto &point) {
         lumps.push_back({ point.location, point.properties[body.layout.volume] });
@@ -252,12 +250,12 @@ namespace scree
 
 
   template <int dim>
-  std::vector<Lump<dim>> lumps_of(const std::list<SoilBody<dim>> &bodies,
-                                  const std::list<WaterPhase<dim>> &water,
-                                  const BackgroundGrid<dim> &grid)
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid)
   {
     const std::vector<CellContents> contents = contents_of_cells(bodies, water, grid);
-    std::vector<Lump<dim>> lumps;
+    std::vector<PointVolume<dim>> lumps;
     for (const auto &one : water)
       for_each_point(one.points(), [&](const auto &point) {
         const double porosity = contents[point.cell].porosity();
@@ -282,7 +280,7 @@ namespace scree
 
 
   template <int dim>
-  std::vector<GroundColumn> ground_columns(const std::vector<Lump<dim>> &lumps,
+  std::vector<GroundColumn> ground_columns(const std::vector<PointVolume<dim>> &lumps,
                                            const std::vector<std::vector<double>> &places,
                                            const BackgroundGrid<dim> &grid)
   {
@@ -291,7 +289,7 @@ namespace scree
     const double width             = grid.cell_size();
     std::vector<double> volumes(places.size(), 0.), tops(places.size() * n_parts, nowhere);
     for (unsigned int i = 0; i < places.size(); ++i)
-      for (const Lump<dim> &lump : lumps)
+      for (const PointVolume<dim> &lump : lumps)
         {
           double weight     = 1.;
           bool is_close     = true;
@@ -331,7 +329,7 @@ namespace scree
 
   template <int dim>
   std::pair<double, double>
-  rear_and_front(const std::vector<Lump<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid)
+  rear_and_front(const std::vector<PointVolume<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid)
   {
     const double width = grid.cell_size();
     const CellColumns<dim> columns(grid);
@@ -340,7 +338,7 @@ namespace scree
     const int n_rows = columns.size() / n[0];
 
     std::vector<double> thickness(n[0] * n_rows, 0.); // row by row along x
-    for (const Lump<dim> &lump : lumps)
+    for (const PointVolume<dim> &lump : lumps)
       {
         const auto number = [&](const unsigned int axis) {
           const double cell = std::floor((lump.location[axis] - grid.lower_corner()[axis]) / width);
@@ -375,20 +373,16 @@ namespace scree
 
   template class CellColumns<2>;
   template class CellColumns<3>;
-  template std::vector<Lump<2>> lumps_of(const std::list<SoilBody<2>> &);
-  template std::vector<Lump<3>> lumps_of(const std::list<SoilBody<3>> &);
-  template std::vector<Lump<2>>
-  lumps_of(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
-  template std::vector<Lump<3>>
-  lumps_of(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
-  template std::vector<GroundColumn>
-  ground_columns(const std::vector<Lump<2>> &, const std::vector<std::vector<double>> &, const BackgroundGrid<2> &);
-  template std::vector<GroundColumn>
-  ground_columns(const std::vector<Lump<3>> &, const std::vector<std::vector<double>> &, const BackgroundGrid<3> &);
-  template std::pair<double, double>
-  rear_and_front(const std::vector<Lump<2>> &, const double, const BackgroundGrid<2> &);
-  template std::pair<double, double>
-  rear_and_front(const std::vector<Lump<3>> &, const double, const BackgroundGrid<3> &);
+  template std::vector<PointVolume<2>> point_volumes(const std::list<SoilBody<2>> &);
+  template std::vector<PointVolume<3>> point_volumes(const std::list<SoilBody<3>> &);
+  template std::vector<PointVolume<2>>
+  point_volumes(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  template std::vector<PointVolume<3>>
+  point_volumes(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  template decltype(ground_columns<2>) ground_columns<2>;
+  template decltype(ground_columns<3>) ground_columns<3>;
+  template decltype(rear_and_front<2>) rear_and_front<2>;
+  template decltype(rear_and_front<3>) rear_and_front<3>;
 
 
   std::vector<double> percentiles(const std::vector<PartOfMass> &all,
@@ -567,16 +561,9 @@ namespace scree
                                                 const BackgroundGrid<2> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
-  template double least_distance(const std::list<SoilBody<2>> &,
-                                 const std::list<WaterPhase<2>> &,
-                                 const DiscreteLevelSet<2> &,
-                                 const MPI_Comm);
-  template double least_distance(const std::list<SoilBody<3>> &,
-                                 const std::list<WaterPhase<3>> &,
-                                 const DiscreteLevelSet<3> &,
-                                 const MPI_Comm);
-  template WaterMeasures
-  measure_water(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  template decltype(least_distance<2>) least_distance<2>;
+  template decltype(least_distance<3>) least_distance<3>;
+  template decltype(measure_water<2>) measure_water<2>;
 
   template std::vector<double> mass_percentiles(const std::list<SoilBody<3>> &,
                                                 const BackgroundGrid<3> &,
@@ -586,8 +573,7 @@ namespace scree
                                                 const BackgroundGrid<3> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
-  template WaterMeasures
-  measure_water(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  template decltype(measure_water<3>) measure_water<3>;
 
 
   namespace
@@ -772,49 +758,23 @@ namespace scree
       /// The fits to the points of the first cells and of their neighbours.
       std::vector<Fit<dim>> fits_around(const unsigned int n_owned) const
       {
-        // Cells by their number in a box that has a layer more on each side. Along the lines of cells around one, those
-        // with points are found by pointers that only go forward.
-        using Number = std::int64_t;
-        std::array<Number, dim> strides;
-        for (unsigned int a = 0; a < dim; ++a)
-          strides[a] = a == 0 ? 1 : strides[a - 1] * (grid.fine_cells().box().n[a - 1] + 2);
-        std::vector<std::pair<Number, unsigned int>> sorted(moments.size());
-        for (unsigned int entry = 0; entry < sorted.size(); ++entry)
+        const FineCells<dim> &fine = grid.fine_cells();
+        const auto order           = order_of_sums();
+        std::vector<Fit<dim>> fits;
+        for (unsigned int entry = 0; entry < n_owned; ++entry)
           {
-            const auto &place = grid.fine_cells().cells()[grid.fine_cells().of_index(cells[entry])].place;
-            sorted[entry]     = { 0, entry };
-            for (unsigned int a = 0; a < dim; ++a)
-              sorted[entry].first += place[a] * strides[a];
-          }
-        std::sort(sorted.begin(), sorted.end());
-
-        constexpr unsigned int n_lines = n_neighbors / 3;
-        std::array<Number, n_lines> middle{}; // of a line, from the cell
-        for (unsigned int line = 0; line < n_lines; ++line)
-          for (unsigned int a = 1, rest = line; a < dim; ++a, rest /= 3)
-            middle[line] += (Number(rest % 3) - 1) * strides[a];
-        const auto order = order_of_sums();
-        std::array<unsigned int, n_lines> first{};
-        std::vector<Fit<dim>> fits(n_owned);
-        for (const auto &[number, entry] : sorted)
-          {
-            std::array<unsigned int, n_neighbors> near;
-            near.fill(none);
-            for (unsigned int line = 0; line < n_lines; ++line)
-              {
-                const Number begin = number + middle[line] - 1;
-                while (first[line] < sorted.size() && sorted[first[line]].first < begin)
-                  ++first[line];
-                for (unsigned int i = first[line]; i < sorted.size() && sorted[i].first < begin + 3; ++i)
-                  near[3 * line + (sorted[i].first - begin)] = sorted[i].second;
-              }
-            if (entry >= n_owned)
-              continue;
+            const CellPlace<dim> &middle = fine.cells()[fine.of_index(cells[entry])].place;
             Moments<dim> sum;
             for (const unsigned int neighbor : order)
-              if (near[neighbor] != none)
-                sum += moments[near[neighbor]];
-            fits[entry] = fit(sum);
+              {
+                CellPlace<dim> place = middle;
+                for (unsigned int a = 0, rest = neighbor; a < dim; ++a, rest /= 3)
+                  place[a] += int(rest % 3) - 1;
+                if (const unsigned int cell = fine.find(place); cell != FineCells<dim>::none)
+                  if (const unsigned int near = entry_of_cell[fine.cells()[cell].index]; near != none)
+                    sum += moments[near];
+              }
+            fits.push_back(fit(sum));
           }
         return fits;
       }
@@ -848,8 +808,8 @@ namespace scree
     return field.oscillation();
   }
 
-  template double stress_oscillation(const std::list<SoilBody<2>> &, const BackgroundGrid<2> &);
-  template double stress_oscillation(const std::list<SoilBody<3>> &, const BackgroundGrid<3> &);
-  template double pressure_oscillation(const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
-  template double pressure_oscillation(const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  template decltype(stress_oscillation<2>) stress_oscillation<2>;
+  template decltype(stress_oscillation<3>) stress_oscillation<3>;
+  template decltype(pressure_oscillation<2>) pressure_oscillation<2>;
+  template decltype(pressure_oscillation<3>) pressure_oscillation<3>;
 } // namespace scree

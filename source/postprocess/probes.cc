@@ -355,16 +355,12 @@ namespace scree
           for (const auto &point : place.points)
             reads = reads && !point.empty();
           require_entry(reads,
-                        subsection,
-                        entry,
-                        text,
+                        { subsection, entry, text },
                         quoted(part) + " does not read. Write " + shape +
                             " in m, with a name of letters, digits, _ and -; separate several by semicolons.");
           constexpr std::size_t longest = 200; // Names of files have 255 bytes at most.
           require_entry(place.name.size() <= longest,
-                        subsection,
-                        entry,
-                        text,
+                        { subsection, entry, text },
                         scree::quoted(place.name) + " has " + std::to_string(place.name.size()) +
                             " letters, and the name of a probe, which is that of its file, at most " +
                             std::to_string(longest) + ". Write a shorter name.");
@@ -382,9 +378,7 @@ namespace scree
         for (const auto &point : place.points)
           for (unsigned int a = 0; a < point.size(); ++a)
             require_entry(point[a] >= grid.lower_corner[a] && point[a] <= grid.upper_corner[a],
-                          subsection,
-                          entry,
-                          text,
+                          { subsection, entry, text },
                           quoted(place.name) + " lies outside the box of subsection Mesh, from " +
                               number_text(grid.lower_corner) + " to " + number_text(grid.upper_corner) +
                               ". Move it, or a corner of the box.");
@@ -458,9 +452,7 @@ namespace scree
           require_inside(entry, text, list, grid);
           for (const NamedPlace &place : list)
             require_entry(names.insert(place.name).second,
-                          subsection,
-                          entry,
-                          text,
+                          { subsection, entry, text },
                           quoted(place.name) + " is the name of another probe. Each has a file of its own name: write "
                                                "another one.");
         };
@@ -469,14 +461,10 @@ namespace scree
     check_list("Verticals", verticals, list_of_verticals(dim));
     for (const NamedPlace &line : list_of_lines(dim))
       require_entry(line.points[0] != line.points[1],
-                    subsection,
-                    "Lines",
-                    lines,
+                    { subsection, "Lines", lines },
                     "both ends of " + quoted(line.name) + " are the same. Move one, or write it among the \"Places\".");
     require_entry(has_soil || !displacement,
-                  subsection,
-                  "Displacement",
-                  "true",
+                  { subsection, "Displacement", "true" },
                   "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
   }
 
@@ -511,213 +499,140 @@ namespace scree
                       const WaterBoundaryConditions<dim> *water_walls,
                       const bool has_soil,
                       RunFolder &folder)
-      : grid(grid)
-      , has_soil(has_soil)
+      : has_soil(has_soil)
       , has_water(water_walls != nullptr)
-      , front_thickness(parameters.front_thickness)
       , folder(folder)
   {
-    std::vector<Point<dim>> points;
-    for (const NamedPlace &place : parameters.list_of_places(dim))
-      {
-        places.push_back(new_table(place.name, names_of_state()));
-        points.push_back(point_of<dim>(place.points[0]));
-      }
-    place_values = std::make_unique<PlaceValues<dim>>(grid, points);
-    std::vector<std::string> of_line{ "Distance (m)", "x (m)", "y (m)" };
-    if (dim == 3)
-      of_line.push_back("z (m)");
-    for (const std::string &name : names_of_state())
-      of_line.push_back(name);
-    for (const NamedPlace &line : parameters.list_of_lines(dim))
-      lines.push_back({ new_table(line.name, of_line), { grid, places_on_line<dim>(line, parameters.places_a_line) } });
-
-    make_columns(parameters);
-    if (parameters.wall_forces)
-      {
-        wall_forces = std::make_unique<WallForces<dim>>(grid, box_walls, water_walls);
-        walls       = new_table("walls", wall_forces->names());
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::make_columns(const ProbeParameters &parameters)
-  {
-    std::vector<std::string> of_vertical, of_front;
-    if (has_soil)
-      {
-        of_vertical = { "Surface height (m)", "Thickness (m)" };
-        of_front    = { "Rear (m)", "Front (m)" };
-      }
-    if (has_water)
-      {
-        of_vertical.push_back("Water level (m)");
-        of_front.insert(of_front.end(), { "Water rear (m)", "Water front (m)" });
-      }
-    for (const NamedPlace &vertical : parameters.list_of_verticals(dim))
-      {
-        verticals.push_back(new_table(vertical.name, of_vertical));
-        vertical_places.push_back(vertical.points[0]);
-      }
-    if (front_thickness > 0)
-      front = new_table("front", of_front);
-  }
-
-
-  template <int dim>
-  typename Probes<dim>::Table *Probes<dim>::new_table(const std::string &name, const std::vector<std::string> &columns)
-  {
-    tables.push_back({ TableFile(folder, "probe_" + name), { "Time (s)" } });
-    auto &of_table = tables.back().columns;
-    of_table.insert(of_table.end(), columns.begin(), columns.end());
-    return &tables.back();
-  }
-
-
-  template <int dim>
-  std::vector<std::string> Probes<dim>::names_of_state() const
-  {
-    std::vector<std::string> names;
-    if (has_soil)
-      names = PlaceValues<dim>::names_of_soil();
+    std::vector<std::string> names = has_soil ? PlaceValues<dim>::names_of_soil() : std::vector<std::string>();
     if (has_water)
       for (const std::string &name : PlaceValues<dim>::names_of_water())
         names.push_back(name);
-    return names;
-  }
-
-
-  template <int dim>
-  void Probes<dim>::append(Table &table, const std::vector<std::vector<double>> &rows)
-  {
-    table.rows.append(table.columns, rows);
-  }
-
-
-  template <int dim>
-  std::vector<std::vector<double>> Probes<dim>::state_at(const PlaceValues<dim> &places,
-                                                         const ProbedState<dim> &state) const
-  {
-    std::vector<std::vector<double>> rows(places.places().size());
-    const auto add = [&](const std::vector<std::vector<double>> &values) {
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        rows[i].insert(rows[i].end(), values[i].begin(), values[i].end());
+    const auto new_group = [&](const bool of_pictures, const std::vector<NamedPlace> &places) -> Group & {
+      Group &group = groups.emplace_back(Group{ of_pictures, {}, {}, {} });
+      for (const NamedPlace &place : places)
+        add_table(group, place.name);
+      return group;
     };
+
+    std::vector<Point<dim>> points;
+    for (const NamedPlace &place : parameters.list_of_places(dim))
+      points.push_back(point_of<dim>(place.points[0]));
+    Group &places  = new_group(false, parameters.list_of_places(dim));
+    places.columns = names;
+    places.rows    = [this, values = PlaceValues<dim>(grid, points)](const auto &state) {
+      return state_at(values, state);
+    };
+
+    for (const NamedPlace &line : parameters.list_of_lines(dim))
+      {
+        Group &group  = new_group(true, { line });
+        group.columns = { "Distance (m)", "x (m)", "y (m)" };
+        if (dim == 3)
+          group.columns.push_back("z (m)");
+        group.columns.insert(group.columns.end(), names.begin(), names.end());
+        group.rows = [this, values = PlaceValues<dim>(grid, places_on_line<dim>(line, parameters.places_a_line))](
+                         const auto &state) {
+          Rows rows        = state_at(values, state);
+          const auto &from = values.places();
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            {
+              rows[i].insert(rows[i].begin(), &from[i][0], &from[i][0] + dim);
+              rows[i].insert(rows[i].begin(), from[i].distance(from.front()));
+            }
+          return rows;
+        };
+      }
+
+    Group &verticals = new_group(false, parameters.list_of_verticals(dim));
     if (has_soil)
-      add(places.of_soil(state.bodies));
+      verticals.columns = { "Surface height (m)", "Thickness (m)" };
     if (has_water)
-      add(places.of_water(state.water));
+      verticals.columns.push_back("Water level (m)");
+    Rows feet;
+    for (const NamedPlace &vertical : parameters.list_of_verticals(dim))
+      feet.push_back(vertical.points[0]);
+    verticals.rows = [this, feet, &grid](const auto &state) {
+      Rows rows(feet.size());
+      if (this->has_soil)
+        {
+          const auto columns = ground_columns(point_volumes(state.bodies), feet, grid);
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            rows[i] = { columns[i].height, columns[i].thickness };
+        }
+      if (has_water)
+        {
+          const auto columns = ground_columns(point_volumes(state.bodies, state.water, grid), feet, grid);
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            rows[i].push_back(columns[i].height);
+        }
+      return rows;
+    };
+
+    if (parameters.front_thickness > 0)
+      {
+        Group &front = new_group(false, { { "front", {} } });
+        if (has_soil)
+          front.columns = { "Rear (m)", "Front (m)" };
+        if (has_water)
+          front.columns.insert(front.columns.end(), { "Water rear (m)", "Water front (m)" });
+        front.rows = [this, &grid, thickness = parameters.front_thickness](const auto &state) {
+          std::vector<double> row;
+          const auto add = [&](const std::vector<PointVolume<dim>> &lumps) {
+            const auto [rear, tip] = rear_and_front(lumps, thickness, grid);
+            row.insert(row.end(), { rear, tip });
+          };
+          if (this->has_soil)
+            add(point_volumes(state.bodies));
+          if (has_water)
+            add(point_volumes(state.bodies, state.water, grid));
+          return Rows{ row };
+        };
+      }
+
+    if (parameters.wall_forces)
+      {
+        wall_forces   = std::make_unique<WallForces<dim>>(grid, box_walls, water_walls);
+        Group &walls  = new_group(false, { { "walls", {} } });
+        walls.columns = wall_forces->names();
+        walls.rows    = [this](const auto &state) {
+          return Rows{ wall_forces->collect(state.totals, state.time, state.view) };
+        };
+      }
+  }
+
+
+  template <int dim>
+  void Probes<dim>::add_table(Group &group, const std::string &name)
+  {
+    group.tables.push_back(&tables.emplace_back(folder, "probe_" + name));
+  }
+
+
+  template <int dim>
+  typename Probes<dim>::Rows Probes<dim>::state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const
+  {
+    Rows rows      = has_soil ? places.of_soil(state.bodies) : Rows(places.places().size());
+    const Rows wet = has_water ? places.of_water(state.water) : Rows(rows.size());
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      rows[i].insert(rows[i].end(), wet[i].begin(), wet[i].end());
     return rows;
   }
 
 
   template <int dim>
-  void Probes<dim>::write_places(const ProbedState<dim> &state)
+  void Probes<dim>::write(const ProbedState<dim> &state, const bool of_pictures)
   {
-    auto rows = state_at(*place_values, state);
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      {
-        rows[i].insert(rows[i].begin(), state.time);
-        append(*places[i], { rows[i] });
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_verticals(const ProbedState<dim> &state)
-  {
-    std::vector<std::vector<double>> rows(verticals.size(), { state.time });
-    if (has_soil)
-      {
-        const auto columns = ground_columns(lumps_of(state.bodies), vertical_places, grid);
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          rows[i].insert(rows[i].end(), { columns[i].height, columns[i].thickness });
-      }
-    if (has_water)
-      {
-        const auto columns = ground_columns(lumps_of(state.bodies, state.water, grid), vertical_places, grid);
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          rows[i].push_back(columns[i].height);
-      }
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      append(*verticals[i], { rows[i] });
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_front(const ProbedState<dim> &state)
-  {
-    std::vector<double> row{ state.time };
-    const auto add = [&](const std::vector<Lump<dim>> &lumps) {
-      const auto [rear, tip] = rear_and_front(lumps, front_thickness, grid);
-      row.insert(row.end(), { rear, tip });
-    };
-    if (has_soil)
-      add(lumps_of(state.bodies));
-    if (has_water)
-      add(lumps_of(state.bodies, state.water, grid));
-    append(*front, { row });
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_rows(const ProbedState<dim> &state)
-  {
-    if (!places.empty())
-      write_places(state);
-    if (!verticals.empty())
-      write_verticals(state);
-    if (front)
-      write_front(state);
-    if (wall_forces)
-      {
-        std::vector<double> row = wall_forces->collect(state.totals, state.time, state.view);
-        row.insert(row.begin(), state.time);
-        append(*walls, { row });
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_lines(const ProbedState<dim> &state)
-  {
-    for (Line &line : lines)
-      {
-        auto rows          = state_at(line.values, state);
-        const auto &points = line.values.places();
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          {
-            std::vector<double> where{ state.time, points[i].distance(points.front()) };
-            where.insert(where.end(), &points[i][0], &points[i][0] + dim);
-            rows[i].insert(rows[i].begin(), where.begin(), where.end());
-          }
-        append(*line.table, rows);
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::sync()
-  {
-    for (Table &table : tables)
-      table.rows.sync();
-  }
-
-
-  template <int dim>
-  void Probes<dim>::cut()
-  {
-    for (Table &table : tables)
-      table.rows.cut();
-  }
-
-
-  template <int dim>
-  void Probes<dim>::complete()
-  {
-    for (Table &table : tables)
-      table.rows.complete();
+    for (Group &group : groups)
+      if (group.of_pictures == of_pictures && !group.tables.empty())
+        {
+          Rows rows = group.rows(state);
+          for (auto &row : rows)
+            row.insert(row.begin(), state.time);
+          std::vector<std::string> columns{ "Time (s)" };
+          columns.insert(columns.end(), group.columns.begin(), group.columns.end());
+          for (unsigned int t = 0; t < group.tables.size(); ++t)
+            group.tables[t]->append(columns, group.tables.size() == 1 ? rows : Rows{ rows[t] });
+        }
   }
 
   template class Probes<2>;

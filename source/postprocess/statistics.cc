@@ -2,7 +2,7 @@
 #include <scree/input/input_error.h>
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/statistics.h>
-#include <scree/step/numbers_of.h>
+#include <scree/step/budget.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,7 +17,7 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  void RunTotals<dim>::add(const UpdateReport &report)
+  void RunBalance<dim>::add(const UpdateReport &report)
   {
     plastic_dissipation += report.plastic_dissipation;
     n_updates += report.n_updates;
@@ -29,7 +29,7 @@ namespace scree
 
 
   template <int dim>
-  Tensor<1, dim> RunTotals<dim>::impulse() const
+  Tensor<1, dim> RunBalance<dim>::impulse() const
   {
     return balance.wall_impulse + balance.body_impulse + balance.pressure_impulse + balance.load_impulse +
            balance.bed_impulse + balance.obstacle_impulse() + entered_momentum - lost_momentum;
@@ -37,7 +37,7 @@ namespace scree
 
 
   template <int dim>
-  double RunTotals<dim>::energy_taken() const
+  double RunBalance<dim>::energy_taken() const
   {
     return plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation + balance.contact_dissipation +
            balance.drag_dissipation + balance.viscous_dissipation + lost_energy - balance.load_work -
@@ -46,9 +46,9 @@ namespace scree
 
 
   template <int dim>
-  RunTotals<dim> RunTotals<dim>::sum_over_ranks(const MPI_Comm communicator) const
+  RunBalance<dim> RunBalance<dim>::sum_over_ranks(const MPI_Comm communicator) const
   {
-    RunTotals total = *this;
+    RunBalance total = *this;
     const NumbersOf numbers(total);
     std::vector<double> sums; // one message for all
     for (const double *number : numbers.list)
@@ -59,8 +59,8 @@ namespace scree
     return total;
   }
 
-  template struct RunTotals<2>;
-  template struct RunTotals<3>;
+  template struct RunBalance<2>;
+  template struct RunBalance<3>;
 
 
   namespace
@@ -317,7 +317,7 @@ namespace scree
   template <int dim>
   Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid,
                               const Tensor<1, dim> &gravity,
-                              const FurtherColumns<dim> &further)
+                              const SceneFeatures<dim> &further)
       : grid(grid)
       , gravity(gravity)
       , further(further)
@@ -329,7 +329,7 @@ namespace scree
   template <int dim>
   void Statistics<dim>::collect(const std::list<SoilBody<dim>> &bodies,
                                 const std::list<WaterPhase<dim>> &water,
-                                const RunTotals<dim> &local,
+                                const RunBalance<dim> &local,
                                 const double time,
                                 const unsigned long long step,
                                 const double time_step,

@@ -9,7 +9,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <scene_files.h> // made of files of prm/, see source/cmake/scene_files.cmake
 
 #include <algorithm>
 #include <filesystem>
@@ -27,6 +26,33 @@ namespace scree
 
   namespace
   {
+    /// What a command line asks for.
+    enum class Task
+    {
+      run,
+      resume,
+      safety,
+      advise,
+      print_parameters,
+      new_case,
+      version,
+      help
+    };
+
+    /// A command line, read.
+    struct Arguments
+    {
+      Task task = Task::run;          ///< what to do
+      std::string case_file;          ///< to read; of Task::new_case to write; may be empty where the task needs none
+      double accuracy = 0;            ///< of Task::advise, relative error
+      std::string subsection;         ///< of Task::print_parameters; empty: all
+      bool as_json           = false; ///< of Task::print_parameters
+      bool names_of_sections = false; ///< of Task::print_parameters: no more than the names of the subsections
+      std::string scene;              ///< of Task::new_case; empty: the list of scenes is asked for
+      bool overwrite = false;         ///< of Task::new_case
+    };
+
+
     /// An option of the command line.
     struct Option
     {
@@ -190,75 +216,76 @@ namespace scree
           place = word;
         }
     }
-  } // namespace
 
 
-  Arguments read_arguments(const std::vector<std::string> &words)
-  {
-    Arguments arguments;
-    arguments.accuracy          = default_accuracy;
-    const SortedWords sorted    = sort_words(split_values(words), arguments);
-    arguments.as_json           = sorted.has("--json");
-    arguments.names_of_sections = sorted.has("--sections");
-    arguments.overwrite         = sorted.has("--overwrite");
-    switch (arguments.task)
-      {
-      case Task::run:
-      case Task::resume:
-      case Task::safety:
-      case Task::advise:
-        take_case_file(sorted.others, arguments);
-        break;
-      case Task::print_parameters:
-        take_name_and_case_file(sorted.others, "subsections", arguments.subsection, arguments);
-        if (arguments.as_json && !(arguments.subsection.empty() && arguments.case_file.empty()))
-          throw fault("\"--json\" prints all entries with their defaults. Remove the subsection and the case file.");
-        if (arguments.as_json && arguments.names_of_sections)
-          throw fault("\"--json\" and \"--sections\" exclude each other. Write one of them.");
-        break;
-      case Task::new_case:
-        take_name_and_case_file(sorted.others, "scenes", arguments.scene, arguments);
-        if (arguments.scene.empty() && (!arguments.case_file.empty() || arguments.overwrite))
-          throw fault("after \"--new\", a scene is missing. Write one, such as scree --new slope case.prm; scree --new "
-                      "lists them.");
-        break;
-      default:
-        if (!sorted.others.empty())
-          throw fault(quoted(sorted.options[0].name) + " stands alone. Remove " + quoted(sorted.others[0]) + '.');
-      }
-    return arguments;
-  }
+    /// Reads the words behind `scree`; options may stand before or after the case file. Throws InputError at an unknown
+    /// option, with the closest one, and at words that are missing, too many or without effect.
+    Arguments read_arguments(const std::vector<std::string> &words)
+    {
+      Arguments arguments;
+      arguments.accuracy          = default_accuracy;
+      const SortedWords sorted    = sort_words(split_values(words), arguments);
+      arguments.as_json           = sorted.has("--json");
+      arguments.names_of_sections = sorted.has("--sections");
+      arguments.overwrite         = sorted.has("--overwrite");
+      switch (arguments.task)
+        {
+        case Task::run:
+        case Task::resume:
+        case Task::safety:
+        case Task::advise:
+          take_case_file(sorted.others, arguments);
+          break;
+        case Task::print_parameters:
+          take_name_and_case_file(sorted.others, "subsections", arguments.subsection, arguments);
+          if (arguments.as_json && !(arguments.subsection.empty() && arguments.case_file.empty()))
+            throw fault("\"--json\" prints all entries with their defaults. Remove the subsection and the case file.");
+          if (arguments.as_json && arguments.names_of_sections)
+            throw fault("\"--json\" and \"--sections\" exclude each other. Write one of them.");
+          break;
+        case Task::new_case:
+          take_name_and_case_file(sorted.others, "scenes", arguments.scene, arguments);
+          if (arguments.scene.empty() && (!arguments.case_file.empty() || arguments.overwrite))
+            throw fault(
+                "after \"--new\", a scene is missing. Write one, such as scree --new slope case.prm; scree --new "
+                "lists them.");
+          break;
+        default:
+          if (!sorted.others.empty())
+            throw fault(quoted(sorted.options[0].name) + " stands alone. Remove " + quoted(sorted.others[0]) + '.');
+        }
+      return arguments;
+    }
 
 
-  std::string usage()
-  {
-    return "Usage: scree case.prm             run a case\n"
-           "       scree case.prm --resume    continue from the newest checkpoint in its run folder\n"
-           "       scree case.prm --safety    factor of safety of a slope by strength reduction\n"
-           "       scree case.prm --advise [--accuracy 0.05]\n"
-           "                                  regime, estimated cost and recommendations\n"
-           "       scree --new                list of scenes to start from\n"
-           "       scree --new SCENE [case.prm] [--overwrite]\n"
-           "                                  write the case of a scene, by default into SCENE.prm\n"
-           "       scree --print-parameters [SUBSECTION] [case.prm]\n"
-           "                                  all entries with values and descriptions, or those of a subsection;\n"
-           "                                  defaults, or the values of a case\n"
-           "       scree --print-parameters --sections [case.prm]\n"
-           "                                  names of all subsections\n"
-           "       scree --print-parameters --json\n"
-           "                                  all entries with their types, as JSON\n"
-           "       scree --version            version and commit, libraries, compiler\n"
-           "       scree --help, -h           this text\n"
-           "Options may stand before or after the case file.\n"
-           "In parallel: mpirun -np 2 scree case.prm\n"
-           "Exit code: 0 finished, 1 error, 3 stopped on request before the end time (--resume continues, unless the "
-           "run "
-           "was settling)\n";
-  }
+    /// The text of `--help`.
+    std::string usage()
+    {
+      return "Usage: scree case.prm             run a case\n"
+             "       scree case.prm --resume    continue from the newest checkpoint in its run folder\n"
+             "       scree case.prm --safety    factor of safety of a slope by strength reduction\n"
+             "       scree case.prm --advise [--accuracy 0.05]\n"
+             "                                  regime, estimated cost and recommendations\n"
+             "       scree --new                list of scenes to start from\n"
+             "       scree --new SCENE [case.prm] [--overwrite]\n"
+             "                                  write the case of a scene, by default into SCENE.prm\n"
+             "       scree --print-parameters [SUBSECTION] [case.prm]\n"
+             "                                  all entries with values and descriptions, or those of a subsection;\n"
+             "                                  defaults, or the values of a case\n"
+             "       scree --print-parameters --sections [case.prm]\n"
+             "                                  names of all subsections\n"
+             "       scree --print-parameters --json\n"
+             "                                  all entries with their types, as JSON\n"
+             "       scree --version            version and commit, libraries, compiler\n"
+             "       scree --help, -h           this text\n"
+             "Options may stand before or after the case file.\n"
+             "In parallel: mpirun -np 2 scree case.prm\n"
+             "Exit code: 0 finished, 1 error, 3 stopped on request before the end time (--resume continues, unless the "
+             "run "
+             "was settling)\n";
+    }
 
 
-  namespace
-  {
     namespace fs = std::filesystem;
 
     /// A file of a scene: the case, which comes first, or one that it names.
@@ -318,56 +345,60 @@ namespace scree
         }
       return "";
     }
-  } // namespace
 
 
-  std::string list_of_scenes()
-  {
-    std::string list = "Scenes for scree --new SCENE:\n";
-    for (const std::string &name : names_of_scenes())
-      {
-        const std::string text        = files_of(name).front().text;
-        const std::size_t first       = text.find_first_not_of("# ");
-        const std::string description = text.substr(first, text.find('\n') - first);
-        list += "  " + name + std::string(std::max<std::size_t>(10, name.size() + 1) - name.size(), ' ') + description +
-                '\n';
-      }
-    return list;
-  }
+    /// The scenes that a case may start from, one per line, each with its description.
+    std::string list_of_scenes()
+    {
+      std::string list = "Scenes for scree --new SCENE:\n";
+      for (const std::string &name : names_of_scenes())
+        {
+          const std::string text        = files_of(name).front().text;
+          const std::size_t first       = text.find_first_not_of("# ");
+          const std::string description = text.substr(first, text.find('\n') - first);
+          list += "  " + name + std::string(std::max<std::size_t>(10, name.size() + 1) - name.size(), ' ') +
+                  description + '\n';
+        }
+      return list;
+    }
 
 
-  std::string
-  write_new_case(const std::string &scene, const std::string &file, const bool overwrite, const MPI_Comm communicator)
-  {
-    const std::vector<SceneFile> of_scene = files_of(scene);
-    if (of_scene.empty())
-      {
-        const auto close = nearest(names_of_scenes(), scene);
-        throw InputError("command line: there is no scene " + quoted(scene) + '.' +
-                         (close.empty() ? "" : " Did you mean " + quoted(close.front()) + '?') +
-                         " scree --new lists all of them.");
-      }
-    const fs::path case_file = file.empty() ? scene + ".prm" : file;
-    std::vector<std::pair<fs::path, std::string>> files;
-    for (const SceneFile &one : of_scene)
-      files.emplace_back(files.empty() ? case_file : case_file.parent_path() / one.name, one.text);
-    files[0].second = std::regex_replace(
-        files[0].second, std::regex("(\n *set Output directory *= ).*"), "$1results/" + case_file.stem().string());
+    /// Writes the case of a scene and the files that it names; its run folder is named after the case file.
+    /// @param file to write; empty: SCENE.prm in the working folder. Its other files stand beside it.
+    /// @param overwrite whether files that differ are replaced
+    /// @return what was written and what to do next, in words
+    ///
+    /// Throws InputError if there is no such scene, or if a file is there already or cannot be written. Collective.
+    std::string
+    write_new_case(const std::string &scene, const std::string &file, const bool overwrite, const MPI_Comm communicator)
+    {
+      const std::vector<SceneFile> of_scene = files_of(scene);
+      if (of_scene.empty())
+        {
+          const auto close = nearest(names_of_scenes(), scene);
+          throw InputError("command line: there is no scene " + quoted(scene) + '.' +
+                           (close.empty() ? "" : " Did you mean " + quoted(close.front()) + '?') +
+                           " scree --new lists all of them.");
+        }
+      const fs::path case_file = file.empty() ? scene + ".prm" : file;
+      std::vector<std::pair<fs::path, std::string>> files;
+      for (const SceneFile &one : of_scene)
+        files.emplace_back(files.empty() ? case_file : case_file.parent_path() / one.name, one.text);
+      files[0].second = std::regex_replace(
+          files[0].second, std::regex("(\n *set Output directory *= ).*"), "$1results/" + case_file.stem().string());
 
-    const bool writes = Utilities::MPI::this_mpi_process(communicator) == 0;
-    const std::string fault =
-        Utilities::MPI::broadcast(communicator, writes ? write_files(files, overwrite) : std::string());
-    if (!fault.empty())
-      throw InputError(fault);
-    std::string text = "Written:";
-    for (const auto &[path, content] : files)
-      text += ' ' + path.string();
-    return text + "\nNext: scree " + case_file.string() + " --advise, then scree " + case_file.string() + '\n';
-  }
+      const bool writes = Utilities::MPI::this_mpi_process(communicator) == 0;
+      const std::string fault =
+          Utilities::MPI::broadcast(communicator, writes ? write_files(files, overwrite) : std::string());
+      if (!fault.empty())
+        throw InputError(fault);
+      std::string text = "Written:";
+      for (const auto &[path, content] : files)
+        text += ' ' + path.string();
+      return text + "\nNext: scree " + case_file.string() + " --advise, then scree " + case_file.string() + '\n';
+    }
 
 
-  namespace
-  {
     constexpr int exit_code_of_a_stop = 3;
 
     /// Calls `act` with a number of the type of the case's dimension; completes its errors.

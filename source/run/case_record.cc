@@ -2,10 +2,16 @@
 #include <scree/geometry/raster.h>
 #include <scree/io/progress.h>
 #include <scree/run/case_record.h>
+#include <scree/version.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <sstream>
 
 namespace scree
@@ -34,6 +40,121 @@ namespace scree
               : rides               ? "soil and water (single-point)"
                                     : "soil and water (double-point)") +
              ", " + parameters.transfer.text();
+    }
+
+
+    constexpr std::size_t right_margin = 79;
+
+    std::string date()
+    {
+      const std::time_t now = std::time(nullptr);
+      char text[64];
+      std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S %Z", std::localtime(&now));
+      return text;
+    }
+
+    /// Of all ranks.
+    std::string megabytes(const unsigned long kilobytes, const MPI_Comm communicator)
+    {
+      return std::to_string(std::lround(Utilities::MPI::sum(double(kilobytes), communicator) / 1024)) + " MB";
+    }
+
+    Utilities::System::MemoryStats memory()
+    {
+      Utilities::System::MemoryStats kilobytes;
+      Utilities::System::get_memory_stats(kilobytes);
+      return kilobytes;
+    }
+
+    /// On all ranks.
+    template <int dim>
+    unsigned long long count(const PointSet<dim> &points, const MPI_Comm communicator)
+    {
+      const unsigned long long n = points.n_points();
+      return Utilities::MPI::sum(n, communicator);
+    }
+
+    /// "1 rank", "2 ranks"
+    std::string counted(const unsigned long long n, const std::string &what)
+    {
+      return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+    }
+
+    /// "Scree 0.9.0 (c75edbf), 2 ranks" and, at the right margin, the date.
+    std::string header_line(const MPI_Comm communicator)
+    {
+      std::string program      = version_text().substr(0, version_text().find('\n'));
+      const std::string before = "(commit ";
+      if (const std::size_t place = program.find(before); place != std::string::npos)
+        program.replace(place, before.size(), "(");
+      program += ", " + counted(Utilities::MPI::n_mpi_processes(communicator), "rank");
+      const std::string now = date();
+      program.resize(std::max(program.size() + 2, right_margin - std::min(right_margin, now.size())), ' ');
+      return program + now;
+    }
+
+    /// ", 38480 soil points, 1200 water points"; of several bodies also each one's.
+    template <int dim>
+    std::string points_text(const std::list<SoilBody<dim>> &bodies,
+                            const std::list<WaterPhase<dim>> &water,
+                            const MPI_Comm communicator)
+    {
+      std::string of_each;
+      unsigned long long n_soil = 0, n_water = 0;
+      for (const auto &body : bodies)
+        {
+          const unsigned long long n = count(body.points, communicator);
+          of_each += (of_each.empty() ? " (" : ", ") + body.name + ' ' + std::to_string(n);
+          n_soil += n;
+        }
+      for (const auto &part : water)
+        if (part.carrier() == nullptr)
+          n_water += count(part.points(), communicator);
+      return (bodies.empty() ? "" : ", " + counted(n_soil, "soil point")) + (bodies.size() > 1 ? of_each + ')' : "") +
+             (n_water > 0 ? ", " + counted(n_water, "water point") : "");
+    }
+
+
+    /// For log.txt alone: libraries, compiler and its flags, process and host.
+    void record_environment(RunFolder &folder)
+    {
+      std::istringstream version(version_text());
+      std::string program, libraries, compiler;
+      std::getline(version, program);
+      std::getline(version, libraries);
+      std::getline(version, compiler);
+      folder.record("Libraries   " + libraries);
+      folder.record("Compiler    " + compiler + ", flags " + single_blanks(compiler_flags()));
+      folder.record("Process     " + std::to_string(getpid()) + " on " + Utilities::System::get_hostname() +
+                    " (first rank)");
+    }
+
+
+    /// Logs the five lines of the head: program, commit, ranks and date; case and run folder; model and points; mesh;
+    /// memory, MB of all ranks. Records libraries, compiler and its flags, process and host. Collective.
+    template <int dim>
+    void log_header(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder)
+    {
+      const auto &grid            = scene.grid;
+      const MPI_Comm communicator = grid.communicator();
+      const double expected_bytes = scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator));
+      folder.log(header_line(communicator));
+      folder.log("Case        " + parameters.case_file + " -> " + parameters.output_directory);
+      folder.log("Model       " + model_text(parameters) + points_text(scene.bodies, scene.water, communicator));
+      const double n_cells = Utilities::MPI::sum(double(grid.fine_cells().n_owned()), communicator);
+      const double n_all   = grid.n_cells_of_box();
+      folder.log("Mesh        " + number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +
+                 (n_cells < n_all ? " around the points, in a box of " + number_text(n_all) : ""));
+      folder.log("Memory      " + std::to_string(std::lround(expected_bytes / (1024. * 1024.))) + " MB estimated");
+
+      record_environment(folder);
+      folder.record("In use      " + megabytes(memory().VmRSS, communicator) + " at the start (all ranks)");
+      const unsigned long long n_ghosts =
+          Utilities::MPI::sum(grid.numbering().partitioner()->n_ghost_indices(), communicator);
+      if (n_ghosts > 0)
+        folder.record("Ghost nodes " + std::to_string(n_ghosts));
+      if (!folder.dead_run().empty())
+        folder.log("The run before this one (" + folder.dead_run() + ") did not come to its end.");
     }
 
 
@@ -70,12 +191,7 @@ namespace scree
   template <int dim>
   void log_case(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator)
   {
-    log_header(folder,
-               { parameters.case_file, parameters.output_directory, model_text(parameters) },
-               scene.grid,
-               scene.bodies,
-               scene.water,
-               scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator)));
+    log_header(parameters, scene, folder);
     if (const Point<2> &origin = parameters.bed.map_origin; origin != Point<2>())
       folder.record(
           "Local origin: x = 0, y = 0 is " + number_text(origin) +
@@ -110,8 +226,14 @@ namespace scree
                  "conductivity. Compare with a body of Material = rigid.");
   }
 
-  template void log_case(const Parameters &, const Scene<2> &, RunFolder &, const MPI_Comm);
-  template void log_case(const Parameters &, const Scene<3> &, RunFolder &, const MPI_Comm);
+
+  void log_peak_memory(RunFolder &folder, const MPI_Comm communicator)
+  {
+    folder.record("Largest memory: " + megabytes(memory().VmHWM, communicator) + " (all ranks)");
+  }
+
+  template decltype(log_case<2>) log_case<2>;
+  template decltype(log_case<3>) log_case<3>;
 
 
   namespace
@@ -192,9 +314,9 @@ namespace scree
 
   template <int dim>
   void
-  log_balance(const Scene<dim> &scene, const RunTotals<dim> &totals, RunFolder &folder, const MPI_Comm communicator)
+  log_balance(const Scene<dim> &scene, const RunBalance<dim> &totals, RunFolder &folder, const MPI_Comm communicator)
   {
-    const RunTotals<dim> all = totals.sum_over_ranks(communicator);
+    const RunBalance<dim> all = totals.sum_over_ranks(communicator);
     double mass = 0., volume = 0.;
     bool moves = false;
     for (const auto &body : scene.bodies)
@@ -226,8 +348,8 @@ namespace scree
       }
   }
 
-  template void log_released(const Parameters &, const Scene<2> &, RunFolder &, const MPI_Comm);
-  template void log_released(const Parameters &, const Scene<3> &, RunFolder &, const MPI_Comm);
-  template void log_balance(const Scene<2> &, const RunTotals<2> &, RunFolder &, const MPI_Comm);
-  template void log_balance(const Scene<3> &, const RunTotals<3> &, RunFolder &, const MPI_Comm);
+  template decltype(log_released<2>) log_released<2>;
+  template decltype(log_released<3>) log_released<3>;
+  template decltype(log_balance<2>) log_balance<2>;
+  template decltype(log_balance<3>) log_balance<3>;
 } // namespace scree

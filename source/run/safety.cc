@@ -23,9 +23,7 @@ namespace scree
     if (first == TrialEnd::undecided)
       return {};
     require_entry(first == TrialEnd::rests,
-                  "Safety",
-                  "Lower factor",
-                  safety.lower,
+                  { "Safety", "Lower factor", safety.lower },
                   "the slope does not come to rest with its strength divided by this. Write a smaller one.");
     FactorBracket bracket{ safety.lower, 0. };
     bool has_failed = false;
@@ -38,9 +36,7 @@ namespace scree
         has_failed                                               = has_failed || end == TrialEnd::fails;
         (end == TrialEnd::fails ? bracket.fails : bracket.rests) = factor;
         require_entry(bracket.rests < safety.upper,
-                      "Safety",
-                      "Upper factor",
-                      safety.upper,
+                      { "Safety", "Upper factor", safety.upper },
                       "the slope still comes to rest with its strength divided by this. Write a larger one.");
         factor = has_failed ? 0.5 * (bracket.rests + bracket.fails) : std::min(growth * factor, safety.upper);
       }
@@ -52,33 +48,27 @@ namespace scree
   {
     void check(const Parameters &parameters)
     {
-      require_entry(!parameters.bodies.empty(), "", "Bodies", "none", "without soil there is no slope. Name a body.");
+      require_entry(
+          !parameters.bodies.empty(), { "", "Bodies", "none" }, "without soil there is no slope. Name a body.");
       require_entry(!parameters.has_water || parameters.settling.maximum_time > 0.,
-                    "Settling",
-                    "Maximum time",
-                    parameters.settling.maximum_time,
+                    { "Settling", "Maximum time", parameters.settling.maximum_time },
                     "--safety holds the pore pressure of settled soil. Write a time above 0, in s.");
       for (const BodyParameters &body : parameters.bodies)
         require_entry(body.material.law != "Nor-Sand" && body.material.law != "Nor-Sand (Jefferies-Been)",
-                      body.name,
-                      "Material",
-                      body.material.law,
+                      { body.name, "Material", body.material.law },
                       "the hardening of this law depends on the strength that --safety divides. Write Mohr-Coulomb.");
       require_entry(parameters.time_step.mass_scaling == 1.,
-                    "Time step",
-                    "Mass scaling",
-                    parameters.time_step.mass_scaling,
+                    { "Time step", "Mass scaling", parameters.time_step.mass_scaling },
                     "the times of --safety are those of the true inertia. Write 1.");
       require_entry(parameters.safety.strength_factor == 1.,
-                    "Safety",
-                    "Strength factor",
-                    parameters.safety.strength_factor,
+                    { "Safety", "Strength factor", parameters.safety.strength_factor },
                     "--safety searches this factor. Remove the entry.");
       for (const double component : parameters.gravity)
         if (component != 0.)
           return;
-      require_entry(
-          false, "", "Gravity", number_text(parameters.gravity), "without gravity no slope fails. Write another one.");
+      require_entry(false,
+                    { "", "Gravity", number_text(parameters.gravity) },
+                    "without gravity no slope fails. Write another one.");
     }
 
 
@@ -224,9 +214,7 @@ namespace scree
                " sqrt(H/g)");
     const TrialEnd first = trials.settle();
     require_entry(first != TrialEnd::fails,
-                  "Safety",
-                  "Lower factor",
-                  safety.lower,
+                  { "Safety", "Lower factor", safety.lower },
                   "the slope does not settle with its strength divided by half of this. Write a smaller one.");
     std::optional<FactorBracket> bracket;
     try

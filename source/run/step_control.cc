@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/run/step_control.h>
-#include <scree/step/timer_section.h>
+#include <scree/step/step_report.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
@@ -250,7 +250,7 @@ namespace scree
               const unsigned int mass_slot,
               const double time,
               double &lost_mass,
-              RunTotals<dim> &totals)
+              RunBalance<dim> &totals)
     {
       const auto &[face, is_open] = face_and_whether_open;
       AssertThrow(is_open,
@@ -271,7 +271,7 @@ namespace scree
 
 
   template <int dim>
-  void account_for_lost_points(Scene<dim> &scene, RunTotals<dim> &totals, const double time)
+  void account_for_lost_points(Scene<dim> &scene, RunBalance<dim> &totals, const double time)
   {
     for (auto &part : scene.water)
       for (const LostPoint<dim> &point : part.points().lost())
@@ -308,6 +308,6 @@ namespace scree
       load.points().lost().clear();
   }
 
-  template void account_for_lost_points(Scene<2> &, RunTotals<2> &, const double);
-  template void account_for_lost_points(Scene<3> &, RunTotals<3> &, const double);
+  template void account_for_lost_points(Scene<2> &, RunBalance<2> &, const double);
+  template void account_for_lost_points(Scene<3> &, RunBalance<3> &, const double);
 } // namespace scree

@@ -2,8 +2,6 @@
 #ifndef scree_case_parameters_h
 #define scree_case_parameters_h
 
-#include <scree/bodies/pressure_parameters.h>
-#include <scree/bodies/seepage_parameters.h>
 #include <scree/bodies/water_parameters.h>
 #include <scree/boundary/boundary_conditions.h>
 #include <scree/boundary/inflow/inflow_parameters.h>
@@ -184,13 +182,10 @@ namespace scree
 
   private:
     void name_bodies();
-    void name_obstacles();
-    void name_inflows();
 
     /// The subsections with this prefix. Throws EntryError if two differ by case only.
     /// @param kind `obstacle`, for the message
     std::vector<std::string> named_subsections(const std::string &prefix, const std::string &kind) const;
-    void name_contacts();
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
     void take_box_from_raster();
@@ -213,28 +208,6 @@ namespace scree
     dealii::ParameterHandler handler;
   };
 
-  /// A box around the ground of a raster.
-  struct BoxOfRaster
-  {
-    std::vector<double> lower, ///< corner, m; not yet of whole cells
-        upper;                 ///< corner, m; not yet of whole cells
-    double lowest,             ///< height of the raster, m
-        highest;               ///< height of the raster, m
-  };
-
-  /// The box that a bed's raster asks for: its outline, two cells below the lowest height, and four cells above the
-  /// highest soil. How high a body reaches that is given by an expression is not known: room for it is a quarter of the
-  /// relief and ten cells. Throws EntryError if a file cannot be read or has no heights.
-  BoxOfRaster
-  box_of_raster(const BedParameters &bed, const std::vector<BodyParameters> &bodies, const double cell_size);
-
-  /// Numbers as they must be written to be the same when they are read again, within 15 digits.
-  std::string exact_text(const std::vector<double> &numbers);
-
-  /// The coordinate system of the case's maps, see Raster::system: that of entry `Coordinate system`, else that of the
-  /// first raster that has one; empty if none is known. Throws EntryError if the entry is no such system, or if rasters
-  /// have others.
-  std::string system_of_maps(const Parameters &parameters);
 } // namespace scree
 
 #endif

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-class OGRSpatialReference;
-
 namespace scree
 {
   /// Numbers at the nodes of a regular grid in the plane, row by row with ascending y; NaN where there is none.
@@ -88,9 +86,6 @@ namespace scree
   /// The text of a .prj file.
   std::string prj_text(const std::string &system);
 
-  /// The code of the EPSG if the system has it, else the text of a .prj file; without its vertical part.
-  std::string text_of_system(const OGRSpatialReference &system);
-
   /// Stands for missing values in files, as in most programs of maps.
   constexpr double missing_value = -9999.;
 
@@ -130,15 +125,6 @@ namespace scree
     std::vector<dealii::Point<2>> corners;
     dealii::Point<2> lower, upper; // of the box around it
   };
-
-  /// The polygon of these corners, m; the last may repeat the first. Throws EntryError, which begins with `name`, if
-  /// they are fewer than three, or if edges cross.
-  Polygon checked_polygon(std::vector<dealii::Point<2>> corners, const std::string &name);
-
-  /// Reads the corners "x, y", m, one a line; the last may repeat the first. Throws EntryError, which begins with
-  /// `where` (see entry_name()), if they are fewer than three, or if edges cross.
-  /// @param origin where the map has the origin of the polygon's x and y, m
-  Polygon read_polygon(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 
   /// Areas on the map, such as those of a release; they may overlap.
   class Outline

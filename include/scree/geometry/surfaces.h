@@ -70,9 +70,6 @@ namespace scree
     std::vector<dealii::Point<2>> points;
   };
 
-  /// Reads the points "x, y", m, by read_number_table().
-  Profile read_profile(const std::string &file, const std::string &where);
-
   /// The ground of a scene in space: the heights of a raster, joined by two triangles for each four of them. The open
   /// is above it, and where a height is missing; the ground ends there in vertical walls. Distances are exact.
   class HeightSurface : public LevelSet<3>

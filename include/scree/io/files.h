@@ -41,16 +41,6 @@ namespace scree
   /// The content of `file`. Throws FileError.
   std::string read_whole_file(const std::string &file);
 
-  /// Writes `content` at the end of `file`, which has `size` bytes, or to a new file if that is 0. Throws FileError,
-  /// also if a file that was begun is gone; it then is as long as before.
-  void append_to_file(const std::string &file, const std::uintmax_t size, const std::string &content);
-
-  /// Shortens `file` to `size` bytes. Throws FileError.
-  void cut_file(const std::string &file, const std::uintmax_t size);
-
-  /// Brings to the disk what was appended to `file`. Throws FileError.
-  void sync_file(const std::string &file);
-
   /// Brings to the disk which files a folder has: after a rename or removal. Throws FileError.
   void sync_folder(const std::string &folder);
 
@@ -96,50 +86,6 @@ namespace scree
     const std::string file;
     std::uint64_t size = 0; // bytes that the disk has taken
     std::string waiting;    // rows that it has not
-  };
-
-  /// Appends numbers to a file's content, as they are in memory.
-  template <typename Value>
-  void append_bytes(std::string &buffer, const Value *values, const std::size_t n)
-  {
-    buffer.append(reinterpret_cast<const char *>(values), n * sizeof(Value));
-  }
-
-  /// Takes numbers from a file's content, as append_bytes() put them there.
-  class ByteReader
-  {
-  public:
-    /// Reads from the start.
-    /// @param file name, for messages
-    /// @param content of the file; must live on
-    ByteReader(const std::string &file, const std::string &content)
-        : file(file)
-        , next(content.data())
-        , end(content.data() + content.size())
-    {
-    }
-
-    /// Reads the next `n` numbers. Throws FileError if there are fewer.
-    template <typename Value>
-    void take(Value *values, const std::size_t n)
-    {
-      if (n > std::size_t(end - next) / sizeof(Value))
-        throw FileError(file + ": ends too early");
-      std::memcpy(values, next, n * sizeof(Value));
-      next += n * sizeof(Value);
-    }
-
-    /// Reads the next number. Throws FileError if there is none.
-    std::uint64_t take()
-    {
-      std::uint64_t value;
-      take(&value, 1);
-      return value;
-    }
-
-  private:
-    const std::string file;
-    const char *next, *const end;
   };
 
   /// A file that says which run writes to a folder: host, process, start of the process, date. It is there as long as

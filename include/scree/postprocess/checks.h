@@ -131,7 +131,7 @@ namespace scree
     /// @param time s
     void look(const std::list<SoilBody<dim>> &bodies,
               const std::list<WaterPhase<dim>> &water,
-              const RunTotals<dim> &totals,
+              const RunBalance<dim> &totals,
               const double time);
 
     /// The worst of all looks. What does not apply is left out.

@@ -4,9 +4,9 @@
 
 #include <scree/io/files.h>
 #include <scree/io/output_parameters.h>
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 #include <scree/postprocess/measures.h>
-#include <scree/transfer/water_view.h>
+#include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/geometry_info.h>
@@ -257,7 +257,6 @@ namespace scree
 
   private:
     using TimeAndFile = std::pair<double, std::string>;
-    using Cells       = std::vector<CellContents>; // by active cell index
 
     /// What is gathered at a time: paths without what follows a picture's name, and the `.pvd` of each series.
     struct Files
@@ -265,22 +264,6 @@ namespace scree
       std::vector<std::pair<std::string, std::shared_ptr<Picture>>> pictures;
       std::vector<FileContent> series;
     };
-
-    void add_points(const std::list<SoilBody<dim>> &bodies,
-                    const NodalField<dim> &field,
-                    const double time,
-                    const WaterView<dim> *view,
-                    Files &files);
-    void add_water(const NodalField<dim> &soil_field,
-                   const double time,
-                   const WaterView<dim> &view,
-                   const Cells &contents,
-                   Files &files);
-    void add_grid(const NodalField<dim> &field,
-                  const double time,
-                  const WaterView<dim> *view,
-                  const Cells &contents,
-                  Files &files);
 
     /// Adds a picture to a series.
     void add(const std::string &series,

@@ -125,7 +125,7 @@ namespace scree
 
   /// A piece of material around a point: its place, m, and volume with pores, m^3 (2D: per m).
   template <int dim>
-  struct Lump
+  struct PointVolume
   {
     dealii::Point<dim> location; ///< its centre, m
     double volume;               ///< volume with pores, m^3 (2D: per m)
@@ -133,13 +133,13 @@ namespace scree
 
   /// This rank's points as lumps: of soil, or of water with the share of the pores around that it fills.
   template <int dim>
-  std::vector<Lump<dim>> lumps_of(const std::list<SoilBody<dim>> &bodies);
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies);
 
   /// The same of the water.
   template <int dim>
-  std::vector<Lump<dim>> lumps_of(const std::list<SoilBody<dim>> &bodies,
-                                  const std::list<WaterPhase<dim>> &water,
-                                  const BackgroundGrid<dim> &grid);
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid);
 
   /// What stands above a place on the ground.
   struct GroundColumn
@@ -152,7 +152,7 @@ namespace scree
 
   /// The column at each of the places, dim - 1 coordinates, m. Collective.
   template <int dim>
-  std::vector<GroundColumn> ground_columns(const std::vector<Lump<dim>> &lumps,
+  std::vector<GroundColumn> ground_columns(const std::vector<PointVolume<dim>> &lumps,
                                            const std::vector<std::vector<double>> &places,
                                            const BackgroundGrid<dim> &grid);
 
@@ -160,7 +160,7 @@ namespace scree
   /// m: linear between the columns' centres; of all y in 3D. nan if it is nowhere as thick. Collective.
   template <int dim>
   std::pair<double, double>
-  rear_and_front(const std::vector<Lump<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid);
+  rear_and_front(const std::vector<PointVolume<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid);
 
   /// A mass, kg, and a number of it, such as a coordinate or a speed.
   struct PartOfMass

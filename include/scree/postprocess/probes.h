@@ -9,11 +9,12 @@
 #include <scree/io/run_folder.h>
 #include <scree/mesh/background_grid.h>
 #include <scree/step/budget.h>
-#include <scree/transfer/water_view.h>
+#include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -172,65 +173,53 @@ namespace scree
            RunFolder &folder);
 
     /// Adds a row to the files of places, verticals, front and walls. Collective.
-    void write_rows(const ProbedState<dim> &state);
+    void write_rows(const ProbedState<dim> &state)
+    {
+      write(state, false);
+    }
 
     /// Adds the rows of a time to the files of lines. Collective.
-    void write_lines(const ProbedState<dim> &state);
+    void write_lines(const ProbedState<dim> &state)
+    {
+      write(state, true);
+    }
 
-    /// Brings all rows to the disk, before a checkpoint counts on them.
-    void sync();
-
-    /// After the state has been read from a checkpoint: cuts off the rows that were written after it.
-    void cut();
-
-    /// Writes rows that the disk did not take. Throws FileError if it still refuses them.
-    void complete();
+    /// The tables, one a probe: to be synchronised, cut and completed with the others of the run.
+    std::list<TableFile> &files()
+    {
+      return tables;
+    }
 
     /// Saves or loads the state of the files, and that of the wall forces (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      for (Table &table : tables)
-        archive &table.rows;
+      for (TableFile &table : tables)
+        archive &table;
       if (wall_forces)
         archive &*wall_forces;
     }
 
   private:
-    /// A table, with the names of its columns.
-    struct Table
+    using Rows = std::vector<std::vector<double>>;
+
+    /// Tables that are written together.
+    struct Group
     {
-      TableFile rows;
-      std::vector<std::string> columns;
+      bool of_pictures;                 // or of rows of statistics
+      std::vector<std::string> columns; // besides the time
+      std::vector<TableFile *> tables;
+      std::function<Rows(const ProbedState<dim> &)> rows; // one a table; a single table has all of them
     };
 
-    /// Values along a line.
-    struct Line
-    {
-      Table *table;
-      PlaceValues<dim> values;
-    };
+    void add_table(Group &group, const std::string &name);
+    void write(const ProbedState<dim> &state, const bool of_pictures);
+    Rows state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const;
 
-    /// Makes the tables of verticals and front.
-    void make_columns(const ProbeParameters &parameters);
-    Table *new_table(const std::string &name, const std::vector<std::string> &columns);
-    std::vector<std::string> names_of_state() const;
-    void append(Table &table, const std::vector<std::vector<double>> &rows);
-    std::vector<std::vector<double>> state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const;
-    void write_places(const ProbedState<dim> &state);
-    void write_verticals(const ProbedState<dim> &state);
-    void write_front(const ProbedState<dim> &state);
-
-    const BackgroundGrid<dim> &grid;
     const bool has_soil, has_water;
-    const double front_thickness; // m
     RunFolder &folder;
-    std::list<Table> tables;
-    std::vector<Table *> places, verticals;
-    std::unique_ptr<PlaceValues<dim>> place_values;   // at the places, in their order
-    std::vector<std::vector<double>> vertical_places; // in the order of the verticals
-    std::list<Line> lines;
-    Table *front = nullptr, *walls = nullptr;
+    std::list<TableFile> tables;
+    std::vector<Group> groups;
     std::unique_ptr<WallForces<dim>> wall_forces; // null without that entry
   };
 } // namespace scree

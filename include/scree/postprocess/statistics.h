@@ -22,7 +22,7 @@ namespace scree
 {
   /// Sums over the steps of a run, of this rank (2D: per m); what balances and the statistics need.
   template <int dim>
-  struct RunTotals
+  struct RunBalance
   {
     Budget<dim> balance;                     ///< momentum and energy at the nodes
     dealii::Tensor<1, dim> lost_momentum;    ///< of soil and water points that left through an open wall, N s
@@ -45,10 +45,10 @@ namespace scree
         n_vertices   = 0, ///< see UpdateReport::n_vertices
         n_unresolved = 0; ///< see UpdateReport::n_unresolved
 
-    RunTotals() = default;
+    RunBalance() = default;
 
     /// @param n_obstacles of the scene
-    explicit RunTotals(const unsigned int n_obstacles)
+    explicit RunBalance(const unsigned int n_obstacles)
     {
       balance.obstacles.resize(n_obstacles);
     }
@@ -57,7 +57,7 @@ namespace scree
     void add(const UpdateReport &report);
 
     /// The sums over ranks, on all of them. Collective.
-    RunTotals sum_over_ranks(const MPI_Comm communicator) const;
+    RunBalance sum_over_ranks(const MPI_Comm communicator) const;
 
     /// What soil and water have been given, N s.
     dealii::Tensor<1, dim> impulse() const;
@@ -140,7 +140,7 @@ namespace scree
 
   /// What there are columns for besides those of all scenes.
   template <int dim>
-  struct FurtherColumns
+  struct SceneFeatures
   {
     bool loads                                = false,   ///< surface loads
         volume_correction                     = false,   ///< work of ParticleShifting
@@ -174,7 +174,7 @@ namespace scree
     static constexpr unsigned int dimension = dim; ///< 2 or 3
 
     const BackgroundGrid<dim> &grid;         ///< with the mesh as it is
-    const FurtherColumns<dim> &further;      ///< what the scene has
+    const SceneFeatures<dim> &further;       ///< what the scene has
     const std::list<SoilBody<dim>> &bodies;  ///< points of this rank
     const std::list<WaterPhase<dim>> &water; ///< points of this rank; empty without water
     const RowHistory<dim> &before;           ///< the start and the last row
@@ -184,7 +184,7 @@ namespace scree
     const std::vector<double> fronts;        ///< of the soil: x below which 90, 99 and 99.5 % of its mass are, m
     const std::vector<double> water_fronts;  ///< the same of the water
     const MotionNumbers motion;              ///< of the soil; 0 without
-    const RunTotals<dim> totals;             ///< since the start
+    const RunBalance<dim> totals;            ///< since the start
     const double time;                       ///< s
     const unsigned long long step;           ///< steps of the run
     const double time_step;                  ///< s
@@ -331,13 +331,13 @@ namespace scree
     /// @param gravity m/s^2
     Statistics(const BackgroundGrid<dim> &grid,
                const dealii::Tensor<1, dim> &gravity,
-               const FurtherColumns<dim> &further);
+               const SceneFeatures<dim> &further);
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
     void collect(const std::list<SoilBody<dim>> &bodies,
                  const std::list<WaterPhase<dim>> &water,
-                 const RunTotals<dim> &totals,
+                 const RunBalance<dim> &totals,
                  const double time,
                  const unsigned long long step,
                  const double time_step,
@@ -379,7 +379,7 @@ namespace scree
   private:
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
-    const FurtherColumns<dim> further;
+    const SceneFeatures<dim> further;
     SoilMotion<dim> motion;
     RowHistory<dim> history;
     StatisticsRow last_row;

@@ -26,7 +26,10 @@ namespace scree
   /// @param totals of this rank
   template <int dim>
   void
-  log_balance(const Scene<dim> &scene, const RunTotals<dim> &totals, RunFolder &folder, const MPI_Comm communicator);
+  log_balance(const Scene<dim> &scene, const RunBalance<dim> &totals, RunFolder &folder, const MPI_Comm communicator);
+
+  /// Records the largest memory so far, MB of all ranks. Collective.
+  void log_peak_memory(RunFolder &folder, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

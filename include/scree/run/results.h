@@ -17,41 +17,11 @@
 
 namespace scree
 {
-  /// The column of the progress table that says where a scene is: the front of the soil, or of the water without soil;
-  /// on a bed in space, where no axis is that of the motion, the largest speed.
-  template <int dim>
-  class ShownMotion
-  {
-  public:
-    /// The scene is kept by reference.
-    explicit ShownMotion(const Scene<dim> &scene);
-
-    /// Heading of the column, with the unit.
-    std::string heading() const;
-
-    /// Value of the column. Collective.
-    double value() const;
-
-    /// Kinetic energy of soil and water, J (2D: per m). Collective.
-    double kinetic_energy() const;
-
-  private:
-    enum class Kind
-    {
-      soil_front,
-      water_front,
-      largest_speed
-    };
-
-    const Scene<dim> &scene;
-    const Kind kind;
-  };
-
   /// What a run has come to, beside its points.
   template <int dim>
   struct RunState
   {
-    const RunTotals<dim> &totals;    ///< of this rank
+    const RunBalance<dim> &totals;   ///< of this rank
     const UpdateReport &last_update; ///< of this rank
     double time;                     ///< s
     unsigned long long step;         ///< number of the time step

@@ -9,7 +9,7 @@
 #include <scree/run/relaxation.h>
 #include <scree/run/results.h>
 #include <scree/run/step_control.h>
-#include <scree/step/timer_section.h>
+#include <scree/step/step_report.h>
 
 #include <limits>
 #include <memory>
@@ -205,7 +205,7 @@ namespace scree
     std::unique_ptr<Progress> progress; // of run(); null before
     bool progress_is_due = false;       // on some rank
 
-    RunTotals<dim> totals;
+    RunBalance<dim> totals;
     double point_updates = 0;                  // points times steps, of this rank
     UpdateReport last_update;                  // of this rank
     double last_time_step                 = 0; // s

@@ -133,7 +133,7 @@ namespace scree
   /// one.
   /// @param time s, for the message
   template <int dim>
-  void account_for_lost_points(Scene<dim> &scene, RunTotals<dim> &totals, const double time);
+  void account_for_lost_points(Scene<dim> &scene, RunBalance<dim> &totals, const double time);
 } // namespace scree
 
 #endif

@@ -8,7 +8,7 @@
 #include "../random_numbers.h"
 
 #include <scree/geometry/surfaces.h>
-#include <scree/mesh/rigid_boundary.h>
+#include <scree/mesh/discrete_level_set.h>
 
 #include <deal.II/base/mpi.h>
 

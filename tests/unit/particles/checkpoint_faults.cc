@@ -295,7 +295,7 @@ std::vector<double> test_return(const std::string &folder, std::ostream &out)
     {
       run.save(folder);
       out << dim << "D " << outcome<dim>(folder, sums) << ", checkpoints:";
-      for (const std::string &name : CheckpointFolder(folder).whole())
+      for (const std::string &name : whole_checkpoints(folder))
         out << ' ' << name;
       out << std::endl;
       run.step();

@@ -210,7 +210,7 @@ Observation seen(const SceneNumbers &scene)
   seen.first.seconds = 1e-3;
   seen.later         = seen.first;
   seen.memory        = 2e8;
-  seen.passages      = { { 1e-3, scene.fastest.speed(), 0. } };
+  seen.intervals     = { { 1e-3, scene.fastest.speed(), 0. } };
   return seen;
 }
 
@@ -236,7 +236,7 @@ void test_cost()
                               { TimerSection::pressure_solve, 1.5e-4 },
                               { TimerSection::sort, 2e-5 } };
   const double wave       = column.fastest.speed();
-  pilot.passages          = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
+  pilot.intervals         = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
   const Observation whole = with_pilot(start, pilot);
   const RunCost of_whole  = cost_of_run(column, whole, schedule);
   std::cout << "With a pilot: law " << whole.later.seconds_of(TimerSection::stress) / 5e-4 << ", solve "

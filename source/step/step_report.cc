@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/step/timer_section.h>
+#include <scree/step/step_report.h>
 
 namespace scree
 {

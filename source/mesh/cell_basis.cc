@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/mesh/cubic_weights.h>
+#include <scree/mesh/cell_basis.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
