@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/bodies/water_parameters.h>
+#include <scree/input/case_entries.h>
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/input/named_file.h>
 #include <scree/particles/region.h>
-#include <scree/bodies/water_parameters.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,101 @@
 namespace scree
 {
   using namespace dealii;
+
+  void PressureParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Pressure");
+    prm.add_parameter("Relative tolerance",
+                      relative_tolerance,
+                      "Residual at which a solve ends, over the larger of the right-hand side and the product of the "
+                      "matrix with the whole pressure.",
+                      Patterns::Double(1e-14, 0.1));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "Number of iterations after which a solve that has not converged stops the run.",
+                      Patterns::Integer(1, 100000));
+    prm.add_parameter(
+        "Cavitation pressure",
+        cavitation_pressure,
+        "Pa; pressure at which water cavitates: p does not fall below it. p = 0 is the atmospheric pressure.",
+        Patterns::Double(-1e15, 0));
+    prm.leave_subsection();
+  }
+
+
+  void SeepageStart::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Steady seepage",
+                      is_steady,
+                      "Whether the pore pressure at the start is that of steady flow through the soil, with a free "
+                      "surface, between the heads of \"Reservoir level\" and \"Heads at walls\". Pores are full where "
+                      "it is not negative. Water leaves through faces in air. Alternative to \"Phreatic surface\".");
+    prm.add_parameter("Heads at walls",
+                      wall_heads,
+                      "m; elevations of the water table at walls of the box for \"Steady seepage\", such as Left: 12, "
+                      "Right: 4. They hold at the start only; in the run the wall is as in subsection "
+                      "Boundaries/Water. Empty: none.",
+                      Patterns::Anything());
+  }
+
+
+  void SeepageStart::check(const unsigned int n_bodies,
+                           const std::pair<std::string, std::string> &phreatic,
+                           const std::string &reservoir_level,
+                           const std::string &initial_pressure) const
+  {
+    require_entry(is_steady || wall_heads.empty(),
+                  { "Water", "Heads at walls", wall_heads },
+                  "this entry has no effect. Remove it, or write \"Steady seepage = true\".");
+    heads();
+    if (!is_steady)
+      return;
+    require_entry(n_bodies > 0,
+                  { "Water", "Steady seepage", "true" },
+                  "there is no soil, as entry \"Bodies\" is none. Remove this entry.");
+    require_entry(phreatic.second.empty(),
+                  { "Water", phreatic.first, phreatic.second },
+                  "the water table follows from \"Steady seepage\". Keep one of the two.");
+    require_entry(!reservoir_level.empty() || !wall_heads.empty(),
+                  { "Water", "Steady seepage", "true" },
+                  "no head is given. Write a \"Reservoir level\" or \"Heads at walls\".");
+    require_entry(initial_pressure != "none",
+                  { "Water", "Initial pressure", initial_pressure },
+                  "the pressure is that of \"Steady seepage\". Keep one of the two.");
+  }
+
+
+  void SeepageStart::check_heads(const std::vector<double> &lower, const std::vector<double> &upper) const
+  {
+    const double bottom = lower.back(), top = upper.back();
+    for (const auto &[wall, head] : heads())
+      {
+        require_entry(wall != "Top",
+                      { "Water", "Heads at walls", wall_heads },
+                      "no soil at the top wall is below a head in the box. Remove \"Top\".");
+        require_entry(head > bottom && head <= top,
+                      { "Water", "Heads at walls", wall_heads },
+                      "the head of " + number_text(head) + " m is not in the box of subsection Mesh. Write one above " +
+                          number_text(bottom) + " and up to " + number_text(top) + " m, or a larger box.");
+      }
+  }
+
+
+  std::vector<std::pair<std::string, double>> SeepageStart::heads() const
+  {
+    std::vector<std::pair<std::string, double>> heads;
+    for (const std::string &part : Utilities::split_string_list(wall_heads, ','))
+      {
+        const std::vector<std::string> words = Utilities::split_string_list(part, ':');
+        const double head                    = words.size() == 2 ? number_of(words[1]) : std::nan("");
+        require_entry(std::isfinite(head),
+                      { "Water", "Heads at walls", wall_heads },
+                      "write walls with their heads in m, such as Left: 12, Right: 4.");
+        heads.emplace_back(words.front(), head);
+      }
+    return heads;
+  }
+
 
   void WaterParameters::add_parameters(ParameterHandler &prm)
   {
@@ -104,9 +201,7 @@ namespace scree
     const std::size_t dim = gravity.size();
     require_entry(
         !is_where_soil_is() || n_bodies > 0,
-        "Water",
-        "Region",
-        region,
+        { "Water", "Region", region },
         "there is no soil, as entry \"Bodies\" is none. Write where the water is, for instance x < 1 && y < 1");
     const std::string where_region = entry_name("Water", "Region");
     const std::string where_speed  = entry_name("Water", "Initial velocity");
@@ -131,18 +226,14 @@ namespace scree
     if (n_bodies == 0)
       check_without_soil();
     require_entry(conductivity >= 1e-20 && std::isfinite(conductivity),
-                  "Water",
-                  "Hydraulic conductivity",
-                  conductivity_text,
+                  { "Water", "Hydraulic conductivity", conductivity_text },
                   "write auto, or a number from 1e-20 on, in m/s.");
     if (grain_diameter > 0)
       check_grain_diameter();
     // Gravity 0 is no fault: the pressure starts at 0.
     require_entry(initial_pressure_kind() == InitialPressure::none ||
                       std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
-                  "Water",
-                  "Initial pressure",
-                  initial_pressure,
+                  { "Water", "Initial pressure", initial_pressure },
                   "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
                       number_text(gravity) + ". Change it, or write \"Initial pressure = none\".");
   }
@@ -152,9 +243,10 @@ namespace scree
   {
     const WaterParameters defaults;
     const std::string remedy = "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.";
-    require_entry(conductivity_text == "auto", "Water", "Hydraulic conductivity", conductivity_text, remedy);
-    require_entry(conductivity_law == defaults.conductivity_law, "Water", "Conductivity law", conductivity_law, remedy);
-    require_entry(grain_diameter == defaults.grain_diameter, "Water", "Grain diameter", grain_diameter, remedy);
+    require_entry(conductivity_text == "auto", { "Water", "Hydraulic conductivity", conductivity_text }, remedy);
+    require_entry(
+        conductivity_law == defaults.conductivity_law, { "Water", "Conductivity law", conductivity_law }, remedy);
+    require_entry(grain_diameter == defaults.grain_diameter, { "Water", "Grain diameter", grain_diameter }, remedy);
   }
 
 
@@ -162,20 +254,14 @@ namespace scree
   {
     const std::string grains = "\"Grain diameter\" = " + number_text(grain_diameter);
     require_entry(conductivity_text == "auto",
-                  "Water",
-                  "Hydraulic conductivity",
-                  conductivity_text,
+                  { "Water", "Hydraulic conductivity", conductivity_text },
                   "the drag follows from " + grains + ". Remove one of the two.");
     require_entry(viscosity > 0,
-                  "Water",
-                  "Viscosity",
-                  viscosity,
+                  { "Water", "Viscosity", viscosity },
                   "the drag of grains of " + grains +
                       " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
     require_entry(conductivity_law == WaterParameters().conductivity_law,
-                  "Water",
-                  "Conductivity law",
-                  conductivity_law,
+                  { "Water", "Conductivity law", conductivity_law },
                   "the drag follows from " + grains + ". Remove one of the two.");
   }
 
@@ -183,7 +269,7 @@ namespace scree
   void WaterParameters::check_air_entry(const unsigned int n_bodies) const
   {
     const auto require = [&](const bool possible, const std::string &remedy) {
-      require_entry(possible, "Water", "Air entry pressure", air_entry_pressure, remedy);
+      require_entry(possible, { "Water", "Air entry pressure", air_entry_pressure }, remedy);
     };
     require(n_bodies > 0, "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
     require(point_sets_kind() == PointSets::double_point,
@@ -200,20 +286,17 @@ namespace scree
   {
     const WaterParameters defaults;
     require_entry(is_where_soil_is(),
-                  "Water",
-                  place().first,
-                  place().second,
+                  { "Water", place().first, place().second },
                   "the soil points carry single-point water. Write \"Region = same\", or "
                   "\"Point sets = double\".");
     const std::string remedy =
         "this entry has no effect, as the soil points carry single-point water. Remove it, or write "
         "\"Point sets = double\".";
     require_entry(volume_correction_rate == defaults.volume_correction_rate,
-                  "Water",
-                  "Volume correction rate",
-                  volume_correction_rate,
+                  { "Water", "Volume correction rate", volume_correction_rate },
                   remedy);
-    require_entry(initial_velocity == defaults.initial_velocity, "Water", "Initial velocity", initial_velocity, remedy);
+    require_entry(
+        initial_velocity == defaults.initial_velocity, { "Water", "Initial velocity", initial_velocity }, remedy);
   }
 
 
@@ -222,19 +305,13 @@ namespace scree
     const std::size_t dim         = gravity.size();
     const auto [entry, elevation] = place();
     require_entry(region == WaterParameters().region,
-                  "Water",
-                  "Region",
-                  region,
+                  { "Water", "Region", region },
                   quoted(entry) + " = " + elevation + " says where water is, too. Keep one of the two.");
     require_entry(n_bodies > 0 || phreatic_surface.empty(),
-                  "Water",
-                  entry,
-                  elevation,
+                  { "Water", entry, elevation },
                   "there is no soil, as entry \"Bodies\" is none. Write a \"Reservoir level\".");
     require_entry(gravity.back() < 0 && std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(dim),
-                  "Water",
-                  entry,
-                  elevation,
+                  { "Water", entry, elevation },
                   std::string("an elevation needs gravity along -") + "xyz"[dim - 1] +
                       ", but entry \"Gravity\" = " + number_text(gravity) + ". Change it, or write a \"Region\".");
     for (const auto &[name, text] :
@@ -314,4 +391,32 @@ namespace scree
     return reservoir_level.empty() ? "" : below(reservoir_level, dim);
   }
 
+
+  void SeepageParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Hydraulic conductivity",
+                      conductivity,
+                      "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
+                      Patterns::Double(0));
+  }
+
+
+  void SeepageParameters::check(const std::string &body, const WaterParameters *water) const
+  {
+    const std::string dry =
+        "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.";
+    require_entry(water != nullptr || conductivity == 0, { body, "Hydraulic conductivity", conductivity }, dry);
+  }
+
+
+  WaterParameters SeepageParameters::in_place_of(const WaterParameters &water) const
+  {
+    WaterParameters result = water;
+    if (conductivity > 0)
+      {
+        result.conductivity   = conductivity;
+        result.grain_diameter = 0;
+      }
+    return result;
+  }
 } // namespace scree

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/body_force.h>
 #include <scree/input/input_error.h>
-#include <scree/input/named_file.h>
+#include <scree/input/case_entries.h>
 #include <scree/input/number_table.h>
-#include <scree/input/time_record.h>
 
 #include <deal.II/base/array_view.h>
 

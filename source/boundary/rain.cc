@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/rain.h>
 #include <scree/input/input_error.h>
-#include <scree/particles/cell_use.h>
+#include <scree/particles/cell_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_checks.h>
+#include <scree/input/input_error.h>
+#include <scree/materials/laws/mohr_coulomb.h>
+#include <scree/particles/region.h>
 #include <scree/seeding/water_seeding.h>
+#include <scree/transfer/transfer_parameters.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace scree
 {
@@ -11,7 +21,8 @@ namespace scree
     void check_type_for_water(const Parameters &parameters, const BedParameters &surface)
     {
       const auto require = [&](const bool possible, const std::string &remedy) {
-        require_entry(possible || !surface.no_slip(), surface.subsection, "Type for water", surface.for_water, remedy);
+        require_entry(
+            possible || !surface.no_slip(), { surface.subsection, "Type for water", surface.for_water }, remedy);
       };
       require(parameters.has_water, "this entry has no effect, as there is no subsection Water. Remove it.");
       require(
@@ -29,26 +40,20 @@ namespace scree
       if (parameters.has_water)
         names += (names.empty() ? "" : ", ") + std::string("Water");
       require_entry(body != nullptr || (inflow.is_water() && parameters.has_water),
-                    inflow.subsection,
-                    "Body",
-                    inflow.body,
+                    { inflow.subsection, "Body", inflow.body },
                     inflow.is_water() ? "there is no subsection Water. Add one, or write the name of a body."
                                       : "write what enters: " + names + ".");
       require_entry(body == nullptr || !body->is_rigid(),
-                    inflow.subsection,
-                    "Body",
-                    inflow.body,
+                    { inflow.subsection, "Body", inflow.body },
                     "a body of \"Material = rigid\" does not move. Write another one.");
       require_entry(!parameters.has_water || parameters.water.point_sets_kind() == PointSets::double_point,
-                    "Water",
-                    "Point sets",
-                    parameters.water.point_sets,
+                    { "Water", "Point sets", parameters.water.point_sets },
                     "with subsection " + inflow.subsection +
                         " water needs points of its own. Write double, or remove the inflow.");
       if (inflow.is_saturated)
         {
           const auto require = [&](const bool possible, const std::string &remedy) {
-            require_entry(possible, inflow.subsection, "Saturated", "true", remedy);
+            require_entry(possible, { inflow.subsection, "Saturated", "true" }, remedy);
           };
           require(parameters.has_water && body != nullptr,
                   "it is said of soil in a scene with water. Remove the entry, or add subsection Water.");
@@ -75,9 +80,7 @@ namespace scree
           });
       require_entry(
           are_those_of_soil || water.points_per_cell == WaterParameters().points_per_cell,
-          "Water",
-          "Points per cell",
-          water.points_per_cell,
+          { "Water", "Points per cell", water.points_per_cell },
           "this entry has no effect, as the soil points carry single-point water. Remove it, or write \"Point "
           "sets = double\".");
     }
@@ -100,9 +103,7 @@ namespace scree
         {
           const auto require = [&contact](const bool possible, const std::string &what) {
             require_entry(possible || !contact.is_set(),
-                          contact.subsection,
-                          "Bodies",
-                          contact.bodies,
+                          { contact.subsection, "Bodies", contact.bodies },
                           "bodies that slide are not possible with " + what +
                               " yet. Remove one of the two subsections.");
           };
@@ -119,9 +120,7 @@ namespace scree
       parameters.water_boundaries.check(parameters.dimension);
       for (const WaterWall &wall : parameters.water_boundaries.walls(parameters.dimension))
         require_entry(wall.type != WaterWallType::drained || wall.pressure >= parameters.pressure.cavitation_pressure,
-                      "Water/Pressure",
-                      "Cavitation pressure",
-                      parameters.pressure.cavitation_pressure,
+                      { "Water/Pressure", "Cavitation pressure", parameters.pressure.cavitation_pressure },
                       "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
                           " Pa. Water cavitates there. Write a lower number, or a higher pressure at the wall.");
       if (parameters.water.is_where_soil_is())
@@ -136,19 +135,13 @@ namespace scree
       const auto walls = parameters.boundaries.texts(3), defaults = BoundaryParameters().texts(3);
       for (unsigned int f = 0; f < walls.size(); ++f)
         require_entry(walls[f] == defaults[f],
-                      "Boundaries",
-                      FaceEntries::names(3)[f],
-                      walls[f],
+                      { "Boundaries", FaceEntries::names(3)[f], walls[f] },
                       no_soil + ", or move it to subsection Water of subsection Boundaries.");
       require_entry(!parameters.surface_load.is_set(),
-                    "Surface load",
-                    "Traction",
-                    parameters.surface_load.traction,
+                    { "Surface load", "Traction", parameters.surface_load.traction },
                     no_soil + '.');
       require_entry(parameters.settling.maximum_time == 0,
-                    "Settling",
-                    "Maximum time",
-                    parameters.settling.maximum_time,
+                    { "Settling", "Maximum time", parameters.settling.maximum_time },
                     no_soil + '.');
     }
 
@@ -158,9 +151,7 @@ namespace scree
     {
       const auto require = [&](const bool possible, const std::string &what) {
         require_entry(possible || parameters.time_step.mass_scaling == 1.,
-                      "Time step",
-                      "Mass scaling",
-                      parameters.time_step.mass_scaling,
+                      { "Time step", "Mass scaling", parameters.time_step.mass_scaling },
                       "it is for slow motion, and " + what + " depends on the true inertia. Write 1, or remove that.");
       };
       require(!parameters.body_forces.is_set(), "a base motion or body force");
@@ -177,23 +168,18 @@ namespace scree
   void check_case(const Parameters &parameters)
   {
     require_entry(parameters.gravity.size() == parameters.dimension,
-                  "",
-                  "Gravity",
-                  number_text(parameters.gravity),
+                  { "", "Gravity", number_text(parameters.gravity) },
                   "entry \"Dimension\" is " + std::to_string(parameters.dimension) + ". Write " +
                       std::to_string(parameters.dimension) + " components in m/s^2, separated by commas.");
     require_entry(parameters.dimension == 3 || (parameters.local_origin[0] == 0. && parameters.local_origin[1] == 0.),
-                  "",
-                  "Local origin",
-                  number_text(parameters.local_origin),
+                  { "", "Local origin", number_text(parameters.local_origin) },
                   "a scene in the plane has no map. Remove it.");
     require_entry(parameters.dimension == 3 || parameters.coordinate_system.empty(),
-                  "",
-                  "Coordinate system",
-                  parameters.coordinate_system,
+                  { "", "Coordinate system", parameters.coordinate_system },
                   "a scene in the plane has no map. Remove it.");
-    require_entry(
-        !parameters.output_directory.empty(), "", "Output directory", "", "name a folder, for instance results/slope");
+    require_entry(!parameters.output_directory.empty(),
+                  { "", "Output directory", "" },
+                  "name a folder, for instance results/slope");
     parameters.grid.check(parameters.dimension);
     parameters.time_step.check();
     parameters.transfer.check();
@@ -219,13 +205,358 @@ namespace scree
     check_mass_scaling(parameters);
     check_points_of_water(parameters);
     require_entry(parameters.bed.turbulent_friction == 0. || !parameters.has_water,
-                  "Bed",
-                  "Turbulent friction",
-                  parameters.bed.turbulent_friction,
+                  { "Bed", "Turbulent friction", parameters.bed.turbulent_friction },
                   "it acts on dry soil only. Remove it, or subsection Water.");
     if (parameters.has_water)
       check_water(parameters);
     if (parameters.bodies.empty())
       check_without_soil(parameters);
+  }
+
+
+  namespace
+  {
+    /// Bodies that shear within themselves before they slide on a base of this friction coefficient.
+    void add_stronger_base(const Parameters &parameters,
+                           const std::string &subsection,
+                           const std::string &entry,
+                           const double friction,
+                           std::vector<std::string> &remarks)
+    {
+      constexpr double rounding = 1.005; // an angle with three digits
+      for (const BodyParameters &body : parameters.bodies)
+        if (const double inside = make_material<2>(body.material)->plane_friction(); friction > rounding * inside)
+          remarks.push_back(
+              "Base stronger than the soil: " +
+              entry_message(
+                  { subsection, entry, number_text(std::atan(friction) * 180 / dealii::numbers::PI) + " degrees" },
+                  body.name + " shears on a plane at " + number_text(std::atan(inside) * 180 / dealii::numbers::PI) +
+                      " degrees. It does not slide on this base, and its lowest cells shear as on a fixed "
+                      "one. An angle of repose is \"Friction angle kind = direct shear or repose\"."));
+    }
+
+
+    /// Shear bands of a length that the cells do not resolve.
+    void add_unresolved_length(const BodyParameters &body, const double cell_size, std::vector<std::string> &remarks)
+    {
+      constexpr double rounding = 1e-9;
+      const double length       = make_material<2>(body.material)->nonlocal_variable().length;
+      if (length > 0 && cell_size > length / 2 * (1 + rounding))
+        remarks.push_back("Unusual value: " +
+                          entry_message({ body.material.path(body.name), "Nonlocal length", number_text(length) },
+                                        "shear bands depend on cells wider than half of it, here " +
+                                            number_text(cell_size) + " m. Use cells of at most " +
+                                            number_text(length / 2) + " m."));
+    }
+
+
+    /// Cohesion without a tensile strength in water.
+    void add_opening_soil(const BodyParameters &body, std::vector<std::string> &remarks)
+    {
+      if (body.material.law != "Mohr-Coulomb")
+        return;
+      const auto &law = body.material.of<MohrCoulombParameters>();
+      if (law.cohesion > 0. && law.tension_cut_off == 0.)
+        remarks.push_back(
+            "Unusual value: " +
+            entry_message({ body.material.path(body.name), "Tension cut-off", "0" },
+                          "with cohesion, here " + number_text(law.cohesion) +
+                              " Pa, soil in water opens in small waves, and the suction of the pores slows it. Write a "
+                              "cut-off above 0, such as the cohesion."));
+    }
+
+
+    /// Water in units other than SI.
+    void add_unusual_water(const Parameters &parameters, std::vector<std::string> &remarks)
+    {
+      constexpr unsigned int n_times = 1000;
+      double rain                    = 0.; // largest rate of its time
+      if (parameters.rain.is_set())
+        {
+          const auto rate = parse_expression<1>(entry_name("Rain", "Rate"), parameters.rain.rate, 1);
+          for (unsigned int i = 0; i <= n_times; ++i)
+            rain = std::max(rain, rate->value(dealii::Point<1>(i * parameters.end_time / n_times)));
+        }
+      const auto ask = [&](const std::string &subsection,
+                           const std::string &entry,
+                           const double value,
+                           const double lowest,
+                           const double highest,
+                           const std::string &unit) {
+        if (value != 0. && !(value >= lowest && value <= highest))
+          remarks.push_back("Unusual value: " +
+                            entry_message({ subsection, entry, number_text(value) }, "the unit is " + unit + "."));
+      };
+      constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
+      const WaterParameters &water       = parameters.water;
+      for (const BodyParameters &body : parameters.bodies)
+        ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1., conductivity_unit);
+      ask("Water", "Density", water.density, 500., 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
+      ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1., conductivity_unit);
+      ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3., "m (1 mm = 1e-3 m)");
+      ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
+      ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)");
+      ask("Rain", "Rate", rain, 1e-10, 0.1, "m/s (1 mm/h = 2.78e-7 m/s)");
+    }
+
+
+    /// A water table more than a cell above all soil. Collective.
+    template <int dim>
+    void add_table_above_soil(const Parameters &parameters,
+                              const std::list<SoilBody<dim>> &bodies,
+                              const MPI_Comm communicator,
+                              std::vector<std::string> &remarks)
+    {
+      const auto [entry, value] = parameters.water.place();
+      if (entry.rfind("Phreatic", 0) != 0 || !parameters.water.reservoir_level.empty())
+        return;
+      const Region<dim> wet(entry_name("Water", entry),
+                            parameters.water.without_fringe().region_in_soil(dim),
+                            nullptr,
+                            parameters.water.table<dim>());
+      const auto up = parameters.grid.cell_size * dealii::Point<dim>::unit_vector(dim - 1);
+      bool is_below = true;
+      for (const auto &body : bodies)
+        for_each_point(body.points,
+                       [&](const auto &point) { is_below = is_below && wet.contains(point.location + up); });
+      if (dealii::Utilities::MPI::min(int(is_below), communicator) == 1)
+        remarks.push_back("Unusual value: " +
+                          entry_message({ "Water", entry, value },
+                                        "all soil lies more than a cell below it, and no water stands outside the "
+                                        "soil. Check unit (m) and datum; write a \"Reservoir level\" for water above "
+                                        "the ground."));
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<std::string>
+  remarks_on(const Parameters &parameters, const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
+  {
+    std::vector<std::string> remarks = parameters.unread_laws;
+    for (const BodyParameters &body : parameters.bodies)
+      add_unresolved_length(body, parameters.grid.cell_size, remarks);
+    const auto walls = parameters.boundaries.walls(3);
+    const auto names = FaceEntries::names(3);
+    for (unsigned int face = 0; face < walls.size(); ++face)
+      if (names[face] == "Bottom")
+        add_stronger_base(parameters, "Boundaries", names[face], walls[face].friction_coefficient, remarks);
+    if (parameters.bed.type_kind() == BedType::friction)
+      add_stronger_base(parameters, "Bed", "Friction angle", parameters.bed.friction_coefficient(), remarks);
+    if (parameters.has_water)
+      {
+        for (const BodyParameters &body : parameters.bodies)
+          add_opening_soil(body, remarks);
+        add_unusual_water(parameters, remarks);
+        add_table_above_soil(parameters, bodies, communicator, remarks);
+      }
+    return remarks;
+  }
+
+  template decltype(remarks_on<2>) remarks_on<2>;
+  template decltype(remarks_on<3>) remarks_on<3>;
+
+
+  namespace
+  {
+    /// What --resume does with an entry that has changed.
+    enum class Change
+    {
+      free,   ///< goes on
+      noted,  ///< goes on, and the log says so
+      refused ///< stops
+    };
+
+    bool any_values(const std::string &, const std::string &)
+    {
+      return true;
+    }
+
+    /// Points carry an affine field of velocity with some methods only.
+    bool methods_of_same_points(const std::string &before, const std::string &now)
+    {
+      TransferParameters one, other;
+      one.method   = before;
+      other.method = now;
+      return one.carries_affine_field() == other.carries_affine_field();
+    }
+
+    struct Rule
+    {
+      std::string subsection, name; // no name: all entries of the subsection
+      Change change;
+      bool (*holds_for)(const std::string &before, const std::string &now) = any_values;
+    };
+
+    /// Entries without a rule must not change.
+    const std::vector<Rule> rules{ { "", "End time", Change::free },
+                                   { "", "Output directory", Change::free },
+                                   { "", "Coordinate system", Change::free },
+                                   { "Output", "", Change::free },
+                                   { "Output/Maps", "Format", Change::free },
+                                   { "Time step", "Mass scaling", Change::refused },
+                                   { "Time step", "", Change::noted },
+                                   { "Safety", "", Change::noted },
+                                   { "Transfer", "Method", Change::noted, methods_of_same_points },
+                                   { "Transfer", "PIC rate", Change::noted },
+                                   { "Water/Pressure", "Relative tolerance", Change::noted },
+                                   { "Water/Pressure", "Maximum iterations", Change::noted } };
+
+    Change kind_of(const CaseEntry &entry, const CaseEntry *before, const CaseEntry *now)
+    {
+      const auto rule = std::find_if(rules.begin(), rules.end(), [&](const Rule &r) {
+        return r.subsection == entry.subsection && (r.name.empty() || r.name == entry.name);
+      });
+      if (rule == rules.end())
+        return Change::refused;
+      const bool bears_it =
+          rule->change == Change::free || (before && now && rule->holds_for(before->value, now->value));
+      return bears_it ? rule->change : Change::refused;
+    }
+
+
+    /// An entry whose value has changed, or a subsection that only one of the cases has.
+    struct Difference
+    {
+      Change kind;
+      std::string name;   ///< of entry or subsection, as messages begin
+      std::string now;    ///< ` = 3`; of a subsection nothing
+      std::string before; ///< `2`; of a subsection whether there was one
+    };
+
+
+    std::string value_text(const CaseEntry *entry)
+    {
+      return !entry ? "no such entry" : entry->value.empty() ? "(empty)" : entry->value;
+    }
+
+
+    std::string text_before(const CaseEntry *before, const CaseEntry *now)
+    {
+      const bool are_files = before && now && !before->checksum.empty() && !now->checksum.empty();
+      return value_text(before) + (are_files ? " with other contents" : "");
+    }
+
+
+    /// The differences. Those of whole subsections come last, at the top first: they say what has happened.
+    std::vector<Difference> differences_of(const CaseEntries &before, const CaseEntries &now)
+    {
+      std::vector<Difference> result;
+      std::map<std::string, std::string> subsections; // that one of the cases has, and whether there was one
+      const auto compare = [&](const CaseEntry &entry, const CaseEntry *was, const CaseEntry *is, const bool in_both) {
+        if (was && is && same_value(*was, *is))
+          return;
+        const Change kind = kind_of(entry, was, is);
+        if (in_both)
+          result.push_back(
+              { kind, entry_name(entry.subsection, entry.name), " = " + value_text(is), text_before(was, is) });
+        else if (kind == Change::refused)
+          subsections[entry.subsection] = is ? "none" : "one";
+      };
+      for (const CaseEntry &entry : now.all())
+        compare(entry, before.find(entry.subsection, entry.name), &entry, before.has_subsection(entry.subsection));
+      for (const CaseEntry &entry : before.all())
+        if (!now.find(entry.subsection, entry.name))
+          compare(entry, &entry, nullptr, now.has_subsection(entry.subsection));
+      for (const bool at_top : { true, false })
+        for (const auto &[path, was] : subsections)
+          if (at_top == (path.find('/') == std::string::npos))
+            result.push_back({ Change::refused, "subsection " + path, "", was });
+      return result;
+    }
+  } // namespace
+
+
+  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &entries)
+  {
+    constexpr unsigned int most_names = 4;
+    std::vector<std::string> notes;
+    std::vector<Difference> refused;
+    for (const Difference &difference : differences_of(checkpoint.entries, entries))
+      if (difference.kind == Change::refused)
+        refused.push_back(difference);
+      else if (difference.kind == Change::noted)
+        notes.push_back("Changed from here on: " + difference.name + difference.now + ", before " + difference.before +
+                        '.');
+    if (refused.empty())
+      return notes;
+    std::string others;
+    for (unsigned int d = 1; d < std::min<std::size_t>(refused.size(), most_names); ++d)
+      others += (others.empty() ? " Changed, too: " : "; ") + refused[d].name;
+    if (refused.size() > most_names)
+      others += "; and " + std::to_string(refused.size() - most_names) + " more";
+    const Difference &first = refused.front();
+    throw EntryError(first.name + first.now + ": the run that wrote " + checkpoint.folder + " had " + first.before +
+                     ", and --resume cannot change that. Write it as it was, or run without --resume in another "
+                     "\"Output directory\"." +
+                     others + (others.empty() ? "" : "."));
+  }
+
+
+  std::string removed_entry_remedy(const std::string &subsection, const std::string &entry, const std::string &value)
+  {
+    const auto measured = [](const std::string &section) {
+      return " (measurements: doc/developer/development_log.md#" + section + ").";
+    };
+    const std::string pressure = measured("choices-for-the-pressure-that-failed");
+    const std::string transfer = measured("removed-transfers"), step = measured("variational-pressure-step"),
+                      unused = measured("removed-entries");
+    // Entries, values of entries that are still there, or subsections; * is the name of a body or surface.
+    const std::map<std::string, std::string> remedies{
+      { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\". Remove the line" + pressure },
+      { "Water/Pressure/Free surface",
+        "The surface is always found inside the cells, as with \"distance\". Remove the line" + pressure },
+      { "Water/Pressure/Splitting",
+        "Pressure and drag are always solved together, as with \"drag in correction\". Remove the line" + pressure },
+      { "Water/Pressure/Step", "The step is always that of \"variational\". Remove the line" + step },
+      { "Water/Pressure/Previous pressure",
+        "The pressure of the points always counts with its gradient. Remove the line" + step },
+      { "Water/Pressure/Fading", "The pressure makes no energy that had to fade. Remove the line" + step },
+      { "Water/Pressure/Projection", "The pressure needs no projection. Remove the line" + step },
+      { "Settling/Damping rate", "Settling stops all where the kinetic energy is largest. Remove the line." },
+      { "Settling/Kinetic energy", "Settling ends by \"Unbalanced force\". Remove the line, or write that entry." },
+      { "Transfer/Method = auto", "Remove the line, or write AFLIP, which is the default" + transfer },
+      { "Transfer/Method = PIC", "Write FLIP, which with \"PIC rate = 1e9\" is the same" + transfer },
+      { "Transfer/Stress update",
+        "The strain is always that of \"USL\". Remove the line, and a \"Courant number\" above 0.6" + transfer },
+      { "Mesh/Basis = quadratic", "Write spline, which is the default" + transfer },
+      { "Mesh/Box",
+        "The box follows from the raster of the bed if both corners are left out. Remove the line" + unused },
+      { "Mesh/Fine cells", "Cells are fine around the points. Remove the line" + unused },
+      { "Transfer/Method = APIC", "Write TPIC, which has a smaller error in the same scenes" + unused },
+      { "Base motion/Scale", "Write the record in m/s^2" + unused },
+      { "Bed/Friction angles", "Write one \"Friction angle\"" + unused },
+      { "*/Closed surface", "Write a \"Level set expression\", or \"Region\" for a body" + unused },
+      { "*/Lower surface", "Write a subsection Bed with this raster" + unused },
+      { "*/Jitter", "Points start on a lattice. Remove the line" + unused },
+      { "Water/Jitter", "Points start on a lattice. Remove the line" + unused },
+      { "*/Grain diameter", "Write \"Hydraulic conductivity\", or the diameter in subsection Water" + unused },
+      { "Water/Fluidisation porosity", "Soil separates by its law. Remove the line" + unused },
+      { "Water/Phreatic surface file", "Write the elevation as expression \"Phreatic surface\"" + unused },
+      { "Water/Suspension", "Grains add no viscosity, as their laws missed the measurements. Remove it" + unused },
+      { "Rain/Region", "Rain falls on all of the soil. Remove the line" + unused },
+      { "Settling/Type", "The pore pressure is always held, as with \"drained\". Remove the line" + unused },
+      { "Safety/Damping rate", "The rate is 2 sqrt(gravity/height of the soil). Remove the line" + unused },
+      { "Safety/Maximum time", "A trial takes at most 40 sqrt(height of the soil/gravity). Remove the line" + unused },
+      { "Output/Checkpoint failure", "The run stops, and --resume continues it. Remove the line" + unused },
+      { "*/Nor-Sand/Critical friction angle", "Write M = 6 sin/(3 - sin) as \"Critical stress ratio M\"" + unused },
+      { "*/Nor-Sand/Friction angle kind", "Write \"Critical stress ratio M\". Remove the line" + unused },
+      { "*/Nor-Sand/Grain diameter", "Only Mohr-Coulomb has inertial friction. Remove the line" + unused },
+      { "*/Nor-Sand/Reference inertial number", "Only Mohr-Coulomb has inertial friction. Remove the line" + unused },
+      { "*/Nor-Sand/Friction increase", "Only Mohr-Coulomb has inertial friction. Remove the line" + unused },
+      { "*/Nor-Sand (Jefferies-Been)/Critical line",
+        "The critical line is straight in ln p. Remove the line" + unused },
+      { "*/Nor-Sand (Jefferies-Been)/Curve void ratio", "Write \"Critical void ratio\"" + unused },
+      { "*/Nor-Sand (Jefferies-Been)/Curve coefficient", "Write \"Compression index\"" + unused },
+      { "*/Nor-Sand (Jefferies-Been)/Curve exponent",
+        "The critical line is straight in ln p. Remove the line" + unused },
+    };
+    const std::string path = subsection_path(subsection, entry);
+    const bool is_in_body  = path.rfind("Water/", 0) != 0;
+    for (const std::string &name :
+         { path, path + " = " + value, is_in_body ? '*' + path.substr(std::min(path.find('/'), path.size())) : "" })
+      if (const auto found = remedies.find(name); found != remedies.end())
+        return "It was removed after version 0.9. " + found->second;
+    return "";
   }
 } // namespace scree

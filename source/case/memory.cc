@@ -274,11 +274,16 @@ namespace scree
   }
 
 
-  double available_memory()
+  namespace
   {
-    const double free = 1024 * number_after("MemAvailable:", "/proc/meminfo");
-    return std::min({ free > 0 ? free : std::numeric_limits<double>::infinity(), left_by_groups(), left_by_limit() });
-  }
+    /// Bytes that this host still has for this process: what is free, and what its control groups and limits let it
+    /// take.
+    double available_memory()
+    {
+      const double free = 1024 * number_after("MemAvailable:", "/proc/meminfo");
+      return std::min({ free > 0 ? free : std::numeric_limits<double>::infinity(), left_by_groups(), left_by_limit() });
+    }
+  } // namespace
 
 
   template <int dim>
@@ -299,9 +304,7 @@ namespace scree
     if (needed > available)
       {
         const auto [subsection, entry, value] = largest_part(parameters, estimate);
-        fault                                 = entry_message(subsection,
-                              entry,
-                              number_text(value),
+        fault                                 = entry_message({ subsection, entry, number_text(value) },
                               "the run would need about " + size_text(needed) + " of memory, for " +
                                   number_text(estimate.n_cells) + " cells and about " +
                                   number_text(estimate.n_soil_points + estimate.n_water_points) + " points, but only " +
@@ -314,6 +317,6 @@ namespace scree
 
   template MemoryEstimate estimate_memory<2>(const Parameters &);
   template MemoryEstimate estimate_memory<3>(const Parameters &);
-  template MemoryEstimate require_memory<2>(const Parameters &, const MPI_Comm);
-  template MemoryEstimate require_memory<3>(const Parameters &, const MPI_Comm);
+  template decltype(require_memory<2>) require_memory<2>;
+  template decltype(require_memory<3>) require_memory<3>;
 } // namespace scree

@@ -1,20 +1,266 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/case/box_of_raster.h>
 #include <scree/case/case_checks.h>
-#include <scree/case/map_system.h>
-#include <scree/case/removed_entries.h>
 #include <scree/case/parameters.h>
+#include <scree/geometry/raster.h>
+#include <scree/input/input_error.h>
+#include <scree/input/input_file.h>
+#include <scree/materials/laws/mohr_coulomb.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// A box around the ground of a raster.
+    struct BoxOfRaster
+    {
+      std::vector<double> lower, ///< corner, m; not yet of whole cells
+          upper;                 ///< corner, m; not yet of whole cells
+      double lowest,             ///< height of the raster, m
+          highest;               ///< height of the raster, m
+    };
+
+
+    /// How far above the ground's highest place the body may reach, m.
+    double room_for(const BodyParameters &body,
+                    const BedParameters &bed,
+                    const double highest,
+                    const double relief,
+                    const double cell_size)
+    {
+      const SourceMapParameters &source = body.seeding.source;
+      const auto largest                = [&](const std::string &entry, const std::string &file) {
+        return read_raster(file, entry_name(body.name, entry), bed.map_origin).range().second;
+      };
+      if (!source.thickness.empty())
+        return largest("Thickness", source.thickness);
+      if (!source.upper_surface.empty())
+        return std::max(0., largest("Upper surface", source.upper_surface) - highest);
+      return 0.25 * relief + 10. * cell_size;
+    }
+
+
+    /// The box that a bed's raster asks for: its outline, two cells below the lowest height, and four cells above the
+    /// highest soil. How high a body reaches that is given by an expression is not known: room for it is a quarter of
+    /// the relief and ten cells. Throws EntryError if a file cannot be read or has no heights.
+    BoxOfRaster
+    box_of_raster(const BedParameters &bed, const std::vector<BodyParameters> &bodies, const double cell_size)
+    {
+      const Raster raster          = read_raster(bed.raster(), entry_name(bed.subsection, "Raster"), bed.map_origin);
+      const auto [lowest, highest] = raster.range();
+      require_entry(lowest <= highest,
+                    { bed.subsection, "Raster", bed.raster() },
+                    "all its heights are missing (NODATA). Look at the file.");
+      double room = 0.;
+      for (const BodyParameters &body : bodies)
+        room = std::max(room, room_for(body, bed, highest, highest - lowest, cell_size));
+      const double floor = cell_size * (std::floor(lowest / cell_size) - 2.);
+      return { { raster.x, raster.y, floor },
+               { raster.last_x(), raster.last_y(), highest + room + 4. * cell_size },
+               lowest,
+               highest };
+    }
+
+
+    /// Numbers as they must be written to be the same when they are read again, within 15 digits.
+    std::string exact_text(const std::vector<double> &numbers)
+    {
+      std::ostringstream text;
+      text.precision(15);
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        text << (i == 0 ? "" : ", ") << numbers[i];
+      return text.str();
+    }
+
+
+    /// The rasters of a case in space: what messages call their entries, and the files.
+    std::vector<std::pair<std::string, std::string>> rasters_of(const Parameters &parameters)
+    {
+      std::vector<std::pair<std::string, std::string>> result;
+      const auto add = [&](const std::string &subsection, const std::string &entry, const std::string &file) {
+        if (!file.empty())
+          result.emplace_back(entry_name(subsection, entry), file);
+      };
+      add(parameters.bed.subsection, "Raster", parameters.bed.raster());
+      for (const ObstacleParameters &obstacle : parameters.obstacles)
+        add(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
+      for (const BodyParameters &body : parameters.bodies)
+        {
+          const SourceMapParameters &source = body.seeding.source;
+          add(body.name, "Thickness", source.thickness);
+          add(body.name, "Upper surface", source.upper_surface);
+        }
+      return result;
+    }
+
+
+    /// Throws EntryError if an outline has another coordinate system than the maps; without one of theirs it has none.
+    void check_outlines(const Parameters &parameters,
+                        const std::string &system,
+                        const std::string &source,
+                        const dealii::Point<2> &place)
+    {
+      for (const BodyParameters &body : parameters.bodies)
+        if (const std::string &file = body.seeding.source.outline; !file.empty())
+          {
+            const std::string entry = entry_name(body.name, "Outline"), of_outline = read_outline_system(file, entry);
+            if (!system.empty() && !of_outline.empty() && !is_same_system(system, of_outline, place))
+              throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_outline) +
+                               ", but that of " + source + " is " + name_of_system(system) +
+                               ". All maps of a case must have the same one: convert the outline with ogr2ogr -t_srs.");
+          }
+    }
+
+
+    /// The coordinate system of the case's maps, see Raster::system: that of entry `Coordinate system`, else that of
+    /// the first raster that has one; empty if none is known. Throws EntryError if the entry is no such system, or if
+    /// rasters have others.
+    std::string system_of_maps(const Parameters &parameters)
+    {
+      if (parameters.dimension != 3)
+        return "";
+      std::string system = parameters.coordinate_system, source;
+      if (!system.empty())
+        {
+          source = entry_name("", "Coordinate system");
+          require_system_in_metres(system, source + " = " + system + ": ");
+        }
+      // A place of the map.
+      const dealii::Point<2> place(parameters.local_origin[0] + parameters.grid.lower_corner[0],
+                                   parameters.local_origin[1] + parameters.grid.lower_corner[1]);
+      for (const auto &[entry, file] : rasters_of(parameters))
+        {
+          const std::string of_raster = read_raster_system(file, entry);
+          if (of_raster.empty())
+            continue;
+          if (system.empty())
+            system = of_raster, source = entry + " = " + file;
+          if (!is_same_system(system, of_raster, place))
+            throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_raster) +
+                             ", but that of " + source + " is " + name_of_system(system) +
+                             ". All maps of a case must have the same one: convert the raster with gdalwarp -t_srs.");
+        }
+      check_outlines(parameters, system, source, place);
+      if (parameters.output.maps.write && parameters.output.maps.writes_geo_tiff() && !system.empty())
+        require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
+      return system;
+    }
+  } // namespace
+
+
+  void BodyParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection(name);
+    seeding.add_parameters(prm);
+    seepage.add_parameters(prm);
+    material.add_parameters(prm);
+    initial_state.add_parameters(prm);
+    prm.leave_subsection();
+  }
+
+
+  void BodyParameters::check(const std::vector<double> &gravity, const WaterParameters *water) const
+  {
+    seeding.check(name, gravity.size());
+    seepage.check(name, water);
+    material.check(name);
+    initial_state.check(name, gravity);
+    if (is_rigid())
+      check_rigid();
+  }
+
+
+  void BodyParameters::check_rigid() const
+  {
+    require_entry(seeding.initial_velocity.empty(),
+                  { name, "Initial velocity", seeding.initial_velocity },
+                  "\"Material = rigid\" does not move. Remove one of the two.");
+    require_entry(initial_state.stress_kind() == InitialStress::none,
+                  { name + "/Initial state", "Type", initial_state.type },
+                  "the stress of \"Material = rigid\" is not known. Remove the entry.");
+  }
+
+
+  bool BodyParameters::is_rigid() const
+  {
+    return material.is_rigid();
+  }
+
+
+  double BodyParameters::initial_porosity() const
+  {
+    return seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
+  }
+
+
+  double BodyParameters::bulk_density() const
+  {
+    return seeding.grain_density * (1. - initial_porosity());
+  }
+
+
+  double BodyParameters::k0() const
+  {
+    return initial_state.k0_ratio(material.chosen().sine_of_friction());
+  }
+
+
+  double BodyParameters::wave_speed() const
+  {
+    const auto law = make_material<2>(material);
+    return law->wave_speed(law->initial_bulk_modulus(initial_state.pressure), 0., bulk_density());
+  }
+
+
+  void SafetyParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Safety");
+    prm.add_parameter("Strength factor",
+                      strength_factor,
+                      "Factor by which a run divides the strength of the soil, and the friction of bases, contacts and "
+                      "walls, from the release on. --safety searches it; there it must be 1.",
+                      Patterns::Double(1e-3, 1e3));
+    prm.add_parameter("Lower factor",
+                      lower,
+                      "--safety: lower end of the range of the factor. Before the search the slope settles with the "
+                      "strength divided by half of it.",
+                      Patterns::Double(1e-3, 1e3));
+    prm.add_parameter(
+        "Upper factor", upper, "--safety: upper end of the range of the factor.", Patterns::Double(1e-3, 1e3));
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "--safety: largest difference between the smallest factor that fails and the largest one that "
+                      "rests.",
+                      Patterns::Double(1e-4, 1));
+    prm.add_parameter("Displacement",
+                      displacement,
+                      "--safety: the slope fails where 1 % of the soil has moved by more than this, over the height of "
+                      "the slope. Write more for soil so soft that it deforms as much without failure. It also bounds "
+                      "the displacement while the soil settles.",
+                      Patterns::Double(1e-6, 10));
+    prm.leave_subsection();
+  }
+
+
+  void SafetyParameters::check() const
+  {
+    require_entry(lower + tolerance < upper,
+                  { "Safety", "Upper factor", upper },
+                  "it must exceed \"Lower factor\" = " + number_text(lower) + " by more than the tolerance.");
+  }
+
 
   Parameters::Parameters()
   {
@@ -35,9 +281,12 @@ namespace scree
     try
       {
         name_bodies();
-        name_obstacles();
-        name_inflows();
-        name_contacts();
+        for (const std::string &subsection : named_subsections(ObstacleParameters::prefix, "obstacle"))
+          obstacles.emplace_back(subsection);
+        for (const std::string &subsection : named_subsections(InflowParameters::prefix, "inflow"))
+          inflows.emplace_back(subsection);
+        for (const std::string &subsection : file.subsections(ContactParameters::prefix))
+          contacts.emplace_back(subsection);
         has_water = file.has_subsection("Water");
         // Suggestions include water's entries also where a dry run's list of all entries leaves them out: read again,
         // that list must not make the scene wet.
@@ -114,9 +363,7 @@ namespace scree
                               name.rfind(InflowParameters::prefix, 0) == 0 ||
                               name.rfind(ContactParameters::prefix, 0) == 0;
         require_entry(!name.empty() && is_new && !is_taken && name != "none",
-                      "",
-                      "Bodies",
-                      names,
+                      { "", "Bodies", names },
                       (name.empty()     ? "a name is missing"
                        : !is_new        ? quoted(name) + " stands there twice"
                        : name == "none" ? "\"none\" stands for no body at all"
@@ -140,27 +387,6 @@ namespace scree
                            "statistics. Write another name.");
       }
     return subsections;
-  }
-
-
-  void Parameters::name_obstacles()
-  {
-    for (const std::string &subsection : named_subsections(ObstacleParameters::prefix, "obstacle"))
-      obstacles.emplace_back(subsection);
-  }
-
-
-  void Parameters::name_inflows()
-  {
-    for (const std::string &subsection : named_subsections(InflowParameters::prefix, "inflow"))
-      inflows.emplace_back(subsection);
-  }
-
-
-  void Parameters::name_contacts()
-  {
-    for (const std::string &subsection : file.subsections(ContactParameters::prefix))
-      contacts.emplace_back(subsection);
   }
 
 
@@ -316,14 +542,13 @@ namespace scree
 
   void Parameters::check_dry() const
   {
-    require_entry(
-        !bodies.empty(), "", "Bodies", "none", "the scene is empty. Name a body of soil, or add a subsection Water.");
+    require_entry(!bodies.empty(),
+                  { "", "Bodies", "none" },
+                  "the scene is empty. Name a body of soil, or add a subsection Water.");
     const std::string subsection = "Boundaries/Water";
     for (const auto &face : FaceEntries::names(3))
       require_entry(!file.sets(subsection, face),
-                    subsection,
-                    face,
-                    file.value(subsection, face, ""),
+                    { subsection, face, file.value(subsection, face, "") },
                     "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
   }
 
@@ -339,9 +564,7 @@ namespace scree
           const auto [entry, value] = file.changed_entry(path, defaults);
           if (entry.empty())
             continue;
-          const std::string text = entry_message(path,
-                                                 entry,
-                                                 value,
+          const std::string text = entry_message({ path, entry, value },
                                                  "this entry has no effect, as \"Material\" is " + body.material.law +
                                                      ". Write \"Material = " + law.name + "\", or remove the entry.");
           if (!file.sets(body.name, "Material")) // a law by default is hardly meant
@@ -405,5 +628,165 @@ namespace scree
   InputError Parameters::error(const EntryError &error) const
   {
     return file.error(error.what());
+  }
+
+
+  void Parameters::print(std::ostream &out)
+  {
+    handler.print_parameters(out, ParameterHandler::PRM);
+  }
+
+
+  void Parameters::print_json(std::ostream &out)
+  {
+    handler.print_parameters(out, ParameterHandler::JSON | ParameterHandler::KeepDeclarationOrder);
+  }
+
+
+  namespace
+  {
+    /// The paths whose last names, or which as a whole, are closest to `path`, in words; empty: none is.
+    std::string meant_subsections(const std::vector<std::string> &paths, const std::string &path)
+    {
+      const auto last_name = [](const std::string &one) { return one.substr(one.rfind('/') + 1); };
+      std::vector<std::string> last_names;
+      for (const std::string &one : paths)
+        last_names.push_back(last_name(one));
+      std::vector<std::string> close = nearest(paths, path);
+      if (close.empty() || lower_case(close.front()) != lower_case(path))
+        if (const auto names = nearest(last_names, last_name(path)); !names.empty())
+          {
+            close.clear();
+            for (const std::string &one : paths)
+              if (std::find(names.begin(), names.end(), last_name(one)) != names.end())
+                close.push_back(one);
+          }
+      std::string text;
+      for (const std::string &one : close)
+        text += (text.empty() ? " Did you mean " : " or ") + quoted(one);
+      return text.empty() ? "" : text + '?';
+    }
+  } // namespace
+
+
+  void Parameters::print_sections(const std::string &path, std::ostream &out)
+  {
+    for (const std::string &one : DeclaredNames(handler).subsection_paths())
+      if (path.empty() || (one + '/').rfind(path + '/', 0) == 0)
+        out << one << '\n';
+  }
+
+
+  void Parameters::print_subsection(const std::string &path, std::ostream &out)
+  {
+    const auto paths    = DeclaredNames(handler).subsection_paths();
+    const bool is_there = std::find(paths.begin(), paths.end(), path) != paths.end();
+    if (!is_there && !case_file.empty() && path.rfind("Soil", 0) != 0)
+      try
+        {
+          return Parameters().print_subsection(path, out); // The case does not have it yet: the defaults.
+        }
+      catch (const InputError &)
+        {
+        } // No case has it.
+    if (!is_there)
+      throw InputError("command line: there is no subsection " + quoted(path) + '.' + meant_subsections(paths, path) +
+                       (case_file.empty()
+                            ? " scree --print-parameters --sections lists all of them; \"Soil\" stands "
+                              "for any body. A case file adds its own names."
+                            : " scree " + case_file + " --print-parameters --sections lists all of them."));
+    std::stringstream all;
+    print(all);
+    std::vector<std::string> open; // subsections
+    for (std::string line; std::getline(all, line);)
+      {
+        const std::string statement = Utilities::trim(line);
+        if (statement.rfind("subsection ", 0) == 0)
+          open.push_back(subsection_path(open.empty() ? "" : open.back(), statement.substr(11)));
+        if (!open.empty() && (open.back() + '/').rfind(path + '/', 0) == 0)
+          out << line << '\n';
+        if (statement == "end")
+          open.pop_back();
+      }
+  }
+
+
+  void Parameters::set(const std::string &path, const std::string &entry, const std::string &value)
+  {
+    const std::vector<std::string> subsections = Utilities::split_string_list(path, '/');
+    for (const std::string &subsection : subsections)
+      handler.enter_subsection(subsection);
+    handler.set(entry, value);
+    for (unsigned int s = 0; s < subsections.size(); ++s)
+      handler.leave_subsection();
+  }
+
+
+  void Parameters::print_into(const std::string &folder, std::ostream &out)
+  {
+    for (const NamedFile &named : named_files)
+      set(named.subsection, named.entry, std::filesystem::relative(named.path, folder));
+    print(out);
+    for (const NamedFile &named : named_files)
+      set(named.subsection, named.entry, named.path);
+  }
+
+
+  void Parameters::take_unit_weights()
+  {
+    for (const BodyParameters &body : bodies)
+      {
+        const SeedingParameters &seeding = body.seeding;
+        if (!seeding.has_unit_weights())
+          continue;
+        UnitWeights given{ seeding.dry_unit_weight,
+                           seeding.saturated_unit_weight,
+                           seeding.grain_density,
+                           file.sets(body.name, "Grain density"),
+                           {} };
+        if (const double porosity = body.initial_porosity(); porosity > 0 || seeding.initial_porosity >= 0)
+          given.porosity = porosity;
+        const GrainsAndPores result = grains_and_pores(body.name, given, size_of_gravity(), water.density);
+        require_entry(has_water || seeding.dry_unit_weight > 0,
+                      { body.name, "Saturated unit weight", seeding.saturated_unit_weight },
+                      "the scene is dry, and the soil would weigh less than this. Write \"Dry unit weight\" (in total "
+                      "stress the same value), or add subsection Water.");
+        handler.enter_subsection(body.name);
+        handler.set("Grain density", exact_text({ result.grain_density }));
+        handler.set("Initial porosity", exact_text({ result.porosity }));
+        handler.leave_subsection();
+      }
+  }
+
+
+  void Parameters::reduce_strength(const double factor)
+  {
+    set("Safety", "Strength factor", exact_text({ factor })); // for the record, and for the bed's raster of angles
+    bool has_strength = false;
+    for (BodyParameters &body : bodies)
+      {
+        if (body.initial_state.stress_kind() == InitialStress::k0)
+          body.initial_state.k0 = exact_text({ body.k0() }); // of the soil as it is
+        has_strength = body.material.divide_strength(factor) || has_strength;
+        body.material.check(body.name); // The law must be possible with that strength, too.
+      }
+    require_entry(has_strength,
+                  { "Safety", "Strength factor", factor },
+                  "no body has a law with strength that could be reduced. Write another \"Material\".");
+
+    const auto reduce = [factor](double &angle) { angle = divided_angle(angle, factor); };
+    reduce(bed.friction_angle);
+    for (ObstacleParameters &obstacle : obstacles)
+      reduce(obstacle.surface.friction_angle);
+    for (ContactParameters &contact : contacts)
+      reduce(contact.friction_angle);
+    for (std::string *wall : { &boundaries.left,
+                               &boundaries.right,
+                               &boundaries.front,
+                               &boundaries.back,
+                               &boundaries.bottom,
+                               &boundaries.top })
+      if (const std::string friction = "friction "; wall->rfind(friction, 0) == 0)
+        *wall = friction + exact_text({ divided_angle(number_of(wall->substr(friction.size())), factor) });
   }
 } // namespace scree

@@ -2,7 +2,6 @@
 #include <scree/element/element_command_line.h>
 #include <scree/element/element_driver.h>
 #include <scree/input/input_file.h>
-#include <scree/input/suggestions.h>
 #include <scree/version.h>
 
 #include <algorithm>

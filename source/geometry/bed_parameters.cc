@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/bed_parameters.h>
-#include <scree/geometry/rigid_shape.h>
+#include <scree/input/case_entries.h>
+#include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/input/named_file.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,76 @@
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Made at the first call, whichever source file registers first.
+    auto &shapes()
+    {
+      static std::vector<std::pair<std::string, RigidShape>> all;
+      return all;
+    }
+
+
+    /// 0: all, 1: plane ones, 2: those in space.
+    int scenes_of(const RigidShape &shape)
+    {
+      return !shape.make_3d ? 1 : !shape.make_2d ? 2 : 0;
+    }
+  } // namespace
+
+
+  std::string ShapeRequest::where() const
+  {
+    return entry_name(subsection, entry);
+  }
+
+
+  void ShapeRequest::require(const bool possible, const std::string &remedy) const
+  {
+    require_entry(possible, { subsection, entry, value }, remedy);
+  }
+
+
+  void ShapeRequest::require_cover(const unsigned int axis,
+                                   const double first,
+                                   const double last,
+                                   const double rounding) const
+  {
+    require(first <= lower[axis] + rounding && last >= upper[axis] - rounding,
+            std::string("the ground reaches from ") + "xyz"[axis] + " = " + number_text(first) + " to " +
+                number_text(last) +
+                " m only and does not cover the box of subsection Mesh. Write a longer ground or a smaller box.");
+  }
+
+
+  const std::vector<std::pair<std::string, RigidShape>> &rigid_shapes()
+  {
+    return shapes();
+  }
+
+
+  std::string names_of_shapes()
+  {
+    const std::string scenes[] = { "", " (2D)", " (3D)" };
+    std::string names;
+    for (const auto &one : shapes())
+      names += (&one == &shapes().front()  ? ""
+                : &one == &shapes().back() ? " and "
+                                           : ", ") +
+               quoted(one.first) + scenes[scenes_of(one.second)];
+    return names;
+  }
+
+
+  RegisterShape::RegisterShape(const std::string &entry, RigidShape shape)
+  {
+    shapes().emplace_back(entry, std::move(shape));
+    std::sort(shapes().begin(), shapes().end(), [](const auto &a, const auto &b) {
+      return std::make_pair(scenes_of(a.second), a.first) < std::make_pair(scenes_of(b.second), b.first);
+    });
+  }
+
 
   void BedParameters::add_parameters(ParameterHandler &prm)
   {
@@ -112,7 +184,7 @@ namespace scree
   void BedParameters::check(const unsigned int dim) const
   {
     const auto require = [this](const bool possible, const auto &entry, const std::string &remedy) {
-      require_entry(possible, subsection, entry.first, entry.second, remedy);
+      require_entry(possible, { subsection, entry.first, entry.second }, remedy);
     };
     const auto given    = geometry();
     const bool is_rough = type_kind() == BedType::friction;
@@ -157,8 +229,50 @@ namespace scree
     return parameters.is_set() ? make_shape<dim>(parameters, lower, upper, cell_size) : nullptr;
   }
 
-  template std::unique_ptr<LevelSet<2>>
-  make_bed<2>(const BedParameters &, const std::vector<double> &, const std::vector<double> &, const double);
-  template std::unique_ptr<LevelSet<3>>
-  make_bed<3>(const BedParameters &, const std::vector<double> &, const std::vector<double> &, const double);
+  template decltype(make_bed<2>) make_bed<2>;
+  template decltype(make_bed<3>) make_bed<3>;
+
+
+  const std::string ObstacleParameters::prefix = "Obstacle ";
+
+
+  ObstacleParameters::ObstacleParameters(const std::string &subsection)
+  {
+    surface.subsection = subsection;
+  }
+
+
+  std::string ObstacleParameters::name() const
+  {
+    return surface.subsection.substr(prefix.size());
+  }
+
+
+  void ObstacleParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection(surface.subsection);
+    surface.add_entries(prm);
+    prm.add_parameter("Velocity",
+                      velocity,
+                      "m/s; velocity from t = 0 on: one expression of t per axis, separated by semicolons, such as 0; "
+                      "if(t < 1, 0.5, 0). The obstacle translates without rotation. Empty: at rest.",
+                      Patterns::Anything());
+    prm.add_parameter("Moment about",
+                      pivot,
+                      "m; place about which the moment on the obstacle is computed, one coordinate per axis. Empty: "
+                      "the middle of the floor of the box.",
+                      Patterns::List(Patterns::Double(), 0, 3));
+    prm.leave_subsection();
+  }
+
+
+  void ObstacleParameters::check(const unsigned int dim) const
+  {
+    surface.check(dim);
+    if (!velocity.empty())
+      parse_expression<1>(entry_name(surface.subsection, "Velocity"), velocity, dim);
+    require_entry(pivot.empty() || Utilities::split_string_list(pivot).size() == dim,
+                  { surface.subsection, "Moment about", pivot },
+                  "write " + std::to_string(dim) + " numbers in m, separated by commas.");
+  }
 } // namespace scree

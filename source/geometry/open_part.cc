@@ -30,6 +30,6 @@ namespace scree
     return simplices;
   }
 
-  template std::vector<Simplex<2>> simplices_of_cube(const Point<2> &, const double);
-  template std::vector<Simplex<3>> simplices_of_cube(const Point<3> &, const double);
+  template decltype(simplices_of_cube<2>) simplices_of_cube<2>;
+  template decltype(simplices_of_cube<3>) simplices_of_cube<3>;
 } // namespace scree

@@ -1,13 +1,55 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/raster.h>
 #include <scree/input/input_error.h>
+#include <scree/input/number_table.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <cpl_conv.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <utility>
 
 namespace scree
 {
+  using namespace dealii;
+
+  namespace
+  {
+    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as it lives.
+    class QuietGdal
+    {
+    public:
+      /// Silences GDAL.
+      QuietGdal()
+      {
+        CPLPushErrorHandler(CPLQuietErrorHandler);
+      }
+      QuietGdal(const QuietGdal &) = delete; ///< the handlers are a stack
+
+      /// Lets GDAL write as before.
+      ~QuietGdal()
+      {
+        CPLPopErrorHandler();
+      }
+    };
+  } // namespace
+
   std::size_t Raster::n_missing() const
   {
     return std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
@@ -116,5 +158,648 @@ namespace scree
   double Raster::value_or_zero_at(const double x, const double y) const
   {
     return bilinear(*this, x, y, [](const double value) { return std::isnan(value) ? 0. : value; });
+  }
+
+
+  std::string name_of_system(const std::string &system)
+  {
+    const auto begin = system.find('"'), end = system.find('"', begin + 1);
+    return begin == std::string::npos || end == std::string::npos ? system : system.substr(begin + 1, end - begin - 1);
+  }
+
+
+  namespace
+  {
+    /// Programs differ in blanks, signs and case: `CH1903+ / LV95`, `CH1903+_LV95`.
+    std::string letters_of_name(const std::string &system)
+    {
+      std::string result;
+      for (const char c : lower_case(name_of_system(system)))
+        if (std::isalnum(static_cast<unsigned char>(c)))
+          result += c;
+      return result;
+    }
+
+
+    /// Nothing if GDAL does not have it. Files and the network are not asked.
+    std::optional<OGRSpatialReference> known_system(const std::string &system)
+    {
+      const char *options[] = { "ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr };
+      OGRSpatialReference result;
+      if (system.empty() || result.SetFromUserInput(system.c_str(), options) != OGRERR_NONE)
+        return {};
+      result.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+      return result;
+    }
+
+
+    /// Whether the coordinates of a place in one system are, within 1 mm, those in the other one.
+    bool has_same_coordinates(const OGRSpatialReference &one, const OGRSpatialReference &other, double x, double y)
+    {
+      const std::unique_ptr<OGRCoordinateTransformation> transformation(
+          OGRCreateCoordinateTransformation(&one, &other));
+      const double x_before = x, y_before = y;
+      return transformation && transformation->Transform(1, &x, &y) && std::hypot(x - x_before, y - y_before) < 1e-3;
+    }
+  } // namespace
+
+
+  bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
+  {
+    // Names are no proof: projections of one's own are often called "unknown".
+    const QuietGdal quiet;
+    if (const auto first = known_system(one), second = known_system(other); first && second)
+      return first->IsSame(&*second) || has_same_coordinates(*first, *second, place[0], place[1]);
+    return letters_of_name(one) == letters_of_name(other);
+  }
+
+
+  void require_system_in_metres(const std::string &text, const std::string &name)
+  {
+    const QuietGdal quiet;
+    const auto system = known_system(text);
+    if (!system)
+      throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
+    if (!system->IsProjected())
+      throw EntryError(name + "it is no projected system. Write one with coordinates in m, such as EPSG:2056.");
+    if (const double unit = system->GetLinearUnits(); std::abs(unit - 1.) > 1e-9)
+      throw EntryError(name + "its unit of length is " + number_text(unit) +
+                       " m. Write a system with coordinates in m, such as EPSG:2056.");
+  }
+
+
+  std::string prj_text(const std::string &text)
+  {
+    if (text.find('[') != std::string::npos)
+      return text;
+    const QuietGdal quiet;
+    const auto system     = known_system(text);
+    char *result          = nullptr;
+    const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
+    const bool is_written = system && system->exportToWkt(&result, options) == OGRERR_NONE;
+    const std::string wkt = is_written ? result : "";
+    CPLFree(result);
+    return wkt;
+  }
+
+
+  namespace
+  {
+    /// The code of the EPSG if the system has it, else the text of a .prj file; without its vertical part.
+    std::string text_of_system(const OGRSpatialReference &with_heights)
+    {
+      OGRSpatialReference system(with_heights);
+      system.StripVertical();
+      const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
+      if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
+        return std::string("EPSG:") + code;
+      char *text            = nullptr;
+      const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
+      const bool is_known   = system.exportToWkt(&text, options) == OGRERR_NONE;
+      const std::string wkt = is_known ? text : "";
+      CPLFree(text);
+      return wkt;
+    }
+  } // namespace
+
+
+  std::string ascii_grid(const Raster &raster)
+  {
+    std::ostringstream text;
+    text << std::setprecision(15) << "ncols " << raster.n_columns << "\nnrows " << raster.n_rows << "\nxllcorner "
+         << raster.x - 0.5 * raster.spacing << "\nyllcorner " << raster.y - 0.5 * raster.spacing << "\ncellsize "
+         << raster.spacing << "\nNODATA_value " << missing_value << '\n'
+         << std::setprecision(9);
+    for (unsigned int row = raster.n_rows; row-- > 0;) // from the north
+      for (unsigned int column = 0; column < raster.n_columns; ++column)
+        {
+          const double value = raster(column, row);
+          text << (std::isnan(value) ? missing_value : value) << (column + 1 < raster.n_columns ? ' ' : '\n');
+        }
+    return text.str();
+  }
+
+
+  namespace
+  {
+    /// The system of a raster, by its code if the EPSG has one for it, which other programs then read, too.
+    OGRSpatialReference system_of(const Raster &raster)
+    {
+      constexpr int confident = 90; // %, of the match
+      OGRSpatialReference system;
+      if (system.SetFromUserInput(raster.system.c_str()) != OGRERR_NONE)
+        return OGRSpatialReference();
+      int n_matches = 0, *confidence = nullptr;
+      OGRSpatialReferenceH *matches =
+          system.GetAuthorityCode(nullptr) == nullptr ? system.FindMatches(nullptr, &n_matches, &confidence) : nullptr;
+      if (n_matches > 0 && confidence[0] >= confident)
+        system = *OGRSpatialReference::FromHandle(matches[0]);
+      OSRFreeSRSArray(matches);
+      CPLFree(confidence);
+      return system;
+    }
+  } // namespace
+
+
+  std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
+  {
+    GDALAllRegister();
+    const QuietGdal quiet;
+    const char *const file = "/vsimem/scree_map.tif"; // in memory
+    const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
+    std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        file, raster.n_columns, raster.n_rows, 1, GDT_Float32, const_cast<char **>(options)));
+    AssertThrow(data, dealii::ExcMessage("GDAL cannot make a GeoTIFF: " + std::string(CPLGetLastErrorMsg())));
+    double map[6] = {
+      raster.x - 0.5 * raster.spacing, raster.spacing, 0., raster.last_y() + 0.5 * raster.spacing, 0., -raster.spacing
+    };
+    data->SetGeoTransform(map);
+    if (!raster.system.empty())
+      {
+        const OGRSpatialReference system = system_of(raster);
+        data->SetSpatialRef(&system);
+      }
+    GDALRasterBand &band = *data->GetRasterBand(1);
+    band.SetNoDataValue(missing_value);
+    band.SetDescription(name.c_str());
+    band.SetUnitType(unit.c_str());
+    std::vector<float> values(raster.n_columns);
+    bool is_written = true;
+    for (unsigned int row = 0; row < raster.n_rows; ++row) // from the north
+      {
+        for (unsigned int column = 0; column < raster.n_columns; ++column)
+          {
+            const double value = raster(column, raster.n_rows - 1 - row);
+            values[column]     = static_cast<float>(std::isnan(value) ? missing_value : value);
+          }
+        is_written = band.RasterIO(GF_Write,
+                                   0,
+                                   row,
+                                   raster.n_columns,
+                                   1,
+                                   values.data(),
+                                   raster.n_columns,
+                                   1,
+                                   GDT_Float32,
+                                   0,
+                                   0,
+                                   nullptr) == CE_None &&
+                     is_written;
+      }
+    data.reset(); // completes the file
+    vsi_l_offset size = 0;
+    GByte *bytes      = VSIGetMemFileBuffer(file, &size, TRUE);
+    const std::string content(reinterpret_cast<const char *>(bytes), bytes ? size : 0);
+    VSIFree(bytes);
+    AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
+    return content;
+  }
+
+
+  namespace
+  {
+    void require_metres(const OGRSpatialReference &system, const std::string &name)
+    {
+      if (system.IsGeographic())
+        throw EntryError(name +
+                         "it is in degrees. Write one in a projected system of coordinates, in m: gdalwarp -t_srs "
+                         "EPSG:number makes one.");
+      const double unit = system.GetLinearUnits();
+      if (std::abs(unit - 1.) > 1e-9)
+        throw EntryError(name + "its unit of length is " + number_text(unit) +
+                         " m. Write one in a system of coordinates in m: gdalwarp -t_srs EPSG:number makes one.");
+    }
+
+
+    /// Heights of surveys may be in feet where places are in m.
+    void require_values_in_metres(GDALDataset &data, const std::string &name)
+    {
+      const OGRSpatialReference *system = data.GetSpatialRef();
+      const char *vertical              = system ? system->GetAttrValue("VERT_CS|UNIT") : nullptr;
+      std::string unit                  = data.GetRasterBand(1)->GetUnitType();
+      if (unit.empty() && vertical)
+        unit = vertical;
+      static const std::set<std::string> possible = {
+        "", "m", "metre", "meter", "metres", "meters", "degree", "degrees"
+      };
+      if (possible.count(lower_case(unit)) == 0)
+        throw EntryError(name + "its values are in the unit " + scree::quoted(unit) +
+                         ". gdal_translate -scale 0 1 0 FACTOR -a_srs EPSG:number IN OUT makes one in m; FACTOR is "
+                         "0.3048 for feet.");
+    }
+
+
+    std::ifstream open_text(const std::string &file, const std::string &name)
+    {
+      if (const std::string value = std::filesystem::path(file).filename(); !std::isnan(number_of(value)))
+        throw EntryError(name + "a number is no raster. From an outline, gdal_rasterize -burn " + value +
+                         " -tr SIZE SIZE OUTLINE FILE.tif makes one.");
+      return open_file(file, name);
+    }
+
+
+    /// Opens a raster behind a mark of byte order, if `text` has passed one.
+    std::unique_ptr<GDALDataset> open(std::istream &text, const std::string &file, const std::string &name)
+    {
+      GDALAllRegister();
+      const auto begin       = static_cast<long>(text.tellg());
+      const std::string path = begin > 0 ? "/vsisubfile/" + std::to_string(begin) + ',' + file : file;
+      std::unique_ptr<GDALDataset> data(
+          GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+      std::string reason = CPLGetLastErrorMsg();
+      reason.erase(reason.find_last_not_of('.') + 1);
+      if (!data || data->GetRasterCount() < 1)
+        throw EntryError(name + "GDAL finds no raster in it: " + reason +
+                         ". Write GeoTIFF, or an ESRI ASCII grid: it begins with ncols, nrows, xllcorner, yllcorner, "
+                         "cellsize.");
+      return data;
+    }
+
+
+    /// The coordinate system of the file, else of the .prj file that lies beside it; empty without one.
+    std::string system_of(const GDALDataset &data, const std::string &file)
+    {
+      if (const OGRSpatialReference *system = data.GetSpatialRef())
+        return text_of_system(*system);
+      std::ifstream in(std::filesystem::path(file).replace_extension(".prj"));
+      std::string text{ std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
+      text.erase(text.find_last_not_of(" \t\r\n") + 1);
+      return text;
+    }
+
+
+    /// The values of an ESRI ASCII grid in the order of the file. Throws EntryError unless all are numbers, and as many
+    /// as its size: GDAL reads any other word as 0, ignores what follows the last one and skips a first row of `nan`.
+    std::vector<double> values_of_text(std::istream &in, const std::size_t n_values, const std::string &name)
+    {
+      const auto fail = [&](const std::string &fault, const std::string &word) {
+        throw EntryError(name + fault + (word.find(',') == std::string::npos ? "" : ". Decimals have a point: 0.5") +
+                         ". Write a complete ESRI ASCII grid.");
+      };
+      const auto is_number = [](const std::string &word) {
+        return std::isfinite(number_of(word)) || lower_case(word) == "nan";
+      };
+      const std::string heights = "the last of its " + std::to_string(n_values) + " heights";
+      std::vector<double> values;
+      for (std::string word, entry; in >> word;)
+        if (values.empty() && std::isalpha(static_cast<unsigned char>(word[0])) && !is_number(word))
+          {
+            if (!(in >> entry) || !is_number(entry))
+              fail("its head has " + word + " = " + entry, entry);
+          }
+        else if (!is_number(word))
+          fail(scree::quoted(word) + " stands where a height should be", word);
+        else if (values.size() == n_values)
+          fail("it goes on with " + scree::quoted(word) + " after " + heights, "");
+        else
+          values.push_back(number_of(word));
+      if (values.size() < n_values)
+        fail("it ends before " + heights, "");
+      return values;
+    }
+
+
+    /// Reads the first band, or the values of a text, whose first row is in the north or the south; what its mask hides
+    /// is NaN.
+    void read_values(GDALDataset &data,
+                     const std::vector<double> &text,
+                     const bool from_north,
+                     const std::string &name,
+                     Raster &raster)
+    {
+      // The value for missing ones may be rounded otherwise than theirs; no height is as large as 1e30 m.
+      constexpr double rounding = 1e-7, largest = 1e30;
+      GDALRasterBand &band = *data.GetRasterBand(1);
+      int has_missing;
+      const double marked  = band.GetNoDataValue(&has_missing);
+      const double missing = has_missing && !std::isnan(marked) ? marked : missing_value;
+      raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
+      std::vector<GByte> mask(raster.n_columns, 1);
+      const int width = raster.n_columns;
+      for (unsigned int row = 0; row < raster.n_rows; ++row)
+        {
+          double *values = &raster.values[std::size_t(from_north ? raster.n_rows - 1 - row : row) * width];
+          if (!text.empty())
+            std::copy_n(text.begin() + std::size_t(row) * width, width, values);
+          else if (band.RasterIO(GF_Read, 0, row, width, 1, values, width, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
+                   band.GetMaskBand()->RasterIO(
+                       GF_Read, 0, row, width, 1, mask.data(), width, 1, GDT_Byte, 0, 0, nullptr) != CE_None)
+            throw EntryError(name + "GDAL cannot read row " + std::to_string(row + 1) + ": " + CPLGetLastErrorMsg() +
+                             ". Write the raster anew.");
+          for (unsigned int column = 0; column < raster.n_columns; ++column)
+            values[column] = mask[column] == 0 || !(std::abs(values[column]) < largest) ||
+                                     std::abs(values[column] - missing) <= rounding * std::abs(missing)
+                                 ? std::numeric_limits<double>::quiet_NaN()
+                                 : band.GetScale() * values[column] + band.GetOffset();
+        }
+    }
+  } // namespace
+
+
+  Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin)
+  {
+    const std::string name = where + " = " + file + ": ";
+    std::ifstream in       = open_text(file, name);
+    const QuietGdal quiet;
+    const auto data = open(in, file, name);
+    if (const OGRSpatialReference *system = data->GetSpatialRef())
+      require_metres(*system, name);
+    require_values_in_metres(*data, name);
+    double map[6]; // x = map[0] + map[1] column + map[2] row, y = map[3] + map[4] column + map[5] row
+    if (data->GetGeoTransform(map) != CE_None)
+      throw EntryError(name + "it does not say where it lies. Write one with coordinates: gdal_translate -a_ullr "
+                              "x_min y_max x_max y_min sets them.");
+    if (!(map[2] == 0. && map[4] == 0. && map[1] > 0. && std::abs(map[1] - std::abs(map[5])) < 1e-6 * map[1]))
+      throw EntryError(name + "its cells must be squares along the axes, but their sides are " +
+                       number_text({ map[1], std::abs(map[5]) }) + " m. gdalwarp -tr size size makes one.");
+    Raster raster;
+    raster.n_columns = data->GetRasterXSize();
+    raster.n_rows    = data->GetRasterYSize();
+    if (raster.n_columns < 2 || raster.n_rows < 2)
+      throw EntryError(name + "it must have 2 columns and 2 rows at least.");
+    std::vector<double> text;
+    if (data->GetDriverName() == std::string("AAIGrid"))
+      text = values_of_text(in, std::size_t(raster.n_columns) * raster.n_rows, name);
+    const bool from_north = map[5] < 0.;
+    raster.spacing        = map[1];
+    raster.x              = map[0] + 0.5 * map[1] - origin[0];
+    raster.y              = map[3] + (from_north ? raster.n_rows - 0.5 : 0.5) * map[5] - origin[1];
+    raster.system         = system_of(*data, file);
+
+    read_values(*data, text, from_north, name, raster);
+    return raster;
+  }
+
+
+  std::string read_raster_system(const std::string &file, const std::string &where)
+  {
+    const std::string name = where + " = " + file + ": ";
+    std::ifstream in       = open_text(file, name);
+    const QuietGdal quiet;
+    return system_of(*open(in, file, name), file);
+  }
+
+
+  namespace
+  {
+    /// Twice the area of the triangle, positive if it is to the left of a to b.
+    double area(const Point<2> &a, const Point<2> &b, const Point<2> &c)
+    {
+      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    }
+
+
+    /// Whether two edges have a place in common.
+    bool meet(const Point<2> &a, const Point<2> &b, const Point<2> &c, const Point<2> &d)
+    {
+      for (unsigned int i = 0; i < 2; ++i)
+        if (std::max(a[i], b[i]) < std::min(c[i], d[i]) || std::max(c[i], d[i]) < std::min(a[i], b[i]))
+          return false;
+      const auto on_both_sides = [](const double one, const double other) {
+        return !((one > 0. && other > 0.) || (one < 0. && other < 0.));
+      };
+      return on_both_sides(area(a, b, c), area(a, b, d)) && on_both_sides(area(c, d, a), area(c, d, b));
+    }
+  } // namespace
+
+
+  Polygon::Polygon(std::vector<Point<2>> corners)
+      : corners(std::move(corners))
+      , lower(this->corners.front())
+      , upper(lower)
+  {
+    for (const Point<2> &corner : this->corners)
+      for (unsigned int a = 0; a < 2; ++a)
+        {
+          lower[a] = std::min(lower[a], corner[a]);
+          upper[a] = std::max(upper[a], corner[a]);
+        }
+  }
+
+
+  bool Polygon::contains(const Point<2> &x) const
+  {
+    for (unsigned int a = 0; a < 2; ++a)
+      if (x[a] < lower[a] || x[a] > upper[a])
+        return false;
+    bool is_inside = false; // a ray along x crosses an odd number of edges
+    for (unsigned int i = 0; i < corners.size(); ++i)
+      {
+        const Point<2> &a = corner(i), &b = corner(i + 1);
+        if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+          is_inside = !is_inside;
+      }
+    return is_inside;
+  }
+
+
+  unsigned int Polygon::first_crossing() const
+  {
+    const unsigned int n = corners.size();
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i + 2; j < n; ++j)
+        if ((j + 1) % n != i && meet(corner(i), corner(i + 1), corner(j), corner(j + 1)))
+          return i;
+    return n;
+  }
+
+
+  namespace
+  {
+    /// The polygon of these corners, m; the last may repeat the first. Throws EntryError, which begins with `name`, if
+    /// they are fewer than three, or if edges cross.
+    Polygon checked_polygon(std::vector<Point<2>> corners, const std::string &name)
+    {
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+      if (corners.size() > 1 && corners.front() == corners.back())
+        corners.pop_back();
+      if (corners.size() < 3)
+        throw EntryError(name + "it has " + std::to_string(corners.size()) +
+                         " corners. Write three or more, x, y in m, one a line, in their order around the place.");
+      const Polygon polygon(corners);
+      const unsigned int edge = polygon.first_crossing();
+      if (edge < corners.size())
+        throw EntryError(name + "its edge from " + number_text(corners[edge]) +
+                         " m is crossed or touched by another. Write the corners in their order around the place.");
+      return polygon;
+    }
+
+
+    /// Reads the corners "x, y", m, one a line; the last may repeat the first. Throws EntryError, which begins with
+    /// `where` (see entry_name()), if they are fewer than three, or if edges cross.
+    /// @param origin where the map has the origin of the polygon's x and y, m
+    Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
+    {
+      const std::string name = where + " = " + file + ": ";
+      std::vector<Point<2>> corners;
+      for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
+        corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
+      return checked_polygon(std::move(corners), name);
+    }
+  } // namespace
+
+
+  Outline::Outline(std::vector<std::vector<Polygon>> areas)
+      : areas(std::move(areas))
+  {
+  }
+
+
+  bool Outline::contains(const Point<2> &x) const
+  {
+    const auto has_place = [&](const Polygon &polygon) { return polygon.contains(x); };
+    return std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
+      return area.front().contains(x) && std::none_of(area.begin() + 1, area.end(), has_place);
+    });
+  }
+
+
+  std::pair<Point<2>, Point<2>> Outline::bounds() const
+  {
+    auto [lower, upper] = areas.front().front().bounds();
+    for (const auto &area : areas)
+      for (unsigned int a = 0; a < 2; ++a)
+        {
+          lower[a] = std::min(lower[a], area.front().bounds().first[a]);
+          upper[a] = std::max(upper[a], area.front().bounds().second[a]);
+        }
+    return { lower, upper };
+  }
+
+
+  namespace
+  {
+    /// Corners of closed lines, m on the map, the first one of each at its end again: of an area, the edge and the
+    /// holes.
+    using Rings = std::vector<std::vector<Point<2>>>;
+
+    std::unique_ptr<GDALDataset> open(const std::string &file, const std::string &name)
+    {
+      GDALAllRegister();
+      std::unique_ptr<GDALDataset> data(
+          GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+      if (!data)
+        throw EntryError(name + "GDAL cannot read it: " + CPLGetLastErrorMsg());
+      return data;
+    }
+
+
+    /// The one layer with geometry: a GeoPackage of QGIS has one of styles, too.
+    OGRLayer &only_layer(GDALDataset &data, const std::string &name)
+    {
+      std::vector<OGRLayer *> layers;
+      for (OGRLayer *layer : data.GetLayers())
+        if (layer->GetGeomType() != wkbNone)
+          layers.push_back(layer);
+      if (layers.size() != 1)
+        throw EntryError(name + "it has " + std::to_string(layers.size()) +
+                         " layers with geometry. Write a file with one layer of polygons.");
+      return *layers.front();
+    }
+
+
+    /// Adds the polygons of a geometry and of its parts.
+    void collect(const OGRGeometry &geometry, const std::string &name, std::vector<Rings> &areas)
+    {
+      const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+      if (type == wkbPolygon)
+        {
+          areas.emplace_back();
+          for (const OGRLinearRing *ring : *geometry.toPolygon())
+            {
+              areas.back().emplace_back();
+              for (int i = 0; i < ring->getNumPoints(); ++i)
+                areas.back().back().emplace_back(ring->getX(i), ring->getY(i));
+            }
+        }
+      else if (type == wkbMultiPolygon || type == wkbGeometryCollection)
+        for (const OGRGeometry *part : *geometry.toGeometryCollection())
+          collect(*part, name, areas);
+      else
+        throw EntryError(name + "it has geometry of type " + OGRGeometryTypeToName(type) +
+                         ". Write polygons only: areas that the body occupies.");
+    }
+
+
+    /// Areas of a file in a vector format of GDAL, those of multi-polygons one by one. Throws EntryError if there is
+    /// none or anything else.
+    std::vector<Rings> read_polygons(const std::string &file, const std::string &name)
+    {
+      const QuietGdal quiet;
+      const auto data = open(file, name);
+      std::vector<Rings> areas;
+      for (const auto &feature : only_layer(*data, name))
+        if (const OGRGeometry *geometry = feature->GetGeometryRef(); geometry != nullptr && !geometry->IsEmpty())
+          collect(*geometry, name, areas);
+      if (areas.empty())
+        throw EntryError(name + "it has no polygon. Draw the area that the body occupies.");
+      return areas;
+    }
+
+
+    /// The coordinate system of such a file; empty if it has none.
+    std::string system_of_vector_file(const std::string &file, const std::string &name)
+    {
+      const QuietGdal quiet;
+      const auto data                   = open(file, name);
+      OGRLayer &layer                   = only_layer(*data, name);
+      const OGRSpatialReference *system = layer.GetSpatialRef();
+      if (system == nullptr)
+        return "";
+      // GDAL takes a GeoJSON file that names no system for one in degrees, as its standard does; in m it cannot be.
+      OGREnvelope box;
+      const bool is_known = layer.GetExtent(&box) == OGRERR_NONE;
+      if (system->IsGeographic() && is_known &&
+          (box.MinX < -360. || box.MaxX > 360. || box.MinY < -90. || box.MaxY > 90.))
+        return "";
+      return text_of_system(*system);
+    }
+
+
+    /// Whether GDAL reads the file, or its name says so; else it is a text of corners, which may look like a CSV file.
+    bool is_vector_file(const std::string &file)
+    {
+      GDALAllRegister();
+      const QuietGdal quiet;
+      const std::string ending = lower_case(std::filesystem::path(file).extension().string());
+      const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
+      return (driver != nullptr && GDALGetDriverShortName(driver) != std::string("CSV")) || ending == ".geojson" ||
+             ending == ".json" || ending == ".shp" || ending == ".gpkg";
+    }
+  } // namespace
+
+
+  Outline read_outline(const std::string &file, const std::string &where, const Point<2> &origin)
+  {
+    std::vector<std::vector<Polygon>> areas;
+    if (!is_vector_file(file))
+      {
+        areas.push_back({ read_polygon(file, where, origin) });
+        return Outline(std::move(areas));
+      }
+    const std::string name = where + " = " + file + ": ";
+    open_file(file, name);
+    for (const Rings &rings : read_polygons(file, name))
+      {
+        areas.emplace_back();
+        for (auto corners : rings)
+          {
+            for (Point<2> &corner : corners)
+              corner -= origin - Point<2>();
+            areas.back().push_back(
+                checked_polygon(std::move(corners), name + "polygon " + std::to_string(areas.size()) + ", "));
+          }
+      }
+    return Outline(std::move(areas));
+  }
+
+
+  std::string read_outline_system(const std::string &file, const std::string &where)
+  {
+    const std::string name = where + " = " + file + ": ";
+    if (!is_vector_file(file))
+      return "";
+    open_file(file, name);
+    return system_of_vector_file(file, name);
   }
 } // namespace scree

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/source_map.h>
 #include <scree/input/input_error.h>
-#include <scree/input/named_file.h>
+#include <scree/input/case_entries.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,19 +46,15 @@ namespace scree
                                   const bool has_bed) const
   {
     const auto [entry, value] = first();
-    require_entry(dim == 3 || !is_set(), body, entry, value, "maps are for scenes in space. Write a \"Region\".");
+    require_entry(dim == 3 || !is_set(), { body, entry, value }, "maps are for scenes in space. Write a \"Region\".");
     require_entry(!has_water || !is_set(),
-                  body,
-                  entry,
-                  value,
+                  { body, entry, value },
                   "bodies by maps are not possible with water yet. Remove subsection Water, or write a \"Region\".");
     require_entry(thickness.empty() || upper_surface.empty(),
-                  body,
-                  "Upper surface",
-                  upper_surface,
+                  { body, "Upper surface", upper_surface },
                   "the top is given twice. Keep one of \"Thickness\" and \"Upper surface\".");
     require_entry(
-        thickness.empty() || has_bed, body, "Thickness", thickness, "\"Thickness\" needs subsection Bed. Add it.");
+        thickness.empty() || has_bed, { body, "Thickness", thickness }, "\"Thickness\" needs subsection Bed. Add it.");
   }
 
 
@@ -96,9 +92,7 @@ namespace scree
         const double rounding    = 1e-6 * first.distance(last); // of coordinates of the map
         require_entry(first[0] >= lower[0] - rounding && first[1] >= lower[1] - rounding &&
                           last[0] <= upper[0] + rounding && last[1] <= upper[1] + rounding,
-                      body,
-                      "Outline",
-                      parameters.outline,
+                      { body, "Outline", parameters.outline },
                       "it reaches from " + number_text(first) + " to " + number_text(last) +
                           " m, beyond the box of subsection Mesh. Look at its coordinate system, or write a larger "
                           "box.");
@@ -110,7 +104,7 @@ namespace scree
   {
     const auto require = [&](const bool possible, const double x, const double y, const std::string &remedy) {
       if (!possible)
-        require_entry(false, body, entry.first, entry.second, "at " + number_text({ x, y }) + " m " + remedy);
+        require_entry(false, { body, entry.first, entry.second }, "at " + number_text({ x, y }) + " m " + remedy);
     };
     const Raster &map = thickness ? *thickness : *upper_surface;
     bool is_anywhere  = false;
@@ -133,7 +127,7 @@ namespace scree
           const bool ends_in_box = upper_surface ? value <= upper[2] : ground->is_open({ x, y, upper[2] - value });
           require(ends_in_box, x, y, "it reaches above the box of subsection Mesh. Write a higher box.");
         }
-    require_entry(is_anywhere, body, entry.first, entry.second, "it has no soil anywhere. Look at the file.");
+    require_entry(is_anywhere, { body, entry.first, entry.second }, "it has no soil anywhere. Look at the file.");
   }
 
 

@@ -34,22 +34,16 @@ namespace scree
     const InitialStateParameters defaults;
     const bool is_k0 = stress_kind() == InitialStress::k0, is_isotropic = stress_kind() == InitialStress::isotropic;
     require_entry(is_isotropic ? pressure > 0 : pressure == 0,
-                  subsection,
-                  "Pressure",
-                  pressure,
+                  { subsection, "Pressure", pressure },
                   is_isotropic ? "an isotropic start needs a pressure above 0, in Pa."
                                : "this entry has no effect. Remove it, or write \"Type = isotropic\".");
     const double ratio = k0_ratio({});
-    require_entry(ratio >= 0 && ratio <= 10, subsection, "K0", k0, "write auto, or a number from 0 to 10.");
+    require_entry(ratio >= 0 && ratio <= 10, { subsection, "K0", k0 }, "write auto, or a number from 0 to 10.");
     require_entry(is_k0 || k0 == defaults.k0,
-                  subsection,
-                  "K0",
-                  k0,
+                  { subsection, "K0", k0 },
                   "this entry has no effect. Remove it, or write \"Type = K0\".");
     require_entry(!is_k0 || std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(gravity.size()),
-                  subsection,
-                  "Type",
-                  type,
+                  { subsection, "Type", type },
                   "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
                       number_text(gravity) + ". Change it, or write \"Type = none\" or \"Type = isotropic\".");
   }
@@ -95,14 +89,10 @@ namespace scree
   {
     const std::size_t dim = gravity.size();
     require_entry(maximum_time == 0 || std::count(gravity.begin(), gravity.end(), 0.) < long(dim),
-                  "Settling",
-                  "Maximum time",
-                  maximum_time,
+                  { "Settling", "Maximum time", maximum_time },
                   "without gravity nothing settles. Change entry \"Gravity\", or write 0.");
     require_entry(gate.empty() || maximum_time > 0,
-                  "Settling",
-                  "Gate",
-                  gate,
+                  { "Settling", "Gate", gate },
                   "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
     if (!gate.empty() && dim == 2)
       Region<2>(entry_name("Settling", "Gate"), gate);

@@ -25,33 +25,17 @@ namespace scree
   }
 
 
-  std::string entry_message(const std::string &subsection,
-                            const std::string &entry,
-                            const std::string &value,
-                            const std::string &remedy)
+  std::string entry_message(const EntryValue &entry, const std::string &remedy)
   {
-    return entry_name(subsection, entry) + " = " + (value.empty() ? "(empty)" : value) + ": " + remedy;
+    return entry_name(entry.subsection, entry.entry) + " = " + (entry.value.empty() ? "(empty)" : entry.value) + ": " +
+           remedy;
   }
 
 
-  void require_entry(const bool possible,
-                     const std::string &subsection,
-                     const std::string &entry,
-                     const std::string &value,
-                     const std::string &remedy)
+  void require_entry(const bool possible, const EntryValue &entry, const std::string &remedy)
   {
     if (!possible)
-      throw EntryError(entry_message(subsection, entry, value, remedy));
-  }
-
-
-  void require_entry(const bool possible,
-                     const std::string &subsection,
-                     const std::string &entry,
-                     const double value,
-                     const std::string &remedy)
-  {
-    require_entry(possible, subsection, entry, number_text(value), remedy);
+      throw EntryError(entry_message(entry, remedy));
   }
 
 

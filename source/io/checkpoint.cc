@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
-#include <scree/io/byte_reader.h>
 #include <scree/io/checkpoint.h>
-#include <scree/io/packed_points.h>
-#include <scree/io/whole_file.h>
 #include <scree/version.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <boost/serialization/string.hpp>
-#include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iomanip>
+#include <limits>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -21,18 +24,251 @@ namespace scree
 
   namespace
   {
-    const std::string name_of_entries = "entries", name_of_state = "state", name_of_points = "points.",
-                      name_of_mesh = "mesh.";
+    namespace fs = std::filesystem;
 
-    /// The fault of the first rank that has one, on all ranks. Collective.
-    std::string fault_of_any_rank(const std::string &fault, const MPI_Comm communicator)
+    const std::string name_of_manifest = "manifest", name_of_step = "step-", name_of_entries = "entries",
+                      name_of_state = "state", name_of_points = "points.", name_of_mesh = "mesh.";
+    const std::string format_line    = "Scree checkpoint, format 17";
+    const std::string checksum_label = "checksum: ";
+
+    std::uint64_t checksum_of(const std::string &content)
     {
-      std::string result;
-      for (const std::string &other : Utilities::MPI::all_gather(communicator, fault))
-        if (result.empty())
-          result = other;
+      Checksum checksum;
+      checksum.process_bytes(content.data(), content.size());
+      return checksum.checksum();
+    }
+
+
+    CheckedFile checked_file(const std::string &name, const std::string &content)
+    {
+      return { name, content.size(), checksum_of(content) };
+    }
+
+
+    /// The content of the file, or FileError unless it has its size and checksum.
+    std::string read_checked_file(const std::string &folder, const CheckedFile &file)
+    {
+      const std::string path = folder + '/' + file.name;
+      std::error_code error;
+      if (const auto size = fs::file_size(path, error); !error && size != file.size)
+        throw FileError(path + ": has " + std::to_string(size) + " bytes, but " + std::to_string(file.size) +
+                        " were written");
+      std::string content = read_whole_file(path);
+      if (content.size() != file.size || checksum_of(content) != file.checksum)
+        throw FileError(path + ": is not what was written (its checksum differs)");
+      return content;
+    }
+
+
+    std::string checksum_line(const std::string &text)
+    {
+      std::ostringstream line;
+      line << checksum_label << std::hex << std::setw(16) << std::setfill('0') << checksum_of(text) << '\n';
+      return line.str();
+    }
+
+
+    /// The number behind `step-`, or -1.
+    long long step_of(const fs::path &folder)
+    {
+      const std::string name = folder.filename();
+      std::istringstream digits(name.rfind(name_of_step, 0) == 0 ? name.substr(name_of_step.size()) : "");
+      long long step = -1;
+      digits >> step;
+      return digits && digits.eof() ? step : -1;
+    }
+
+
+    void write_manifest(const Manifest &manifest, const std::string &folder)
+    {
+      std::ostringstream text;
+      text << std::setprecision(std::numeric_limits<double>::max_digits10) << format_line
+           << "\nprogram: " << manifest.program << "\ndimension: " << manifest.dimension << "\ntime: " << manifest.time
+           << "\nstep: " << manifest.step << '\n';
+      for (const CheckedFile &file : manifest.files)
+        text << "file: " << file.name << ' ' << file.size << ' ' << std::hex << file.checksum << std::dec << '\n';
+      const std::string content = text.str() + checksum_line(text.str());
+      write_whole_file(folder + '/' + name_of_manifest, content);
+      read_checked_file(folder, checked_file(name_of_manifest, content));
+    }
+
+
+    /// Throws FileError if it is not whole or of another format.
+    Manifest read_manifest(const std::string &folder)
+    {
+      const std::string path = folder + '/' + name_of_manifest, text = read_whole_file(path);
+      const std::size_t end  = std::min(text.rfind(checksum_label), text.size());
+      const std::string head = text.substr(0, end);
+      if (text.substr(end) != checksum_line(head))
+        throw FileError(path + ": is not what was written (its checksum differs)");
+      std::istringstream in(head);
+      std::string line, label;
+      std::getline(in, line);
+      if (line != format_line)
+        throw FileError(path + ": begins with \"" + line + "\", but this program reads \"" + format_line + '"');
+      Manifest manifest;
+      in >> label >> std::ws;
+      std::getline(in, manifest.program);
+      in >> label >> manifest.dimension >> label >> manifest.time >> label >> manifest.step;
+      CheckedFile file;
+      while (in >> label >> file.name >> file.size >> std::hex >> file.checksum >> std::dec)
+        manifest.files.push_back(file);
+      if (const auto step = step_of(folder); step >= 0 && std::uint64_t(step) != manifest.step)
+        throw FileError(path + ": belongs to step " + std::to_string(manifest.step) + ", not to this folder");
+      return manifest;
+    }
+
+
+    /// The content of the file of that name. Throws FileError if there is none.
+    std::string read_file(const Checkpoint &checkpoint, const std::string &name)
+    {
+      for (const CheckedFile &file : checkpoint.manifest.files)
+        if (file.name == name)
+          return read_checked_file(checkpoint.folder, file);
+      throw FileError(name_of_manifest + ": names no file " + name);
+    }
+
+
+    /// The folders `checkpoint/step-<n>` of a run, the newest first, whole or not.
+    std::vector<std::string> folders_of(const std::string &run_folder)
+    {
+      std::map<long long, std::string, std::greater<>> folders;
+      std::error_code error;
+      for (const auto &entry : fs::directory_iterator(run_folder + "/checkpoint", error))
+        if (const long long step = step_of(entry.path()); step >= 0)
+          folders[step] = entry.path();
+      std::vector<std::string> result;
+      for (const auto &[step, path] : folders)
+        result.push_back(path);
       return result;
     }
+
+
+    void remove_folder(const std::string &folder)
+    {
+      std::error_code error;
+      fs::remove_all(folder, error);
+      if (error)
+        throw FileError(folder + ": cannot be removed: " + error.message());
+    }
+
+
+    std::uint64_t size_of(const Manifest &manifest)
+    {
+      std::uint64_t bytes = 0;
+      for (const CheckedFile &file : manifest.files)
+        bytes += file.size;
+      return bytes;
+    }
+
+
+    /// Makes the new, empty folder for the files of a checkpoint.
+    void begin_checkpoint(const std::string &unfinished)
+    {
+      std::error_code error;
+      fs::remove_all(unfinished, error);
+      fs::create_directories(unfinished, error);
+      if (error)
+        {
+          errno = error.value();
+          throw error_of_writing(unfinished, 0);
+        }
+    }
+
+
+    /// Writes the manifest, reads it again, gives the checkpoint its name and removes older ones than the last.
+    void finish_checkpoint(const Manifest &manifest, const std::string &run_folder, const std::string &unfinished)
+    {
+      write_manifest(manifest, unfinished);
+      const std::string folder = run_folder + "/checkpoint",
+                        name   = folder + '/' + name_of_step + std::to_string(manifest.step);
+      // One of that name is of another future: a damaged one, or the run went on from an older one.
+      remove_folder(name);
+      if (std::rename(unfinished.c_str(), name.c_str()) != 0)
+        throw error_of_writing(name, size_of(manifest));
+      sync_folder(folder);
+      unsigned int n_older = 0;
+      for (const std::string &other : folders_of(run_folder))
+        if (const auto step = std::uint64_t(step_of(other));
+            step != manifest.step && (step > manifest.step || n_older++ > 0))
+          remove_folder(other);
+    }
+
+
+    /// Appends numbers to a file's content, as they are in memory.
+    template <typename Value>
+    void append_bytes(std::string &buffer, const Value *values, const std::size_t n)
+    {
+      buffer.append(reinterpret_cast<const char *>(values), n * sizeof(Value));
+    }
+
+
+    /// Takes numbers from a file's content, as append_bytes() put them there.
+    class ByteReader
+    {
+    public:
+      /// @param content of the file; must live on
+      ByteReader(const std::string &file, const std::string &content)
+          : file(file)
+          , next(content.data())
+          , end(content.data() + content.size())
+      {
+      }
+
+      /// Reads the next `n` numbers. Throws FileError if there are fewer.
+      template <typename Value>
+      void take(Value *values, const std::size_t n)
+      {
+        if (n > std::size_t(end - next) / sizeof(Value))
+          throw FileError(file + ": ends too early");
+        std::memcpy(values, next, n * sizeof(Value));
+        next += n * sizeof(Value);
+      }
+
+      std::uint64_t take()
+      {
+        std::uint64_t value;
+        take(&value, 1);
+        return value;
+      }
+
+    private:
+      const std::string file;
+      const char *next, *const end;
+    };
+
+
+    /// This rank's points, cell by cell: for each set the numbers of properties and of points; for each cell its id and
+    /// the number of its points; for each point its id, location, reference location and properties.
+    template <int dim>
+    std::string pack_points(const std::vector<PointSet<dim> *> &sets)
+    {
+      std::string buffer;
+      for (const PointSet<dim> *points : sets)
+        {
+          const auto &handler           = points->handler();
+          const std::uint64_t numbers[] = { points->stride(), handler.n_locally_owned_particles() };
+          append_bytes(buffer, numbers, 2);
+          for (auto point = handler.begin(); point != handler.end();)
+            {
+              const auto cell              = point->get_surrounding_cell();
+              const auto id                = cell->id().template to_binary<dim>();
+              const std::uint64_t n_points = handler.n_particles_in_cell(cell);
+              append_bytes(buffer, id.data(), id.size());
+              append_bytes(buffer, &n_points, 1);
+              for (std::uint64_t p = 0; p < n_points; ++p, ++point)
+                {
+                  const std::uint64_t number = point->get_id();
+                  append_bytes(buffer, &number, 1);
+                  append_bytes(buffer, &point->get_location()[0], dim);
+                  append_bytes(buffer, &point->get_reference_location()[0], dim);
+                  append_bytes(buffer, point->get_properties().data(), points->stride());
+                }
+            }
+        }
+      return buffer;
+    }
+
 
     /// Reads all points of a checkpoint, of which this rank keeps those in its cells; returns how many each set has.
     template <int dim>
@@ -40,17 +276,43 @@ namespace scree
     read_points(const Checkpoint &checkpoint, const Triangulation<dim> &mesh, const std::vector<PointSet<dim> *> &sets)
     {
       AssertThrow(checkpoint.manifest.dimension == dim, ExcMessage("It is of another dimension than the case."));
-      const OwnCells<dim> cells = own_cells(mesh);
-      std::vector<std::uint64_t> n_points(sets.size(), 0);
+      std::map<CellId, typename Triangulation<dim>::active_cell_iterator> cells;
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned())
+          cells.emplace(cell->id(), cell);
+      std::vector<std::uint64_t> n_of_sets(sets.size(), 0);
+      const auto unpack = [&](ByteReader &file, PointSet<dim> &points) {
+        AssertThrow(file.take() == points.stride(), ExcMessage("The points have other properties than the case's."));
+        const std::uint64_t n_points = file.take();
+        std::vector<double> properties(points.stride());
+        for (std::uint64_t n = 0; n < n_points;)
+          {
+            CellId::binary_type id;
+            file.take(id.data(), id.size());
+            const auto cell               = cells.find(CellId(id));
+            const std::uint64_t n_in_cell = file.take();
+            for (std::uint64_t p = 0; p < n_in_cell; ++p, ++n)
+              {
+                const std::uint64_t number = file.take();
+                Point<dim> location, reference_location;
+                file.take(&location[0], dim);
+                file.take(&reference_location[0], dim);
+                file.take(properties.data(), properties.size());
+                if (cell != cells.end())
+                  points.handler().insert_particle(location, reference_location, number, cell->second, properties);
+              }
+          }
+        return n_points;
+      };
       for (const CheckedFile &file : checkpoint.manifest.files)
         if (file.name.rfind(name_of_points, 0) == 0)
           {
             const std::string content = read_checked_file(checkpoint.folder, file);
             ByteReader reader(checkpoint.folder + '/' + file.name, content);
             for (unsigned int s = 0; s < sets.size(); ++s)
-              n_points[s] += unpack_points(reader, cells, *sets[s]);
+              n_of_sets[s] += unpack(reader, *sets[s]);
           }
-      return n_points;
+      return n_of_sets;
     }
 
 
@@ -66,45 +328,23 @@ namespace scree
             blocks.resize(n_before + n);
             ByteReader(checkpoint.folder + '/' + file.name, content).take(blocks.data() + n_before, n);
           }
+      make_unique(blocks);
       return blocks;
     }
-
-
-    void read_state(const Checkpoint &checkpoint, const std::function<void(boost::archive::binary_iarchive &)> &state)
-    {
-      std::istringstream in(read_checked_file(checkpoint.folder, checkpoint.manifest.file(name_of_state)));
-      boost::archive::binary_iarchive archive(in);
-      state(archive);
-      if (in.peek() != std::istringstream::traits_type::eof())
-        throw FileError(checkpoint.folder + '/' + name_of_state + ": holds more than this program reads");
-    }
-
-
-    std::string packed_state(const std::function<void(boost::archive::binary_oarchive &)> &state)
-    {
-      std::ostringstream out;
-      boost::archive::binary_oarchive archive(out);
-      state(archive);
-      return out.str();
-    }
-
-
-    std::string first_line(const std::string &text)
-    {
-      return text.substr(0, text.find('\n'));
-    }
-
-
-    /// What the message about a failed checkpoint contains.
-    std::string what_is_left(const CheckpointFolder &folder, const Manifest &manifest)
-    {
-      std::string names;
-      for (const std::string &name : folder.whole())
-        names += (names.empty() ? "" : " and ") + name;
-      return " The checkpoint at t = " + number_text(manifest.time) + " s needs " + std::to_string(manifest.size()) +
-             " bytes in all. " + (names.empty() ? "There is no older one." : "Still whole: " + names + '.');
-    }
   } // namespace
+
+
+  std::vector<std::string> whole_checkpoints(const std::string &run_folder)
+  {
+    std::vector<std::string> result;
+    for (const std::string &folder : folders_of(run_folder))
+      if (fault_of([&] {
+            for (const CheckedFile &file : read_manifest(folder).files)
+              read_checked_file(folder, file);
+          }).empty())
+        result.push_back(folder);
+    return result;
+  }
 
 
   template <int dim>
@@ -114,17 +354,16 @@ namespace scree
                            const CaseEntries &entries,
                            const BackgroundGrid<dim> &grid,
                            const std::vector<PointSet<dim> *> &sets,
-                           const std::function<void(boost::archive::binary_oarchive &)> &state)
+                           const SaveState &state)
   {
-    const CheckpointFolder folder(run_folder);
-    const MPI_Comm communicator = grid.communicator();
-    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
-
-    const auto contents = std::make_shared<std::vector<FileContent>>();
+    const std::string unfinished = run_folder + "/checkpoint/unfinished";
+    const MPI_Comm communicator  = grid.communicator();
+    const unsigned int rank      = Utilities::MPI::this_mpi_process(communicator);
+    const auto contents          = std::make_shared<std::vector<FileContent>>();
     std::vector<CheckedFile> own;
     const auto add = [&](const std::string &name, std::string content) {
       own.push_back(checked_file(name, content));
-      contents->emplace_back(folder.unfinished + '/' + name, std::move(content));
+      contents->emplace_back(unfinished + '/' + name, std::move(content));
     };
     if (rank == 0)
       add(name_of_entries, entries.text());
@@ -137,8 +376,14 @@ namespace scree
       }
     add(name_of_points + std::to_string(rank), pack_points(sets));
     if (rank == 0)
-      add(name_of_state, packed_state(state));
-    Manifest manifest{ first_line(version_text()), dim, time, step, {} };
+      {
+        std::ostringstream out;
+        boost::archive::binary_oarchive archive(out);
+        state(archive);
+        add(name_of_state, out.str());
+      }
+    const std::string version = version_text();
+    Manifest manifest{ version.substr(0, version.find('\n')), dim, time, step, {} };
     for (const auto &files : Utilities::MPI::all_gather(communicator, own))
       manifest.files.insert(manifest.files.end(), files.begin(), files.end());
 
@@ -147,17 +392,27 @@ namespace scree
     job.stages[1] = [=] {
       write_whole_files(*contents);
       for (const CheckedFile &file : own)
-        read_checked_file(folder.unfinished, file);
+        read_checked_file(unfinished, file);
     };
     if (rank == 0)
       {
-        job.stages[0] = [=] { folder.begin(); };
-        job.stages[2] = [=] { folder.finish(manifest); };
+        job.stages[0] = [=] { begin_checkpoint(unfinished); };
+        job.stages[2] = [=] { finish_checkpoint(manifest, run_folder, unfinished); };
       }
     job.failed = [=](const std::string &fault) {
+      std::error_code ignored;
       if (rank == 0)
-        folder.abandon();
-      throw_on_all_ranks(rank == 0 ? fault + what_is_left(folder, manifest) : "", communicator);
+        fs::remove_all(unfinished, ignored);
+      std::string message = fault + " The checkpoint at t = " + number_text(time) + " s needs " +
+                            std::to_string(size_of(manifest)) + " bytes in all. ";
+      if (rank == 0)
+        {
+          std::string names;
+          for (const std::string &folder : whole_checkpoints(run_folder))
+            names += (names.empty() ? "Still whole: " : " and ") + folder;
+          message += names.empty() ? "There is no older one." : names + '.';
+        }
+      throw_on_all_ranks(rank == 0 ? message : "", communicator);
     };
     return job;
   }
@@ -170,33 +425,30 @@ namespace scree
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     std::string faults;
-    for (const std::string &folder : Utilities::MPI::broadcast(communicator, CheckpointFolder(run_folder).all()))
+    for (const std::string &folder : Utilities::MPI::broadcast(communicator, folders_of(run_folder)))
       {
         Checkpoint checkpoint{ folder, {}, {} };
-        const std::string fault        = fault_of([&] {
-          checkpoint.manifest = Manifest::read(folder);
-          checkpoint.entries  = CaseEntries(read_checked_file(folder, checkpoint.manifest.file(name_of_entries)));
+        const std::string fault = fault_of([&] {
+          checkpoint.manifest = read_manifest(folder);
+          checkpoint.entries  = CaseEntries(read_file(checkpoint, name_of_entries));
           const auto &files   = checkpoint.manifest.files;
           for (unsigned int f = rank; f < files.size(); f += n_ranks)
             read_checked_file(folder, files[f]);
         });
-        const std::string fault_of_all = fault_of_any_rank(fault, communicator);
+        std::string fault_of_all; // that of the first rank that has one
+        for (const std::string &other : Utilities::MPI::all_gather(communicator, fault))
+          if (fault_of_all.empty())
+            fault_of_all = other;
         if (fault_of_all.empty())
           return checkpoint;
         log("The checkpoint " + folder + " is damaged and not used. " + fault_of_all + '.');
         faults += ' ' + fault_of_all + '.';
       }
-    require_entry(!faults.empty(),
-                  "",
-                  "Output directory",
-                  run_folder,
-                  "there is no checkpoint to resume from. Write a \"Checkpoint interval\" in subsection Output and run "
-                  "without --resume first.");
-    throw EntryError(
-        entry_message("",
-                      "Output directory",
-                      run_folder,
-                      "no checkpoint there is whole." + faults + " Bring the files back, or run without --resume."));
+    throw EntryError(entry_message(
+        { "", "Output directory", run_folder },
+        faults.empty() ? "there is no checkpoint to resume from. Write a \"Checkpoint interval\" in "
+                         "subsection Output and run without --resume first."
+                       : "no checkpoint there is whole." + faults + " Bring the files back, or run without --resume."));
   }
 
 
@@ -204,60 +456,44 @@ namespace scree
   void load_checkpoint(const Checkpoint &checkpoint,
                        BackgroundGrid<dim> &grid,
                        const std::vector<PointSet<dim> *> &sets,
-                       const std::function<void(boost::archive::binary_iarchive &)> &state)
+                       const LoadState &state)
   {
-    const MPI_Comm communicator = grid.communicator();
-    const auto on_all_ranks     = [&](const std::function<void()> &action) {
+    const auto on_all = [&](const std::function<void()> &action) {
       const std::string fault = fault_of(action);
       throw_on_all_ranks(fault.empty() ? ""
                                        : "The checkpoint " + checkpoint.folder + " of " + checkpoint.manifest.program +
                                              " cannot be read. " + fault,
-                         communicator);
+                         grid.communicator());
     };
     for (PointSet<dim> *points : sets)
       points->handler().clear_particles();
     if (grid.follows_points())
       {
         Blocks blocks;
-        on_all_ranks([&] { blocks = read_blocks(checkpoint); });
-        make_unique(blocks);
+        on_all([&] { blocks = read_blocks(checkpoint); });
         grid.refine(blocks, Shares::even);
       }
     std::vector<std::uint64_t> n_points;
-    on_all_ranks([&] { n_points = read_points(checkpoint, grid.triangulation(), sets); });
+    on_all([&] { n_points = read_points(checkpoint, grid.triangulation(), sets); });
     for (PointSet<dim> *points : sets)
       {
         points->handler().update_cached_numbers();
         points->sort(); // brings the points of a cell together in memory
       }
-    on_all_ranks([&] {
+    on_all([&] {
       for (unsigned int s = 0; s < sets.size(); ++s)
         AssertThrow(sets[s]->handler().n_global_particles() == n_points[s],
                     ExcMessage("Points lie in cells that the case does not have."));
-      read_state(checkpoint, state);
+      std::istringstream in(read_file(checkpoint, name_of_state));
+      boost::archive::binary_iarchive archive(in);
+      state(archive);
+      if (in.peek() != std::istringstream::traits_type::eof())
+        throw FileError(checkpoint.folder + '/' + name_of_state + ": holds more than this program reads");
     });
   }
 
-  template FileJob checkpoint_files(const std::string &,
-                                    const double,
-                                    const std::uint64_t,
-                                    const CaseEntries &,
-                                    const BackgroundGrid<2> &,
-                                    const std::vector<PointSet<2> *> &,
-                                    const std::function<void(boost::archive::binary_oarchive &)> &);
-  template FileJob checkpoint_files(const std::string &,
-                                    const double,
-                                    const std::uint64_t,
-                                    const CaseEntries &,
-                                    const BackgroundGrid<3> &,
-                                    const std::vector<PointSet<3> *> &,
-                                    const std::function<void(boost::archive::binary_oarchive &)> &);
-  template void load_checkpoint(const Checkpoint &,
-                                BackgroundGrid<2> &,
-                                const std::vector<PointSet<2> *> &,
-                                const std::function<void(boost::archive::binary_iarchive &)> &);
-  template void load_checkpoint(const Checkpoint &,
-                                BackgroundGrid<3> &,
-                                const std::vector<PointSet<3> *> &,
-                                const std::function<void(boost::archive::binary_iarchive &)> &);
+  template decltype(checkpoint_files<2>) checkpoint_files<2>;
+  template decltype(checkpoint_files<3>) checkpoint_files<3>;
+  template decltype(load_checkpoint<2>) load_checkpoint<2>;
+  template decltype(load_checkpoint<3>) load_checkpoint<3>;
 } // namespace scree

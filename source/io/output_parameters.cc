@@ -2,11 +2,48 @@
 #include <scree/input/input_error.h>
 #include <scree/io/output_parameters.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
 #include <map>
+#include <sstream>
 
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Digits behind the point that a number needs, at most 12.
+    int decimals_of(const double number)
+    {
+      constexpr double rounding = 1e-9; // of the number
+      int decimals              = 0;
+      for (double scaled = number; decimals < 12 && std::abs(scaled - std::round(scaled)) > rounding * scaled;
+           scaled *= 10.)
+        ++decimals;
+      return decimals;
+    }
+  } // namespace
+
+
+  TimeLabel::TimeLabel(const double end_time, const double interval)
+      : decimals(std::max(decimals_of(end_time), decimals_of(interval)))
+  {
+    std::ostringstream longest;
+    longest << std::fixed << std::setprecision(decimals) << end_time;
+    width = static_cast<int>(longest.str().size());
+  }
+
+
+  std::string TimeLabel::operator()(const double time) const
+  {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(decimals) << std::setfill('0') << std::setw(width) << time << 's';
+    return text.str();
+  }
+
 
   void MapParameters::add_parameters(ParameterHandler &prm)
   {
@@ -34,24 +71,16 @@ namespace scree
   {
     const std::string subsection = "Output/Maps";
     require_entry(!write || has_soil,
-                  subsection,
-                  "Write",
-                  "true",
+                  { subsection, "Write", "true" },
                   "maps are of soil, and there is none: entry \"Bodies\" is none. Remove it.");
     require_entry(write || least_thickness == MapParameters().least_thickness,
-                  subsection,
-                  "Least thickness",
-                  least_thickness,
+                  { subsection, "Least thickness", least_thickness },
                   "this entry has no effect. Remove it, or write \"Write = true\".");
     require_entry(write || format == MapParameters().format,
-                  subsection,
-                  "Format",
-                  format,
+                  { subsection, "Format", format },
                   "this entry has no effect. Remove it, or write \"Write = true\".");
     require_entry(dim == 3 || format == MapParameters().format,
-                  subsection,
-                  "Format",
-                  format,
+                  { subsection, "Format", format },
                   "maps of a scene in the plane are tables (.csv). Remove it.");
   }
 
@@ -93,9 +122,7 @@ namespace scree
                                           { "Statistics interval", statistics_interval },
                                           { "Checkpoint interval", checkpoint_interval } })
       require_entry(interval == 0 || end_time / interval <= most,
-                    "Output",
-                    name,
-                    interval,
+                    { "Output", name, interval },
                     "until \"End time\" = " + number_text(end_time) + " s it would be due " +
                         number_text(end_time / interval) + " times, and at most 1e8 are possible. Write a longer one.");
   }
@@ -119,5 +146,77 @@ namespace scree
   double OutputParameters::interval_of_statistics() const
   {
     return statistics_interval > 0 ? statistics_interval : interval;
+  }
+
+
+  namespace
+  {
+    /// The first multiple of `interval` after `time`; never, if there is no interval.
+    double first_after(const double time, const double interval)
+    {
+      return interval > 0 ? (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval
+                          : std::numeric_limits<double>::infinity();
+    }
+
+    /// Times that differ by rounding only are one.
+    bool reached(const double time, const double due)
+    {
+      return time >= due * (1. - 1e-12);
+    }
+  } // namespace
+
+
+  OutputTimes::OutputTimes(const OutputParameters &parameters, const double end_time)
+      : picture_interval(parameters.interval)
+      , row_interval(parameters.interval_of_statistics())
+      , checkpoint_interval(parameters.checkpoint_interval)
+      , end_time(end_time)
+  {
+  }
+
+
+  void OutputTimes::begin(const double time)
+  {
+    picture    = first_after(time, picture_interval);
+    row        = first_after(time, row_interval);
+    checkpoint = first_after(time, checkpoint_interval);
+  }
+
+
+  double OutputTimes::next(const double largest_step) const
+  {
+    const auto due     = { end_time, picture, row, checkpoint };
+    const double first = std::min(due);
+    // Those that follow at once are met together: in a step that is far shorter than the others the pressure would
+    // answer to what divergence the last one left with a shock.
+    double last = first;
+    for (const double time : due)
+      if (time <= first + 0.1 * largest_step)
+        last = std::max(last, time);
+    return std::min(last, end_time);
+  }
+
+
+  bool OutputTimes::is_end(const double time) const
+  {
+    return reached(time, end_time);
+  }
+
+
+  bool OutputTimes::picture_is_due(const double time) const
+  {
+    return reached(time, picture);
+  }
+
+
+  bool OutputTimes::row_is_due(const double time) const
+  {
+    return reached(time, row);
+  }
+
+
+  bool OutputTimes::checkpoint_is_due(const double time) const
+  {
+    return checkpoint_interval > 0 && reached(time, checkpoint);
   }
 } // namespace scree

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
+#include <scree/io/files.h>
 #include <scree/io/run_folder.h>
-#include <scree/io/whole_file.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
+#include <optional>
+#include <sstream>
 
 namespace scree
 {
@@ -49,7 +55,7 @@ namespace scree
       , communicator(communicator)
   {
     const std::string fault = Utilities::MPI::broadcast(communicator, writer ? open() : std::string());
-    require_entry(fault.empty(), "", "Output directory", path, fault);
+    require_entry(fault.empty(), { "", "Output directory", path }, fault);
   }
 
 
@@ -102,9 +108,7 @@ namespace scree
   {
     throw_on_all_ranks(!writer || is_present()
                            ? ""
-                           : entry_message("",
-                                           "Output directory",
-                                           path,
+                           : entry_message({ "", "Output directory", path },
                                            "it was removed or renamed while the run wrote to it. Leave it alone until "
                                            "the run has ended, and start anew."),
                        communicator);
@@ -152,5 +156,165 @@ namespace scree
   {
     if (refused.insert(name).second)
       std::cerr << "scree: " + fault + '\n' << std::flush;
+  }
+
+
+  std::string table_head(const std::vector<std::string> &columns)
+  {
+    std::string lines;
+    for (unsigned int i = 0; i < columns.size(); ++i)
+      lines += "# " + std::to_string(i + 1) + ": " + columns[i] + '\n';
+    return lines;
+  }
+
+
+  std::string table_row(const std::vector<double> &values)
+  {
+    std::ostringstream line;
+    line << std::scientific << std::setprecision(12);
+    for (const double value : values)
+      line << value << ' ';
+    line << '\n';
+    return line.str();
+  }
+
+
+  namespace
+  {
+    /// Words of letters and digits, joined by `_`.
+    std::string joined_words(const std::string &text)
+    {
+      std::string result;
+      bool is_in_word = false;
+      for (const char c : text)
+        {
+          const auto byte    = static_cast<unsigned char>(c);
+          const bool is_word = std::isalnum(byte) || byte >= 128; // also letters beyond ASCII
+          if (is_word && !is_in_word && !result.empty())
+            result += '_';
+          if (is_word)
+            result += c;
+          is_in_word = is_word;
+        }
+      return result;
+    }
+
+
+    std::string csv_unit(const std::string &unit)
+    {
+      if (unit == "%")
+        return "percent";
+      std::string result;
+      for (const char c : unit)
+        if (c == '/')
+          result += '_';
+        else if (std::isalnum(static_cast<unsigned char>(c)))
+          result += c;
+      return result;
+    }
+  } // namespace
+
+
+  std::string csv_name(const std::string &column)
+  {
+    const auto bracket  = column.rfind(" (");
+    const bool has_unit = bracket != std::string::npos && column.back() == ')';
+    const std::string unit =
+        has_unit ? csv_unit(column.substr(bracket + 2, column.size() - bracket - 3)) : std::string();
+    const std::string name = joined_words(lower_case(has_unit ? column.substr(0, bracket) : column));
+    return unit.empty() ? name : name + '_' + unit;
+  }
+
+
+  std::string csv_head(const std::vector<std::string> &columns)
+  {
+    std::vector<std::string> names;
+    std::string line;
+    for (const std::string &column : columns)
+      {
+        const std::string wanted = csv_name(column);
+        std::string name         = wanted;
+        for (unsigned int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
+          name = wanted + '_' + std::to_string(n);
+        names.push_back(name);
+        line += (line.empty() ? "" : ",") + name;
+      }
+    return line + '\n';
+  }
+
+
+  std::string csv_row(const std::vector<double> &values)
+  {
+    std::ostringstream line;
+    line << std::setprecision(13);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        line << (i == 0 ? "" : ",");
+        if (std::isnan(values[i])) // some machines would write -nan
+          line << "nan";
+        else
+          line << values[i];
+      }
+    line << '\n';
+    return line.str();
+  }
+
+
+  TableFile::TableFile(RunFolder &folder, const std::string &name)
+      : folder(folder)
+      , files{ { name, table_head, table_row, RowFile(folder.file(name)) },
+               { name + ".csv", csv_head, csv_row, RowFile(folder.file(name + ".csv")) } }
+  {
+  }
+
+
+  void TableFile::append(const std::vector<std::string> &columns, const std::vector<std::vector<double>> &rows)
+  {
+    if (!folder.is_writer())
+      return;
+    for (File &file : files)
+      {
+        std::string text = file.rows.is_empty() ? file.head(columns) : "";
+        for (const std::vector<double> &row : rows)
+          text += file.row(row);
+        folder.try_to_write(file.name, [&] { file.rows.append(text); });
+      }
+  }
+
+
+  void TableFile::sync()
+  {
+    for (File &file : files)
+      folder.try_to_write(file.name, [&] { file.rows.sync(); });
+  }
+
+
+  void TableFile::cut()
+  {
+    if (!folder.is_writer())
+      return;
+    for (File &file : files)
+      if (const std::string missing = file.rows.cut(); !missing.empty())
+        folder.log(missing);
+  }
+
+
+  void TableFile::complete()
+  {
+    if (!folder.is_writer())
+      return;
+    std::optional<FileError> refusal;
+    for (File &file : files)
+      try
+        {
+          if (!file.rows.is_complete())
+            file.rows.append("");
+        }
+      catch (const FileError &error)
+        {
+          refusal = refusal.value_or(error); // the other file may have room
+        }
+    if (refusal)
+      throw *refusal;
   }
 } // namespace scree

@@ -124,7 +124,7 @@ namespace scree
   void MaterialParameters::throw_too_stiff(const std::string &subsection, const std::string &remedy) const
   {
     const LawEntry entry = chosen().stiffest();
-    throw EntryError(entry_message(path(subsection), entry.name, number_text(entry.value), remedy));
+    throw EntryError(entry_message({ path(subsection), entry.name, number_text(entry.value) }, remedy));
   }
 
 

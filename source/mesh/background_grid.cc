@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/mesh/background_grid.h>
 #include <scree/input/input_error.h>
+#include <scree/mesh/background_grid.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -117,9 +117,7 @@ namespace scree
     for (const auto &[name, corner] :
          { std::make_pair("Lower corner", lower_corner), { "Upper corner", upper_corner } })
       require_entry(corner.size() == dim,
-                    "Mesh",
-                    name,
-                    number_text(corner),
+                    { "Mesh", name, number_text(corner) },
                     "entry \"Dimension\" is " + std::to_string(dim) + ". Write " + std::to_string(dim) +
                         " coordinates in m, separated by commas.");
     double n_cells = 1;
@@ -128,16 +126,12 @@ namespace scree
         const std::string axis = std::string(1, "xyz"[a]);
         const double length    = upper_corner[a] - lower_corner[a];
         require_entry(length > 0,
-                      "Mesh",
-                      "Upper corner",
-                      number_text(upper_corner),
+                      { "Mesh", "Upper corner", number_text(upper_corner) },
                       "the box has no width along " + axis + ", since \"Lower corner\" = " + number_text(lower_corner) +
                           ". Write a larger coordinate.");
         const double cells = length / cell_size;
         require_entry(std::abs(cells - std::round(cells)) < 1e-6 && std::round(cells) >= 1,
-                      "Mesh",
-                      "Cell size",
-                      cell_size,
+                      { "Mesh", "Cell size", cell_size },
                       "it does not divide the box: " + number_text(length) + " m along " + axis + " are " +
                           number_text(cells) + " cells. Try " + number_text(length / std::max(1., std::round(cells))) +
                           ", or move a corner.");
@@ -145,9 +139,7 @@ namespace scree
       }
     constexpr double most_cells = 1e9; // beyond the memory of any machine this runs on
     require_entry(n_cells <= most_cells,
-                  "Mesh",
-                  "Cell size",
-                  cell_size,
+                  { "Mesh", "Cell size", cell_size },
                   "the box would have " + number_text(n_cells) +
                       " cells, and at most 1e9 are allowed. Write a larger size.");
   }

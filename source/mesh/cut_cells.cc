@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/open_part.h>
 #include <scree/mesh/cut_cells.h>
-#include <scree/mesh/shape_functions.h>
+#include <scree/mesh/background_grid.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/joined_surface.h>
-#include <scree/model/places_of_points.h>
+#include <scree/geometry/level_set.h>
+#include <scree/initial/geostatic.h>
+#include <scree/initial/steady_seepage.h>
+#include <scree/materials/table.h>
 #include <scree/model/scene.h>
 #include <scree/schemes/two_phase_scheme.h>
+#include <scree/seeding/seeding.h>
+#include <scree/seeding/water_seeding.h>
+#include <scree/tensor/invariants.h>
+#include <scree/tensor/principal.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -12,6 +19,75 @@
 namespace scree
 {
   using namespace dealii;
+
+  template <int dim>
+  PlacesOfPoints<dim> places_of_points(const Parameters &parameters)
+  {
+    struct Part
+    {
+      Region<dim> region;
+      unsigned int points_per_cell;
+    };
+    const auto parts = std::make_shared<std::vector<Part>>();
+    const auto soil  = parameters.soil_regions();
+    for (unsigned int i = 0; i < soil.size(); ++i)
+      parts->push_back({ soil[i].template places<dim>(), parameters.bodies[i].seeding.points_per_cell });
+    if (parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point)
+      for (auto &part : water_parts<dim>(parameters.water, soil))
+        parts->push_back({ std::move(part.region), parameters.water.points_per_cell });
+    struct Section // of an inflow
+    {
+      Region<dim> region;
+      unsigned int axis;
+      double lower; // coordinate of the lower side of a layer, m
+    };
+    const auto sections = std::make_shared<std::vector<Section>>();
+    for (const InflowParameters &inflow : parameters.inflows)
+      {
+        const unsigned int face = inflow.face_number(dim);
+        const double x          = inflow.place(parameters.grid);
+        sections->push_back({ Region<dim>(entry_name(inflow.subsection, "Region"), inflow.region),
+                              face / 2,
+                              face % 2 == 0 ? x : x - parameters.grid.cell_size / parameters.points_per_cell(inflow) });
+      }
+    unsigned int n_places = 0;
+    for (const Part &part : *parts)
+      n_places += Utilities::fixed_power<dim>(part.points_per_cell) * Region<dim>::n_places_of_cube;
+    const auto loaded = [&parameters](const Point<dim> &cell) {
+      return parameters.surface_load.touches_cell(&cell[0], parameters.grid, dim);
+    };
+    const auto fed = [sections, &parameters](const Point<dim> &cell) {
+      return std::any_of(sections->begin(), sections->end(), [&](const Section &section) {
+        const double beyond = section.lower - cell[section.axis], width = parameters.grid.cell_size;
+        return beyond > -1e-6 * width && beyond < (1. - 1e-6) * width && section.region.touches_cube(cell, width);
+      });
+    };
+    const auto in_cell = [parts, loaded, fed, &parameters](const Point<dim> &cell) {
+      const auto touches_cell = [&](const Part &part) {
+        const unsigned int n = part.points_per_cell;
+        const double width   = parameters.grid.cell_size / n;
+        for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
+          {
+            Point<dim> corner = cell;
+            for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+              corner[a] += width * (rest % n);
+            if (part.region.touches_cube(corner, width))
+              return true;
+          }
+        return false;
+      };
+      return loaded(cell) || fed(cell) || std::any_of(parts->begin(), parts->end(), touches_cell);
+    };
+    const auto at_place = [parts, loaded, fed](const Point<dim> &cell, const Point<dim> &x) {
+      return loaded(cell) || fed(cell) ||
+             std::any_of(parts->begin(), parts->end(), [&](const Part &part) { return part.region.contains(x); });
+    };
+    return { in_cell, at_place, n_places };
+  }
+
+  template PlacesOfPoints<2> places_of_points(const Parameters &);
+  template PlacesOfPoints<3> places_of_points(const Parameters &);
+
 
   template <int dim>
   Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm communicator)
@@ -385,6 +461,648 @@ namespace scree
     for (unsigned int node = 0; node < is_rigid.size(); ++node)
       is_rigid[node] = field[node][NodalField<dim>::mass] > 0.;
     return is_rigid;
+  }
+
+
+  // What enters a scene.
+
+  template <int dim>
+  void Scene<dim>::let_in(const double time,
+                          const double time_step,
+                          const PressureOfCell<dim> &pressure,
+                          RunBalance<dim> &totals)
+  {
+    for (const Inflow<dim> &inflow : inflows)
+      if (inflow.water_share > 0.)
+        totals.entered_energy += time_step * inflow.power_of_pressure(pressure);
+    for (Inflow<dim> &inflow : inflows)
+      if (const unsigned int n_layers = inflow.end_step(); n_layers > 0)
+        {
+          unsigned int n_points = 0;
+          for (unsigned int back = n_layers; back-- > 0;)
+            {
+              if (inflow.brings_soil)
+                n_points += add_soil(inflow, back, totals);
+              if (inflow.water_share > 0.)
+                n_points += add_water(inflow, back, pressure, totals);
+            }
+          const unsigned int n_sets = inflow.brings_soil + (inflow.water_share > 0.);
+          AssertThrow(Utilities::MPI::sum(n_points, communicator) == n_sets * n_layers * inflow.places().size(),
+                      ExcInternalError("Points entered beyond the cells of the section."));
+        }
+    if (rain)
+      let_rain(time, time_step, pressure, totals);
+  }
+
+
+  template <int dim>
+  RainedSoil Scene<dim>::rained_soil() const
+  {
+    RainedSoil soil{ parameters.grid.cell_size / points_per_cell().first, 1. };
+    for (const SoilBody<dim> &body : bodies)
+      if (const double porosity = parameters.find_body(body.name)->initial_porosity(); !body.is_rigid && body.drag)
+        soil.porosity = std::min(soil.porosity, std::max(porosity, 0.1));
+    return soil;
+  }
+
+
+  template <int dim>
+  typename Rain<dim>::Columns Scene<dim>::columns_of_rain()
+  {
+    typename Rain<dim>::Columns columns = rain->no_columns();
+    const PointSet<dim> &of_water       = water.front().points();
+    for (const SoilBody<dim> &body : bodies)
+      for_each_point(body.points, [&](const auto &point) { rain->find_top(point.location, columns.soil); });
+    for_each_point(of_water, [&](const auto &point) { rain->find_top(point.location, columns.water); });
+    Utilities::MPI::max(columns.soil, communicator, columns.soil);
+    Utilities::MPI::max(columns.water, communicator, columns.water);
+
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid)
+        for_each_point(body.points, [&](const auto &point) { rain->fill_with_soil(point.location, columns); });
+    const unsigned int volume = water.front().layout.volume;
+    for_each_point(
+        of_water, [&](const auto &point) { rain->fill_with_water(point.location, point.properties[volume], columns); });
+    Utilities::MPI::max(columns.has_soil, communicator, columns.has_soil);
+    Utilities::MPI::sum(columns.filled, communicator, columns.filled);
+    return columns;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::let_rain(const double time,
+                            const double time_step,
+                            const PressureOfCell<dim> &pressure,
+                            RunBalance<dim> &totals)
+  {
+    if (!rain->count(time, time_step))
+      return;
+    const auto drops       = rain->drops(columns_of_rain());
+    WaterPhase<dim> &phase = water.front();
+    PointSet<dim> &points  = phase.points();
+    std::vector<double> properties(points.stride());
+    std::vector<int> has_cell(drops.size(), 0);
+    for (unsigned int i = 0; i < drops.size(); ++i)
+      if (const auto *cell = rain->cell_at(drops[i].location))
+        {
+          const Point<dim> &x      = drops[i].location;
+          const unsigned int index = (*cell)->active_cell_index();
+          std::fill(properties.begin(), properties.end(), 0.);
+          fill_entrant(Entrant{ rain->volume(), x, index, Point<dim>((x - (*cell)->vertex(0)) / grid.cell_size()) },
+                       phase,
+                       pressure(index),
+                       properties);
+          const double mass = properties[phase.layout.mass];
+          totals.entered_water_mass += mass;
+          totals.entered_energy -= mass * (forcing.gravity() * (x - Point<dim>()));
+          points.add(*cell, x, points.next_id + i, properties);
+          has_cell[i] = 1;
+        }
+    points.next_id += drops.size();
+    points.finish_adding();
+    Utilities::MPI::max(has_cell, communicator, has_cell);
+    for (unsigned int i = 0; i < drops.size(); ++i)
+      if (!has_cell[i])
+        rain->postpone(drops[i]);
+  }
+
+
+  template <int dim>
+  template <typename Fill>
+  unsigned int Scene<dim>::add_layer(const Inflow<dim> &inflow,
+                                     const unsigned int back,
+                                     PointSet<dim> &points,
+                                     const unsigned int mass_slot,
+                                     const Fill &fill,
+                                     RunBalance<dim> &totals) const
+  {
+    std::vector<double> properties(points.stride());
+    const Tensor<1, dim> &velocity = inflow.velocity();
+    unsigned int n_points          = 0;
+    for (unsigned int i = 0; i < inflow.places().size(); ++i)
+      {
+        const auto &place  = inflow.places()[i];
+        const Point<dim> x = place.location + inflow.advance_of(back) * inflow.inward();
+        const auto *cell   = inflow.cell_at(x);
+        if (cell == nullptr)
+          continue;
+        std::fill(properties.begin(), properties.end(), 0.);
+        fill(Entrant{ place.volume,
+                      x,
+                      (*cell)->active_cell_index(),
+                      Point<dim>((x - (*cell)->vertex(0)) / grid.cell_size()) },
+             properties);
+        const double mass = properties[mass_slot];
+        totals.entered_momentum += mass * velocity;
+        totals.entered_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (x - Point<dim>()));
+        points.add(*cell, x, points.next_id + i, properties);
+        ++n_points;
+      }
+    points.next_id += inflow.places().size();
+    points.finish_adding();
+    return n_points;
+  }
+
+
+  template <int dim>
+  unsigned int Scene<dim>::add_soil(const Inflow<dim> &inflow, const unsigned int back, RunBalance<dim> &totals)
+  {
+    SoilBody<dim> &body =
+        *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
+    const auto surfaces = parameters.has_water ? std::vector<RigidSurface<dim>>() : rigid_surfaces();
+    const auto &layout  = body.layout;
+    std::unique_ptr<PlaceVariableValues<dim>> of_place; // what the law has from the place; null: nothing
+    if (const PlaceVariable variable = body.material->place_variable(); !variable.expression.empty())
+      of_place = std::make_unique<PlaceVariableValues<dim>>(variable,
+                                                            parameters.find_body(body.name)->material.path(body.name));
+    return add_layer(
+        inflow,
+        back,
+        body.points,
+        layout.mass,
+        [&](const Entrant &entrant, std::vector<double> &properties) {
+          if (of_place)
+            of_place->set(entrant.location, 0., properties.data() + layout.internal_variables);
+          fill_entrant(entrant, body, properties);
+          std::copy_n(&inflow.velocity()[0], dim, properties.begin() + layout.velocity);
+          set_touching_distances(body, surfaces, entrant.cell, entrant.place, properties.data());
+          ++totals.n_entered;
+          totals.entered_mass += properties[layout.mass];
+          totals.entered_energy +=
+              entrant.volume * body.material->elastic_energy(properties.data() + layout.left_cauchy_green);
+        },
+        totals);
+  }
+
+
+  template <int dim>
+  unsigned int Scene<dim>::add_water(const Inflow<dim> &inflow,
+                                     const unsigned int back,
+                                     const PressureOfCell<dim> &pressure,
+                                     RunBalance<dim> &totals)
+  {
+    WaterPhase<dim> &phase = water.front();
+    return add_layer(
+        inflow,
+        back,
+        phase.points(),
+        phase.layout.mass,
+        [&](Entrant entrant, std::vector<double> &properties) {
+          entrant.volume *= inflow.water_share;
+          fill_entrant(entrant, phase, pressure(entrant.cell), properties);
+          std::copy_n(&inflow.velocity()[0], dim, properties.begin() + phase.layout.velocity);
+          totals.entered_water_mass += properties[phase.layout.mass];
+        },
+        totals);
+  }
+
+
+  template <int dim>
+  void
+  Scene<dim>::fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const
+  {
+    const auto &layout                  = body.layout;
+    const InitialStateParameters &state = parameters.find_body(body.name)->initial_state;
+    properties[layout.mass]             = body.density * entrant.volume;
+    properties[layout.volume]           = entrant.volume;
+    if (layout.has_start)
+      std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
+    double stress[n_symmetric_components<dim>] = {};
+    if (state.stress_kind() == InitialStress::isotropic)
+      std::fill_n(stress, 3, -state.pressure);
+    body.material->initialise(stress,
+                              properties.data() + layout.left_cauchy_green,
+                              properties.data() + layout.stress,
+                              properties.data() + layout.internal_variables);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::fill_entrant(const Entrant &entrant,
+                                const WaterPhase<dim> &phase,
+                                const std::array<double, (1 << dim)> &pressure,
+                                std::vector<double> &properties) const
+  {
+    const auto &layout        = phase.layout;
+    properties[layout.mass]   = phase.density * entrant.volume;
+    properties[layout.volume] = entrant.volume;
+    for (unsigned int v = 0; v < pressure.size(); ++v)
+      {
+        properties[layout.pressure] += pressure[v] * GeometryInfo<dim>::d_linear_shape_function(entrant.place, v);
+        const Tensor<1, dim> slope = GeometryInfo<dim>::d_linear_shape_function_gradient(entrant.place, v);
+        for (unsigned int a = 0; a < dim; ++a)
+          properties[layout.pressure_gradient + a] += pressure[v] * slope[a] / grid.cell_size();
+      }
+  }
+
+
+  template <int dim>
+  void Scene<dim>::hold_at_inflows()
+  {
+    if (inflows.empty())
+      return;
+    std::vector<unsigned int> inflow_of_node(grid.numbering().n_local(), Constraints<dim>::free);
+    std::vector<typename Constraints<dim>::MovedByInflow> moved;
+    for (const Inflow<dim> &inflow : inflows)
+      {
+        for (unsigned int node = 0; node < inflow_of_node.size(); ++node)
+          if (inflow.is_open && inflow.moves(node))
+            inflow_of_node[node] = moved.size();
+        moved.push_back({ Tensor<1, dim>(), inflow.brings_soil });
+      }
+    constraints.set_inflows(inflow_of_node, moved);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::include_inflows(Speeds &speeds) const
+  {
+    for (const Inflow<dim> &inflow : inflows)
+      if (inflow.is_open)
+        {
+          speeds.include_point(inflow.velocity().norm());
+          for (const SoilBody<dim> &body : bodies)
+            if (body.name == inflow.body)
+              speeds.include_wave(body.wave_speed(body.material->initial_bulk_modulus(0.), 0.));
+        }
+  }
+
+
+  template <int dim>
+  std::vector<std::string> Scene<dim>::texts_of_inflows() const
+  {
+    std::vector<std::string> texts;
+    for (const Inflow<dim> &inflow : inflows)
+      texts.push_back("Inflow " + inflow.name + ": " + number_text(inflow.area()) + (dim == 2 ? " m" : " m^2") +
+                      " are open; " + std::to_string(inflow.places().size()) + " points a layer of " + inflow.body);
+    if (rain)
+      texts.push_back("Rain: on " + number_text(rain->area()) + (dim == 2 ? " m" : " m^2") + ", in drops of " +
+                      number_text(rain->volume()) + (dim == 2 ? " m^2" : " m^3"));
+    return texts;
+  }
+
+
+  // What a scene starts from.
+
+  template <int dim>
+  std::pair<unsigned int, unsigned int> Scene<dim>::points_per_cell() const
+  {
+    std::pair<unsigned int, unsigned int> range(numbers::invalid_unsigned_int, 1);
+    for (const BodyParameters &body : parameters.bodies)
+      {
+        range.first  = std::min(range.first, body.seeding.points_per_cell);
+        range.second = std::max(range.second, body.seeding.points_per_cell);
+      }
+    return range;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::fill()
+  {
+    if (parameters.has_water && water_at_start.seepage_start.is_steady)
+      {
+        seepage = solve_seepage(seepage_survey(), forcing.gravity().norm());
+        water_at_start.set_table<dim>(seepage);
+      }
+    fill_with_points();
+    hold_rigid_nodes();
+    hold_at_inflows();
+    set_initial_state();
+  }
+
+
+  template <int dim>
+  SeepageSurvey<dim> Scene<dim>::seepage_survey() const
+  {
+    SeepageSoil soil{ parameters.soil_regions(), {} };
+    auto body = bodies.begin();
+    for (const SoilRegion &region : soil.bodies)
+      soil.conductivities.push_back(region.porosity > 0. ? (body++)->drag->conductivity(region.porosity)
+                                                         : (++body, 0.));
+    return SeepageSurvey<dim>(
+        grid, soil, water_at_start, *water_walls, water_at_start.density * forcing.gravity().norm(), ground_of_water());
+  }
+
+
+  namespace
+  {
+    /// Throws EntryError unless the phreatic surface is in the box above and below each point of soil. Collective.
+    template <int dim>
+    void require_phreatic_surface(const WaterParameters &parameters,
+                                  const std::list<SoilBody<dim>> &bodies,
+                                  const BackgroundGrid<dim> &grid)
+    {
+      const auto place         = parameters.place(); // not taken apart: clang 14 hands no part of it to a lambda
+      const std::string &entry = place.first, &value = place.second;
+      if (entry.rfind("Phreatic", 0) != 0)
+        return;
+      const Region<dim> wet(entry_name("Water", entry),
+                            parameters.without_fringe().region_in_soil(dim),
+                            nullptr,
+                            parameters.table<dim>());
+      const double top = grid.upper_corner()[dim - 1], bottom = grid.lower_corner()[dim - 1];
+      const double rounding = 1e-6 * grid.cell_size();
+      on_all_ranks(grid.communicator(), [&] {
+        for (const SoilBody<dim> &body : bodies)
+          for_each_point(body.points, [&](const auto &point) {
+            Point<dim> above = point.location, below = point.location;
+            above[dim - 1]     = top + rounding;
+            below[dim - 1]     = bottom - rounding;
+            const bool is_high = wet.contains(above);
+            if (is_high || !(wet.contains(below) || parameters.table<dim>()))
+              throw ValueError(entry_message({ "Water", entry, value },
+                                             std::string("it leaves the box of subsection Mesh ") +
+                                                 (is_high ? "through its top" : "through its bottom") + " at " +
+                                                 number_text(point.location) +
+                                                 " m. Write a larger box, or an elevation from " + number_text(bottom) +
+                                                 " (dry) to " + number_text(top) + " m."));
+          });
+      });
+    }
+  } // namespace
+
+
+  template <int dim>
+  void Scene<dim>::fill_with_points()
+  {
+    const auto soil = parameters.soil_regions();
+    if (soil.size() > 1)
+      require_apart(soil, points_per_cell().second, grid.triangulation(), grid.cell_size());
+    auto entries = parameters.bodies.begin();
+    for (auto &body : bodies)
+      seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water);
+    if (parameters.has_water)
+      require_phreatic_surface(parameters.water, bodies, grid);
+    for (auto &part : water)
+      seed_water(part, water_at_start, soil, grid.triangulation(), grid.cell_size(), ground_of_water());
+    for (const auto &load : loads)
+      load.require_soil(bodies, communicator);
+    // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.
+    if (parameters.transfer.transfer_method() == TransferMethod::aflip)
+      set_velocity_gradients();
+    require_points_outside_obstacles();
+    if (!parameters.has_water)
+      set_touching_distances();
+  }
+
+
+  template <int dim>
+  void Scene<dim>::require_points_outside_obstacles() const
+  {
+    auto entries = parameters.bodies.begin();
+    for (const auto &body : bodies)
+      {
+        const auto place = (entries++)->seeding.place();
+        for (const Obstacle<dim> &obstacle : obstacles)
+          {
+            std::string fault;
+            for_each_point(body.points, [&](const auto &point) {
+              if (fault.empty() && obstacle.contains(point.location))
+                fault = entry_message({ body.name, entry, region },
+                                      "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) +
+                                          ", for instance at " + number_text(point.location) +
+                                          " m. Let it end where the obstacle begins.");
+            });
+            throw_on_all_ranks(fault, communicator);
+          }
+      }
+    for (const Inflow<dim> &inflow : inflows)
+      for (const Obstacle<dim> &obstacle : obstacles)
+        for (const auto &place : inflow.places())
+          require_entry(!obstacle.contains(place.location),
+                        { InflowParameters::prefix + inflow.name, "Region", inflow.region },
+                        "points would enter in " + quoted(ObstacleParameters::prefix + obstacle.name) +
+                            ", for instance at " + number_text(place.location) +
+                            " m. Let it end where the obstacle begins.");
+  }
+
+
+  template <int dim>
+  void Scene<dim>::set_touching_distances()
+  {
+    const auto surfaces = rigid_surfaces();
+    for (auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) {
+        set_touching_distances(body, surfaces, point.cell, point.reference_location, point.properties);
+      });
+  }
+
+
+  template <int dim>
+  void Scene<dim>::set_touching_distances(const SoilBody<dim> &body,
+                                          const std::vector<RigidSurface<dim>> &surfaces,
+                                          const unsigned int cell,
+                                          const Point<dim> &place,
+                                          double *properties) const
+  {
+    for (unsigned int s = 0; s < surfaces.size(); ++s)
+      {
+        double &distance = properties[body.layout.touching_distance(s)];
+        distance         = 0.5 * body.spacing;
+        if (!surfaces[s].samples->is_near(cell))
+          continue;
+        const SurfaceView<dim> view = surfaces[s].samples->view(cell, place);
+        double largest              = 0.; // component of the normal
+        for (unsigned int a = 0; a < dim; ++a)
+          largest = std::max(largest, std::abs(view.normal[a]));
+        if (view.distance < body.spacing * largest * (1. + 1e-9)) // the lattice's lowest point over the surface
+          distance = std::max(0., view.distance);
+      }
+  }
+
+
+  template <int dim>
+  void Scene<dim>::set_velocity_gradients()
+  {
+    const auto set = [&](PointSet<dim> &points, const std::string &velocity, const unsigned int slot) {
+      if (!velocity.empty())
+        set_velocity_gradient(points, velocity, slot, grid.cell_size());
+    };
+    auto part    = water.begin();
+    auto entries = parameters.bodies.begin();
+    for (auto &body : bodies)
+      {
+        const std::string &velocity = (entries++)->seeding.initial_velocity;
+        set(body.points, velocity, body.layout.affine);
+        if (part != water.end() && part->carrier() != nullptr)
+          set(body.points, velocity, (part++)->layout.affine);
+      }
+    if (part != water.end())
+      set(part->points(), parameters.water.initial_velocity, part->layout.affine);
+  }
+
+
+  namespace
+  {
+    /// Gives the points of a body what its law has from the place, with the depth along the last axis below the soil's
+    /// surface. `subsection` is the law's.
+    template <int dim>
+    void set_place_values(SoilBody<dim> &body,
+                          const std::string &subsection,
+                          const std::vector<SoilRegion> &soil,
+                          const BackgroundGrid<dim> &grid)
+    {
+      const PlaceVariable variable = body.material->place_variable();
+      if (variable.expression.empty())
+        return;
+      const PlaceVariableValues<dim> values(variable, subsection);
+      std::vector<typename Overburden<dim>::Layer> layers;
+      for (const SoilRegion &part : soil)
+        layers.emplace_back(part.template places<dim>(), 1.); // a weight per depth of 1
+      Tensor<1, dim> down;
+      down[dim - 1] = -1.;
+      Overburden<dim> depth(grid, std::move(layers), down, grid.cell_size() / 4);
+      on_all_ranks(grid.communicator(), [&] {
+        for_each_point(body.points, [&](const auto &point) {
+          values.set(point.location,
+                     variable.gradient > 0 ? depth.weight_above(point.location) : 0.,
+                     point.properties + body.layout.internal_variables);
+        });
+      });
+    }
+  } // namespace
+
+
+  template <int dim>
+  void Scene<dim>::set_initial_state()
+  {
+    const auto soil = parameters.soil_regions();
+    std::unique_ptr<Overburden<dim>> overburden; // made when the first body asks for it
+    const WaterParameters *wet = parameters.has_water ? &water_at_start : nullptr;
+    const auto suction         = suction_at_start(wet, seepage, grid, soil, forcing.gravity());
+    for (auto &body : bodies)
+      {
+        const BodyParameters &entries       = *parameters.find_body(body.name);
+        const InitialStateParameters &state = entries.initial_state;
+        const std::string modulus           = entries.material.modulus_text(body.name);
+        const double k0                     = entries.k0();
+        set_place_values(body, entries.material.path(body.name), soil, grid);
+        if (state.stress_kind() != InitialStress::k0)
+          {
+            set_isotropic_stress(
+                body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0., modulus, communicator);
+            continue;
+          }
+        if (!overburden)
+          overburden = std::make_unique<Overburden<dim>>(
+              grid, effective_weight_layers<dim>(soil, wet), forcing.gravity(), grid.cell_size() / 4);
+        set_k0_stress(body, *overburden, k0, modulus, suction);
+      }
+    if (seepage)
+      for (auto &part : water)
+        set_seepage_pressure(part, *seepage, seepage_survey(), forcing.gravity().norm(), communicator);
+    else if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
+             forcing.gravity().norm() > 0)
+      {
+        Overburden<dim> water_above(
+            grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);
+        for (auto &part : water)
+          set_hydrostatic_pressure(
+              part, water_above, suction, parameters.water.has_levels() ? 1e-2 * grid.cell_size() : 0.);
+      }
+  }
+
+
+  template <int dim>
+  Speeds Scene<dim>::speeds() const
+  {
+    Speeds largest;
+    const auto include_point = [&](const double *velocity) {
+      largest.include_point(Tensor<1, dim>(make_array_view(velocity, velocity + dim)).norm());
+    };
+    for (const auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) {
+        const double *stress            = point.properties + body.layout.stress;
+        const PrincipalValues principal = PrincipalFrame<dim>(stress).values();
+        const double compression        = std::max(0., -*std::min_element(principal.begin(), principal.end()));
+        largest.include_wave(
+            body.wave_speed(body.material->initial_bulk_modulus(mean_effective_stress(stress)), compression));
+        include_point(point.properties + body.layout.velocity);
+      });
+    for (const auto &part : water)
+      for_each_point(part.points(), [&](const auto &point) { include_point(point.properties + part.layout.velocity); });
+    return largest;
+  }
+
+
+  template <int dim>
+  void Scene<dim>::require_viscosity(const double stable_step) const
+  {
+    constexpr double most = 1e10; // beyond, rounding of the velocities outweighs all other forces
+    const double stress =
+        parameters.water.viscosity / parameters.water.density * stable_step / (grid.cell_size() * grid.cell_size());
+    require_entry(stress <= most,
+                  { "Water", "Viscosity", parameters.water.viscosity },
+                  "in a step of " + number_text(stable_step) + " s it would spread momentum over " +
+                      number_text(std::sqrt(stress)) + " cells, and at most 1e5 are possible. Write a smaller one.");
+  }
+
+
+  template <int dim>
+  void Scene<dim>::require_steps(const double stable_step, const Speeds &speeds) const
+  {
+    if (parameters.has_water)
+      require_viscosity(stable_step);
+    constexpr double most_steps = 1e10; // months, even of the smallest mesh
+    const double time           = std::max(parameters.end_time, parameters.settling.maximum_time);
+    if (time / stable_step <= most_steps)
+      return;
+    const std::string remedy = "the step is " + number_text(stable_step) + " s, so that a run of " + number_text(time) +
+                               " s would take " + number_text(time / stable_step) +
+                               " steps, and at most 1e10 are possible.";
+    const TimeStepParameters &step = parameters.time_step;
+    require_entry(stable_step < step.maximum_time_step,
+                  { "Time step", "Maximum time step", step.maximum },
+                  remedy + " Write a larger one.");
+    const bool by_waves = speeds.wave >= speeds.points;
+    const std::string c = number_text(by_waves ? speeds.wave : speeds.points) + " m/s: ";
+    const auto stiffest = [](const auto &a, const auto &b) {
+      constexpr double pressure = 1e5; // Pa, of a few metres of soil
+      return a.wave_speed(a.material->initial_bulk_modulus(pressure), pressure) <
+             b.wave_speed(b.material->initial_bulk_modulus(pressure), pressure);
+    };
+    if (by_waves)
+      {
+        const auto body   = std::max_element(bodies.begin(), bodies.end(), stiffest);
+        const auto &entry = parameters.bodies[std::distance(bodies.begin(), body)];
+        entry.material.throw_too_stiff(
+            entry.name, "waves in the soil run at " + c + remedy + " Write a softer soil, or look at its density.");
+      }
+    for (const BodyParameters &body : parameters.bodies)
+      require_entry(body.seeding.initial_velocity.empty(),
+                    { body.name, "Initial velocity", body.seeding.initial_velocity },
+                    "points move at " + c + remedy + " Write slower ones.");
+    require_entry(
+        false, { "Water", "Initial velocity", parameters.water.initial_velocity }, "points move at " + c + remedy);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::stop()
+  {
+    const auto stop = [&](PointSet<dim> &points, const unsigned int velocity, const unsigned int affine) {
+      for_each_point(points, [&](const auto &point) {
+        std::fill_n(point.properties + velocity, dim, 0.);
+        if (parameters.transfer.carries_affine_field())
+          std::fill_n(point.properties + affine, dim * dim, 0.);
+      });
+    };
+    for (auto &body : bodies)
+      stop(body.points, body.layout.velocity, body.layout.affine);
+    for (auto &part : water)
+      stop(part.points(), part.layout.velocity, part.layout.affine);
+  }
+
+
+  template <int dim>
+  void Scene<dim>::mark_start()
+  {
+    for (auto &body : bodies)
+      if (body.layout.has_start)
+        for_each_point(body.points, [&](const auto &point) {
+          std::copy_n(&point.location[0], dim, point.properties + body.layout.start);
+        });
   }
 
   template class Scene<2>;

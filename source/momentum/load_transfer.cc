@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/mesh/shape_functions.h>
-#include <scree/mixture/closures.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/mixture/mixture.h>
 #include <scree/momentum/load_transfer.h>
 
 #include <deal.II/base/mpi.h>

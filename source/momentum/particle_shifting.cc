@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/momentum/particle_shifting.h>
-#include <scree/mixture/closures.h>
+#include <scree/mixture/mixture.h>
 #include <scree/mesh/node_rows.h>
 
 #include <algorithm>

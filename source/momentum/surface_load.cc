@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/particles/lattice.h>
+#include <scree/particles/region.h>
 #include <scree/momentum/surface_load.h>
 
 #include <algorithm>
@@ -227,9 +227,7 @@ namespace scree
     std::string fault;
     for (const auto &cell : markers.cells())
       if (fault.empty() && cells_with_soil.count(cell.cell) == 0)
-        fault = entry_message("Surface load",
-                              "Lower corner",
-                              number_text(corner),
+        fault = entry_message({ "Surface load", "Lower corner", number_text(corner) },
                               "the patch must lie on soil, and around " + point_text(cell.location_of(0)) +
                                   " there is none. Move it to the surface of a body.");
     throw_on_all_ranks(fault, communicator);

@@ -115,6 +115,6 @@ namespace scree
   template std::uint64_t curve_number<3>(const CellPlace<3> &);
   template CellPlace<2> curve_place<2>(const std::uint64_t);
   template CellPlace<3> curve_place<3>(const std::uint64_t);
-  template Blocks with_margin<2>(const Blocks &, const unsigned int, const CellPlace<2> &);
-  template Blocks with_margin<3>(const Blocks &, const unsigned int, const CellPlace<3> &);
+  template decltype(with_margin<2>) with_margin<2>;
+  template decltype(with_margin<3>) with_margin<3>;
 } // namespace scree

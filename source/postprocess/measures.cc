@@ -1,18 +1,389 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/postprocess/measures.h>
-
-#include <scree/postprocess/cell_contents.h>
+#include <scree/tensor/invariants.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace scree
 {
   using namespace dealii;
+
+  double CellContents::saturation(const double cell_volume) const
+  {
+    const double pores = n_soil_points > 0 ? soil_volume - grain_volume : cell_volume;
+    if (pores <= 0) // soil crushed to its grains: what water there is overflows
+      return water_volume > 0 ? 1. : 0.;
+    return std::min(1., water_volume / pores);
+  }
+
+
+  template <int dim>
+  std::vector<CellContents> contents_of_cells(const std::list<SoilBody<dim>> &bodies,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid)
+  {
+    std::vector<CellContents> contents(grid.triangulation().n_active_cells());
+    for (const auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) {
+        CellContents &sums       = contents[point.cell];
+        const double *properties = point.properties;
+        const double volume      = properties[body.layout.volume];
+        ++sums.n_soil_points;
+        sums.soil_mass += properties[body.layout.mass];
+        sums.soil_volume += volume;
+        sums.grain_volume += properties[body.layout.mass] / body.grain_density;
+        sums.soil_pressure += volume * mean_effective_stress(properties + body.layout.stress);
+      });
+    for (const auto &one : water)
+      for_each_point(one.points(), [&](const auto &point) {
+        CellContents &sums = contents[point.cell];
+        ++sums.n_water_points;
+        sums.water_mass += point.properties[one.layout.mass];
+        sums.water_volume += point.properties[one.layout.volume];
+      });
+    return contents;
+  }
+
+  template decltype(contents_of_cells<2>) contents_of_cells<2>;
+  template decltype(contents_of_cells<3>) contents_of_cells<3>;
+
+
+  /// Elastic energies of points, as many at a time as a batch has lanes.
+  template <int dim>
+  class PointSums<dim>::Energies
+  {
+  public:
+    explicit Energies(const Material<dim> &material)
+        : material(material)
+    {
+      for (unsigned int c = 0; c < n_components; ++c)
+        states[c] = simd::broadcast<Batch>(c < 3 ? 1. : 0.);
+    }
+
+    /// A point of this volume at the start, m^3 (2D: per m); adds to the `sum`, J, if the batch is full.
+    void add(const double volume, const double *left_cauchy_green, double &sum)
+    {
+      for (unsigned int c = 0; c < n_components; ++c)
+        simd::set_lane(states[c], n, left_cauchy_green[c]);
+      volumes[n] = volume;
+      if (++n == batch_size)
+        finish(sum);
+    }
+
+    /// Adds what is left.
+    void finish(double &sum)
+    {
+      const Batch energies = material.elastic_energies(states);
+      for (unsigned int lane = 0; lane < n; ++lane)
+        sum += volumes[lane] * energies[lane];
+      n = 0;
+    }
+
+  private:
+    static constexpr unsigned int n_components = n_symmetric_components<dim>;
+
+    const Material<dim> &material;
+    Batch states[n_components];
+    double volumes[batch_size];
+    unsigned int n = 0;
+  };
+
+
+  template <int dim>
+  PointSums<dim>::PointSums(const std::list<SoilBody<dim>> &bodies,
+                            const std::list<WaterPhase<dim>> &water,
+                            const Tensor<1, dim> &gravity,
+                            const MPI_Comm communicator)
+      : height(std::numeric_limits<double>::lowest())
+  {
+    for (const auto &body : bodies)
+      {
+        Energies energies(*body.material);
+        for_each_point(body.points, [&](const auto &point) {
+          add(body, point.location, point.properties, gravity);
+          energies.add(point.properties[body.layout.mass] / body.density,
+                       point.properties + body.layout.left_cauchy_green,
+                       elastic);
+        });
+        energies.finish(elastic);
+      }
+    for (const auto &one : water)
+      for_each_point(one.points(), [&](const auto &point) {
+        add_motion(one.layout, one.affine_inertia, point.properties, point.location, gravity);
+      });
+
+    std::vector<double> sums{ soil_points, soil_mass, kinetic, potential, elastic, pressure };
+    for (unsigned int a = 0; a < dim; ++a)
+      sums.push_back(momentum[a]);
+    Utilities::MPI::sum(sums, communicator, sums);
+    soil_points = sums[0], soil_mass = sums[1], kinetic = sums[2], potential = sums[3], elastic = sums[4];
+    pressure = sums[5];
+    for (unsigned int a = 0; a < dim; ++a)
+      momentum[a] = sums[6 + a];
+
+    std::vector<double> largest{ largest_pressure, height, largest_porosity };
+    Utilities::MPI::max(largest, communicator, largest);
+    largest_pressure = largest[0], height = largest[1], largest_porosity = largest[2];
+  }
+
+
+  template <int dim>
+  void PointSums<dim>::add(const SoilBody<dim> &body,
+                           const Point<dim> &x,
+                           const double *properties,
+                           const Tensor<1, dim> &gravity)
+  {
+    const double mass = properties[body.layout.mass];
+    const double P    = mean_effective_stress(properties + body.layout.stress);
+    soil_points += 1;
+    soil_mass += mass;
+    add_motion(body.layout, body.affine_inertia, properties, x, gravity);
+    pressure += P;
+    largest_pressure = std::max(largest_pressure, P);
+    height           = std::max(height, x[dim - 1]);
+    largest_porosity = std::max(largest_porosity, body.porosity(properties));
+  }
+
+
+  template <int dim>
+  template <typename Layout>
+  void PointSums<dim>::add_motion(const Layout &layout,
+                                  const double affine_inertia,
+                                  const double *properties,
+                                  const Point<dim> &x,
+                                  const Tensor<1, dim> &gravity)
+  {
+    const double mass         = properties[layout.mass];
+    const double *velocity    = properties + layout.velocity;
+    double square_of_velocity = 0.;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        momentum[a] += mass * velocity[a];
+        square_of_velocity += velocity[a] * velocity[a];
+      }
+    if (affine_inertia > 0.)
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        square_of_velocity += affine_inertia * properties[layout.affine + c] * properties[layout.affine + c];
+    kinetic += 0.5 * mass * square_of_velocity;
+    potential -= mass * (gravity * (x - Point<dim>()));
+  }
+
+  template struct PointSums<2>;
+  template struct PointSums<3>;
+
+
+  template <int dim>
+  CellColumns<dim>::CellColumns(const BackgroundGrid<dim> &grid)
+      : grid(grid)
+  {
+    for (unsigned int a = 0; a < dim; ++a)
+      n[a] = std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / grid.cell_size());
+  }
+
+
+  template <int dim>
+  std::size_t CellColumns<dim>::size() const
+  {
+    return dim == 3 ? n[0] * n[1] : n[0];
+  }
+
+
+  template <int dim>
+  double CellColumns<dim>::area() const
+  {
+    return Utilities::fixed_power<dim - 1>(grid.cell_size());
+  }
+
+
+  template <int dim>
+  Point<dim> CellColumns<dim>::middle(const std::size_t column) const
+  {
+    Point<dim> x;
+    std::size_t rest = column;
+    for (unsigned int a = 0; a + 1 < dim; ++a, rest /= n[a - 1])
+      x[a] = grid.lower_corner()[a] + (rest % n[a] + 0.5) * grid.cell_size();
+    return x;
+  }
+
+
+  template <int dim>
+  std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> CellColumns<dim>::around(const Point<dim> &x) const
+  {
+    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> result;
+    result.fill({ 0, 1. });
+    for (unsigned int a = dim - 1; a-- > 0;)
+      {
+        // In cells from the middle of the first column.
+        const double place = (x[a] - grid.lower_corner()[a]) / grid.cell_size() - 0.5, lower = std::floor(place);
+        for (unsigned int i = 0; i < result.size(); ++i)
+          {
+            const unsigned int side = i >> a & 1;
+            result[i].first =
+                result[i].first * n[a] + static_cast<std::size_t>(std::clamp(lower + side, 0., n[a] - 1.));
+            result[i].second *= side == 1 ? place - lower : 1. - (place - lower);
+          }
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies)
+  {
+    std::vector<PointVolume<dim>> lumps;
+    for (const auto &body : bodies)
+      for_each_point(body.points, [&](const auto &point) {
+        lumps.push_back({ point.location, point.properties[body.layout.volume] });
+      });
+    return lumps;
+  }
+
+
+  template <int dim>
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid)
+  {
+    const std::vector<CellContents> contents = contents_of_cells(bodies, water, grid);
+    std::vector<PointVolume<dim>> lumps;
+    for (const auto &one : water)
+      for_each_point(one.points(), [&](const auto &point) {
+        const double porosity = contents[point.cell].porosity();
+        lumps.push_back({ point.location, point.properties[one.layout.volume] / (porosity > 0 ? porosity : 1.) });
+      });
+    return lumps;
+  }
+
+
+  namespace
+  {
+    /// Integral over the box of 1 - |x - place|/width along an axis, m.
+    double weight_in_box(const double place, const double lower, const double upper, const double width)
+    {
+      const auto side = [&](const double room) {
+        const double s = std::min(1., room / width);
+        return width * s * (1. - 0.5 * s);
+      };
+      return side(place - lower) + side(upper - place);
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<GroundColumn> ground_columns(const std::vector<PointVolume<dim>> &lumps,
+                                           const std::vector<std::vector<double>> &places,
+                                           const BackgroundGrid<dim> &grid)
+  {
+    constexpr unsigned int n_parts = 1 << (dim - 1);
+    constexpr double nowhere       = std::numeric_limits<double>::lowest();
+    const double width             = grid.cell_size();
+    std::vector<double> volumes(places.size(), 0.), tops(places.size() * n_parts, nowhere);
+    for (unsigned int i = 0; i < places.size(); ++i)
+      for (const PointVolume<dim> &lump : lumps)
+        {
+          double weight     = 1.;
+          bool is_close     = true;
+          unsigned int part = 0;
+          for (unsigned int a = 0; a + 1 < dim; ++a)
+            {
+              const double distance = (lump.location[a] - places[i][a]) / width;
+              weight *= std::max(0., 1. - std::abs(distance));
+              is_close = is_close && std::abs(distance) <= 0.5;
+              part |= (distance > 0. ? 1u : 0u) << a;
+            }
+          volumes[i] += weight * lump.volume;
+          const double side = std::min(std::pow(std::max(0., lump.volume), 1. / dim), width);
+          if (is_close)
+            tops[i * n_parts + part] = std::max(tops[i * n_parts + part], lump.location[dim - 1] + 0.5 * side);
+        }
+    Utilities::MPI::sum(volumes, grid.communicator(), volumes);
+    Utilities::MPI::max(tops, grid.communicator(), tops);
+
+    std::vector<GroundColumn> columns;
+    for (unsigned int i = 0; i < places.size(); ++i)
+      {
+        double area = 1., sum = 0., n = 0.;
+        for (unsigned int a = 0; a + 1 < dim; ++a)
+          area *= weight_in_box(places[i][a], grid.lower_corner()[a], grid.upper_corner()[a], width);
+        for (unsigned int part = 0; part < n_parts; ++part)
+          if (const double top = tops[i * n_parts + part]; top > nowhere)
+            {
+              sum += top;
+              n += 1.;
+            }
+        columns.push_back({ volumes[i] / area, n > 0. ? sum / n : std::numeric_limits<double>::quiet_NaN() });
+      }
+    return columns;
+  }
+
+
+  template <int dim>
+  std::pair<double, double>
+  rear_and_front(const std::vector<PointVolume<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid)
+  {
+    const double width = grid.cell_size();
+    const CellColumns<dim> columns(grid);
+    std::array<int, dim> n;
+    std::copy_n(columns.n_cells().begin(), dim, n.begin());
+    const int n_rows = columns.size() / n[0];
+
+    std::vector<double> thickness(n[0] * n_rows, 0.); // row by row along x
+    for (const PointVolume<dim> &lump : lumps)
+      {
+        const auto number = [&](const unsigned int axis) {
+          const double cell = std::floor((lump.location[axis] - grid.lower_corner()[axis]) / width);
+          return std::clamp(static_cast<int>(cell), 0, n[axis] - 1);
+        };
+        thickness[(dim == 3 ? number(1) * n[0] : 0) + number(0)] += lump.volume / columns.area();
+      }
+    Utilities::MPI::sum(thickness, grid.communicator(), thickness);
+
+    // Where, in cells from the centre of column i of a row, the thickness has fallen to the threshold at column j.
+    const auto way = [&](const double *row, const int i, const int j) {
+      return j < 0 || j >= n[0] ? 0.5 : (row[i] - threshold) / (row[i] - row[j]);
+    };
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (int r = 0; r < n_rows; ++r)
+      {
+        const double *row = thickness.data() + r * n[0];
+        for (int i = 0; i < n[0]; ++i)
+          if (row[i] >= threshold)
+            {
+              const bool begins = i == 0 || row[i - 1] < threshold, ends = i + 1 == n[0] || row[i + 1] < threshold;
+              if (begins)
+                first = std::min(first, i + 0.5 - way(row, i, i - 1));
+              if (ends)
+                last = std::max(last, i + 0.5 + way(row, i, i + 1));
+            }
+      }
+    if (last < first)
+      return { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN() };
+    return { grid.lower_corner()[0] + first * width, grid.lower_corner()[0] + last * width };
+  }
+
+  template class CellColumns<2>;
+  template class CellColumns<3>;
+  template std::vector<PointVolume<2>> point_volumes(const std::list<SoilBody<2>> &);
+  template std::vector<PointVolume<3>> point_volumes(const std::list<SoilBody<3>> &);
+  template std::vector<PointVolume<2>>
+  point_volumes(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  template std::vector<PointVolume<3>>
+  point_volumes(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  template decltype(ground_columns<2>) ground_columns<2>;
+  template decltype(ground_columns<3>) ground_columns<3>;
+  template decltype(rear_and_front<2>) rear_and_front<2>;
+  template decltype(rear_and_front<3>) rear_and_front<3>;
+
 
   std::vector<double> percentiles(const std::vector<PartOfMass> &all,
                                   const double lower,
@@ -190,16 +561,9 @@ namespace scree
                                                 const BackgroundGrid<2> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
-  template double least_distance(const std::list<SoilBody<2>> &,
-                                 const std::list<WaterPhase<2>> &,
-                                 const DiscreteLevelSet<2> &,
-                                 const MPI_Comm);
-  template double least_distance(const std::list<SoilBody<3>> &,
-                                 const std::list<WaterPhase<3>> &,
-                                 const DiscreteLevelSet<3> &,
-                                 const MPI_Comm);
-  template WaterMeasures
-  measure_water(const std::list<SoilBody<2>> &, const std::list<WaterPhase<2>> &, const BackgroundGrid<2> &);
+  template decltype(least_distance<2>) least_distance<2>;
+  template decltype(least_distance<3>) least_distance<3>;
+  template decltype(measure_water<2>) measure_water<2>;
 
   template std::vector<double> mass_percentiles(const std::list<SoilBody<3>> &,
                                                 const BackgroundGrid<3> &,
@@ -209,6 +573,243 @@ namespace scree
                                                 const BackgroundGrid<3> &,
                                                 const unsigned int,
                                                 const std::vector<double> &);
-  template WaterMeasures
-  measure_water(const std::list<SoilBody<3>> &, const std::list<WaterPhase<3>> &, const BackgroundGrid<3> &);
+  template decltype(measure_water<3>) measure_water<3>;
+
+
+  namespace
+  {
+    /// Moments of a cell's points about a common origin: 1, x, x x^T (the upper half of the normal matrix of a linear
+    /// fit, row by row) and the same of the pressure.
+    template <int dim>
+    struct Moments
+    {
+      std::array<double, (dim + 1) * (dim + 2) / 2> matrix{};
+      std::array<double, dim + 1> rhs{};
+
+      static constexpr unsigned int entry(const unsigned int i, const unsigned int j) // i <= j
+      {
+        return i * (dim + 1) - i * (i + 1) / 2 + j;
+      }
+
+      void add(const Point<dim> &x, const double pressure)
+      {
+        std::array<double, dim + 1> monomials{ { 1. } };
+        for (unsigned int a = 0; a < dim; ++a)
+          monomials[a + 1] = x[a];
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            for (unsigned int j = i; j <= dim; ++j)
+              matrix[entry(i, j)] += monomials[i] * monomials[j];
+            rhs[i] += monomials[i] * pressure;
+          }
+      }
+
+      void operator+=(const Moments &other)
+      {
+        for (unsigned int i = 0; i < matrix.size(); ++i)
+          matrix[i] += other.matrix[i];
+        for (unsigned int i = 0; i < rhs.size(); ++i)
+          rhs[i] += other.rhs[i];
+      }
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &matrix &rhs;
+      }
+    };
+
+    /// Mean and slopes.
+    template <int dim>
+    using Fit = std::array<double, dim + 1>;
+
+    /// The linear fit to points, of which there is one at least; slopes that they do not determine are 0.
+    template <int dim>
+    Fit<dim> fit(const Moments<dim> &moments)
+    {
+      // Centred normal matrix: 1/n x^T x - mean mean^T.
+      const double n = moments.matrix[0];
+      Tensor<1, dim> mean, slope;
+      SymmetricTensor<2, dim> spread;
+      for (unsigned int a = 0; a < dim; ++a)
+        mean[a] = moments.matrix[a + 1] / n;
+      Tensor<1, dim> covariance;
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          for (unsigned int b = a; b < dim; ++b)
+            spread[a][b] = moments.matrix[Moments<dim>::entry(a + 1, b + 1)] / n - mean[a] * mean[b];
+          covariance[a] = moments.rhs[a + 1] / n - mean[a] * moments.rhs[0] / n;
+        }
+      // Of a cell width squared: the points spread along an axis whose principal value is above.
+      constexpr double least = 1e-6;
+      if (determinant(spread) > least * Utilities::fixed_power<dim - 1>(trace(spread))) // no value is below
+        slope = invert(spread) * covariance;
+      else
+        for (const auto &[value, axis] : eigenvectors(spread))
+          if (value > least)
+            slope += (covariance * axis) / value * axis;
+      Fit<dim> coefficients;
+      coefficients[0] = moments.rhs[0] / n - slope * mean;
+      for (unsigned int a = 0; a < dim; ++a)
+        coefficients[a + 1] = slope[a];
+      return coefficients;
+    }
+
+
+    /// The points of a rank, and the moments of the cells that hold some.
+    template <int dim>
+    class PressureField
+    {
+    public:
+      explicit PressureField(const BackgroundGrid<dim> &grid)
+          : grid(grid)
+          , entry_of_cell(grid.triangulation().n_active_cells(), none)
+      {
+      }
+
+      /// @param slot where a point's quantity begins among its properties
+      /// @param pressure_of P or p, Pa, from the quantity
+      template <typename Pressure>
+      void add(const PointSet<dim> &points, const unsigned int slot, const Pressure &pressure_of)
+      {
+        for (const auto &cell : points.cells())
+          {
+            const unsigned int entry = entry_of(cell.cell);
+            for_each_point(cell, [&](const auto &point) {
+              const Point<dim> x((point.location - grid.lower_corner()) / grid.cell_size());
+              samples.push_back({ x, pressure_of(point.properties + slot), entry });
+              moments[entry].add(x, samples.back().pressure);
+            });
+          }
+      }
+
+      /// Root mean square of what is left of the pressure after the linear fits around the points' cells, over its
+      /// mean. Collective.
+      double oscillation()
+      {
+        const unsigned int n_owned = moments.size();
+        if (const MPI_Comm communicator = grid.communicator(); Utilities::MPI::n_mpi_processes(communicator) > 1)
+          add_ghosts();
+        const std::vector<Fit<dim>> fits = fits_around(n_owned);
+        std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
+        for (const Sample &sample : samples)
+          {
+            const Fit<dim> &coefficients = fits[sample.entry];
+            double residual              = sample.pressure - coefficients[0];
+            for (unsigned int a = 0; a < dim; ++a)
+              residual -= coefficients[a + 1] * sample.x[a];
+            sums[0] += 1;
+            sums[1] += sample.pressure;
+            sums[2] += residual * residual;
+          }
+        Utilities::MPI::sum(sums, grid.communicator(), sums);
+        return sums[1] > 0 ? std::sqrt(sums[2] / sums[0]) / (sums[1] / sums[0]) : 0.;
+      }
+
+    private:
+      static constexpr unsigned int none        = numbers::invalid_unsigned_int;
+      static constexpr unsigned int n_neighbors = Utilities::pow(3, dim); // with the cell itself
+
+      struct Sample
+      {
+        Point<dim> x; // in cells from the lower corner
+        double pressure;
+        unsigned int entry;
+      };
+
+      unsigned int entry_of(const unsigned int cell)
+      {
+        unsigned int &entry = entry_of_cell[cell];
+        if (entry == none)
+          {
+            entry = moments.size();
+            moments.emplace_back();
+            cells.push_back(cell);
+          }
+        return entry;
+      }
+
+      void add_ghosts()
+      {
+        using Cell     = typename Triangulation<dim>::active_cell_iterator;
+        using Optional = std::optional<Moments<dim>>;
+        GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
+            grid.triangulation(),
+            [&](const Cell &cell) {
+              const unsigned int entry = entry_of_cell[cell->active_cell_index()];
+              return entry == none ? Optional() : Optional(moments[entry]);
+            },
+            [&](const Cell &cell, const Moments<dim> &value) { moments[entry_of(cell->active_cell_index())] = value; });
+      }
+
+      /// The order in which neighbours, numbered along x first, are added up: axis by axis from the cell itself.
+      static std::array<unsigned int, n_neighbors> order_of_sums()
+      {
+        std::array<unsigned int, n_neighbors> order{ { n_neighbors / 2 } };
+        for (unsigned int n = 1, stride = 1; n < n_neighbors; n *= 3, stride *= 3)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              order[n + 2 * i]     = order[i] - stride;
+              order[n + 2 * i + 1] = order[i] + stride;
+            }
+        return order;
+      }
+
+      /// The fits to the points of the first cells and of their neighbours.
+      std::vector<Fit<dim>> fits_around(const unsigned int n_owned) const
+      {
+        const FineCells<dim> &fine = grid.fine_cells();
+        const auto order           = order_of_sums();
+        std::vector<Fit<dim>> fits;
+        for (unsigned int entry = 0; entry < n_owned; ++entry)
+          {
+            const CellPlace<dim> &middle = fine.cells()[fine.of_index(cells[entry])].place;
+            Moments<dim> sum;
+            for (const unsigned int neighbor : order)
+              {
+                CellPlace<dim> place = middle;
+                for (unsigned int a = 0, rest = neighbor; a < dim; ++a, rest /= 3)
+                  place[a] += int(rest % 3) - 1;
+                if (const unsigned int cell = fine.find(place); cell != FineCells<dim>::none)
+                  if (const unsigned int near = entry_of_cell[fine.cells()[cell].index]; near != none)
+                    sum += moments[near];
+              }
+            fits.push_back(fit(sum));
+          }
+        return fits;
+      }
+
+      const BackgroundGrid<dim> &grid;
+      std::vector<unsigned int> entry_of_cell; // among those with points, by active cell index
+      std::vector<unsigned int> cells;         // active cell index by entry; those of this rank first
+      std::vector<Moments<dim>> moments;       // by entry
+      std::vector<Sample> samples;
+    };
+  } // namespace
+
+
+  template <int dim>
+  double stress_oscillation(const std::list<SoilBody<dim>> &bodies, const BackgroundGrid<dim> &grid)
+  {
+    PressureField<dim> field(grid);
+    for (const auto &body : bodies)
+      if (!body.is_rigid)
+        field.add(body.points, body.layout.stress, [](const double *stress) { return mean_effective_stress(stress); });
+    return field.oscillation();
+  }
+
+
+  template <int dim>
+  double pressure_oscillation(const std::list<WaterPhase<dim>> &water, const BackgroundGrid<dim> &grid)
+  {
+    PressureField<dim> field(grid);
+    for (const auto &one : water)
+      field.add(one.points(), one.layout.pressure, [](const double *pressure) { return *pressure; });
+    return field.oscillation();
+  }
+
+  template decltype(stress_oscillation<2>) stress_oscillation<2>;
+  template decltype(stress_oscillation<3>) stress_oscillation<3>;
+  template decltype(pressure_oscillation<2>) pressure_oscillation<2>;
+  template decltype(pressure_oscillation<3>) pressure_oscillation<3>;
 } // namespace scree

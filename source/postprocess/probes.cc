@@ -1,10 +1,473 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/postprocess/columns.h>
+#include <scree/input/input_error.h>
+#include <scree/postprocess/graphics.h>
+#include <scree/postprocess/measures.h>
 #include <scree/postprocess/probes.h>
+#include <scree/tensor/invariants.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
 
 namespace scree
 {
   using namespace dealii;
+
+  /// For each place, in cell sizes from there: the number of points that are close; the moments of the weights, 1, x
+  /// and x x^T; and of each quantity its sum and its moment.
+  template <int dim>
+  struct PlaceValues<dim>::Sums
+  {
+    static constexpr unsigned int n_monomials = dim + 1;
+    static constexpr unsigned int first_value = 1 + n_monomials * n_monomials;
+
+    const unsigned int n_values, stride;
+    std::vector<double> all;
+
+    Sums(const unsigned int n_places, const unsigned int n_values)
+        : n_values(n_values)
+        , stride(first_value + n_monomials * n_values)
+        , all(n_places * stride, 0.)
+    {
+    }
+
+    double *of(const unsigned int place)
+    {
+      return all.data() + place * stride;
+    }
+  };
+
+
+  template <int dim>
+  PlaceValues<dim>::PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<Point<dim>> &places)
+      : grid(grid)
+      , place_list(places)
+  {
+    for (unsigned int i = 0; i < places.size(); ++i)
+      for (unsigned int n = 0; n < Utilities::fixed_power<dim>(3u); ++n)
+        {
+          CellPlace cell;
+          for (unsigned int a = 0, rest = n; a < dim; ++a, rest /= 3)
+            cell[a] = static_cast<int>(std::floor((places[i][a] - grid.lower_corner()[a]) / grid.cell_size())) +
+                      static_cast<int>(rest % 3) - 1;
+          places_near_cell[cell].push_back(i);
+        }
+  }
+
+
+  template <int dim>
+  std::vector<std::string> PlaceValues<dim>::names_of_soil()
+  {
+    std::vector<std::string> names;
+    for (unsigned int a = 0; a < dim; ++a)
+      names.push_back(std::string("Velocity ") + "xyz"[a] + " (m/s)");
+    for (const std::string component : { "xx", "yy", "zz", "xy", "xz", "yz" })
+      if (dim == 3 || (component != "xz" && component != "yz"))
+        names.push_back("Effective stress " + component + " (Pa)");
+    names.push_back("Mean effective stress (Pa)");
+    names.push_back("Porosity (-)");
+    return names;
+  }
+
+
+  template <int dim>
+  std::vector<std::string> PlaceValues<dim>::names_of_water()
+  {
+    std::vector<std::string> names{ "Pore pressure (Pa)" };
+    for (unsigned int a = 0; a < dim; ++a)
+      names.push_back(std::string("Water velocity ") + "xyz"[a] + " (m/s)");
+    return names;
+  }
+
+
+  template <int dim>
+  const std::vector<unsigned int> &PlaceValues<dim>::near(const ConstCellPoints<dim> &cell) const
+  {
+    static const std::vector<unsigned int> none;
+    CellPlace key;
+    for (unsigned int a = 0; a < dim; ++a)
+      key[a] = static_cast<int>(std::lround((cell.location_of(0)[a] - grid.lower_corner()[a]) / grid.cell_size() -
+                                            cell.reference_location_of(0)[a]));
+    const auto found = places_near_cell.find(key);
+    return found == places_near_cell.end() ? none : found->second;
+  }
+
+
+  template <int dim>
+  void PlaceValues<dim>::add(Sums &sums,
+                             const unsigned int place,
+                             const Point<dim> &x,
+                             const double mass,
+                             const std::vector<double> &values) const
+  {
+    constexpr double half = 0.5 * (1 + 1e-6); // rounding must not decide about points on the edge
+    const auto distance   = (x - place_list[place]) / grid.cell_size();
+    double weight         = mass;
+    bool is_close         = true;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        weight *= std::max(0., 1. - std::abs(distance[a]));
+        is_close = is_close && std::abs(distance[a]) <= half;
+      }
+    if (weight <= 0.)
+      return;
+    std::array<double, dim + 1> monomials{ { 1. } };
+    for (unsigned int a = 0; a < dim; ++a)
+      monomials[a + 1] = distance[a];
+    double *sum = sums.of(place);
+    *sum++ += is_close;
+    for (const double m : monomials)
+      for (const double n : monomials)
+        *sum++ += weight * m * n;
+    for (const double value : values)
+      for (const double m : monomials)
+        *sum++ += weight * m * value;
+  }
+
+
+  template <int dim>
+  std::vector<std::vector<double>> PlaceValues<dim>::fit(Sums &sums) const
+  {
+    // Of the weights along an axis, in cell sizes squared: below it, points lie too close together for a slope.
+    constexpr double smallest_spread = 0.02;
+    constexpr unsigned int n         = dim + 1;
+    Utilities::MPI::sum(sums.all, grid.communicator(), sums.all);
+    std::vector<std::vector<double>> table(
+        place_list.size(), std::vector<double>(sums.n_values, std::numeric_limits<double>::quiet_NaN()));
+    for (unsigned int i = 0; i < place_list.size(); ++i)
+      {
+        if (sums.of(i)[0] == 0.)
+          continue;
+        const double *matrix = sums.of(i) + 1, weight = matrix[0];
+        Tensor<1, dim> mean;
+        for (unsigned int a = 0; a < dim; ++a)
+          mean[a] = matrix[a + 1] / weight;
+        SymmetricTensor<2, dim> spread;
+        for (unsigned int a = 0; a < dim; ++a)
+          for (unsigned int b = a; b < dim; ++b)
+            spread[a][b] = matrix[(a + 1) * n + b + 1] / weight - mean[a] * mean[b];
+        // The fit at the place itself is the mean minus mean . spread^-1 . covariance.
+        Tensor<1, dim> to_place;
+        for (const auto &[value, axis] : eigenvectors(spread))
+          if (value > smallest_spread)
+            to_place -= (mean * axis) / value * axis;
+        for (unsigned int v = 0; v < sums.n_values; ++v)
+          {
+            const double *moments = sums.of(i) + Sums::first_value + v * n;
+            table[i][v]           = moments[0] / weight;
+            for (unsigned int a = 0; a < dim; ++a)
+              table[i][v] += to_place[a] * (moments[a + 1] / weight - mean[a] * moments[0] / weight);
+          }
+      }
+    return table;
+  }
+
+
+  template <int dim>
+  std::vector<std::vector<double>> PlaceValues<dim>::of_soil(const std::list<SoilBody<dim>> &bodies) const
+  {
+    std::vector<double> values(names_of_soil().size());
+    Sums sums(place_list.size(), values.size());
+    for (const auto &body : bodies)
+      for (const auto &cell : body.points.cells())
+        for (const unsigned int place : near(cell))
+          for_each_point(cell, [&](const auto &point) {
+            const double *properties = point.properties, *stress = properties + body.layout.stress;
+            auto next = std::copy_n(properties + body.layout.velocity, dim, values.begin());
+            next      = std::copy_n(stress, n_symmetric_components<dim>, next);
+            *next++   = mean_effective_stress(stress);
+            *next++   = body.porosity(properties);
+            add(sums, place, point.location, properties[body.layout.mass], values);
+          });
+    return fit(sums);
+  }
+
+
+  template <int dim>
+  std::vector<std::vector<double>> PlaceValues<dim>::of_water(const std::list<WaterPhase<dim>> &water) const
+  {
+    std::vector<double> values(names_of_water().size());
+    Sums sums(place_list.size(), values.size());
+    for (const auto &one : water)
+      for (const auto &cell : one.points().cells())
+        for (const unsigned int place : near(cell))
+          for_each_point(cell, [&](const auto &point) {
+            const double *properties = point.properties;
+            values[0]                = properties[one.layout.pressure];
+            std::copy_n(properties + one.layout.velocity, dim, values.begin() + 1);
+            add(sums, place, point.location, properties[one.layout.mass], values);
+          });
+    return fit(sums);
+  }
+
+  template class PlaceValues<2>;
+  template class PlaceValues<3>;
+
+
+  template <int dim>
+  WallForces<dim>::WallForces(const BackgroundGrid<dim> &grid,
+                              const BoundaryConditions<dim> &walls,
+                              const WaterBoundaryConditions<dim> *water_walls)
+      : grid(grid)
+      , is_wet(water_walls != nullptr)
+  {
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if (walls.walls()[f].type != WallType::open || (is_wet && !water_walls->is_drained(f)))
+        faces.push_back(f);
+  }
+
+
+  template <int dim>
+  std::vector<std::string> WallForces<dim>::names() const
+  {
+    std::vector<std::string> result;
+    const std::vector<std::string> of_face = FaceEntries::names(dim);
+    for (const unsigned int face : faces)
+      {
+        for (const std::string phase : { " soil ", " water " })
+          if (is_wet || phase == " soil ")
+            for (unsigned int a = 0; a < dim; ++a)
+              result.push_back(of_face[face] + phase + "xyz"[a] + " (N)");
+        if (is_wet)
+          result.push_back(of_face[face] + " pressure " + "xyz"[face / 2] + " (N)");
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<double> WallForces<dim>::pressure_forces(const WaterView<dim> &view) const
+  {
+    constexpr unsigned int n = 8; // places along each axis of a cell's face: p has a kink where it is cut off at 0
+    const double area        = Utilities::fixed_power<dim - 1>(grid.cell_size() / n);
+    std::vector<double> forces(2 * dim, 0.);
+    std::set<unsigned int> wet_cells;
+    for (const auto &water : view.water)
+      for (const auto &cell : water.points().cells())
+        wet_cells.insert(cell.cell);
+    for (const unsigned int cell : wet_cells)
+      if (const std::uint8_t walls = grid.open_knots(cell); walls != 0 && grid.numbering().has_nodes(cell))
+        {
+          const auto corners = view.pressure_of_cell(cell);
+          for (const unsigned int face : GeometryInfo<dim>::face_indices())
+            if ((walls >> face) & 1)
+              for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+                {
+                  Point<dim> x;
+                  for (unsigned int a = 0, rest = i; a < dim; ++a)
+                    if (a == face / 2)
+                      x[a] = face % 2;
+                    else
+                      {
+                        x[a] = (rest % n + 0.5) / n;
+                        rest /= n;
+                      }
+                  forces[face] += (face % 2 == 0 ? -1. : 1.) * area * std::max(0., pressure_at<dim>(x, corners));
+                }
+        }
+    Utilities::MPI::sum(forces, grid.communicator(), forces);
+    return forces;
+  }
+
+
+  template <int dim>
+  std::vector<double> WallForces<dim>::collect(const Budget<dim> &totals, const double time, const WaterView<dim> *view)
+  {
+    std::vector<double> impulses; // face by face: soil, water
+    for (const unsigned int face : faces)
+      for (const WallImpulses<dim> *walls : { &totals.soil_walls, &totals.water_walls })
+        for (unsigned int a = 0; a < dim; ++a)
+          impulses.push_back(walls->of_face[face][a]);
+    Utilities::MPI::sum(impulses, grid.communicator(), impulses);
+    const std::vector<double> pressure = view ? pressure_forces(*view) : std::vector<double>(2 * dim, 0.);
+
+    std::vector<double> forces;
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      {
+        for (unsigned int c = 2 * dim * i; c < 2 * dim * i + (is_wet ? 2 : 1) * dim; ++c)
+          forces.push_back(has_start && time > last_time
+                               ? (last_impulses[c] - impulses[c]) / (time - last_time) // on the wall
+                               : std::numeric_limits<double>::quiet_NaN());
+        if (is_wet)
+          forces.push_back(pressure[faces[i]]);
+      }
+    has_start     = true;
+    last_time     = time;
+    last_impulses = impulses;
+    return forces;
+  }
+
+  template class WallForces<2>;
+  template class WallForces<3>;
+
+
+  namespace
+  {
+    constexpr char subsection[] = "Probes";
+
+    /// The coordinates of a point; none if the text is no list of `n` numbers.
+    std::vector<double> coordinates(const std::string &text, const unsigned int n)
+    {
+      std::vector<double> numbers;
+      for (const std::string &word : Utilities::split_string_list(text))
+        {
+          char *end          = nullptr;
+          const double value = std::strtod(word.c_str(), &end);
+          if (word.empty() || *end != '\0' || !std::isfinite(value))
+            return {};
+          numbers.push_back(value);
+        }
+      return numbers.size() == n ? numbers : std::vector<double>();
+    }
+
+    bool is_file_name(const std::string &name)
+    {
+      for (const unsigned char letter : name)
+        if (!std::isalnum(letter) && letter != '_' && letter != '-')
+          return false;
+      return !name.empty();
+    }
+
+    /// `n_points` points of `n_coordinates` each a name, as in "toe: 0.4, 0.1; crest: 1, 2".
+    std::vector<NamedPlace> read_list(const std::string &entry,
+                                      const std::string &text,
+                                      const unsigned int n_points,
+                                      const unsigned int n_coordinates,
+                                      const std::string &shape)
+    {
+      std::vector<NamedPlace> list;
+      if (text.empty())
+        return list;
+      for (const std::string &part : Utilities::split_string_list(text, ';'))
+        {
+          const std::size_t colon = part.find(':');
+          NamedPlace place{ Utilities::trim(part.substr(0, colon)), {} };
+          if (colon != std::string::npos)
+            for (const std::string &point : Utilities::split_string_list(part.substr(colon + 1), " to "))
+              place.points.push_back(coordinates(point, n_coordinates));
+          bool reads = is_file_name(place.name) && place.points.size() == n_points;
+          for (const auto &point : place.points)
+            reads = reads && !point.empty();
+          require_entry(reads,
+                        { subsection, entry, text },
+                        quoted(part) + " does not read. Write " + shape +
+                            " in m, with a name of letters, digits, _ and -; separate several by semicolons.");
+          constexpr std::size_t longest = 200; // Names of files have 255 bytes at most.
+          require_entry(place.name.size() <= longest,
+                        { subsection, entry, text },
+                        scree::quoted(place.name) + " has " + std::to_string(place.name.size()) +
+                            " letters, and the name of a probe, which is that of its file, at most " +
+                            std::to_string(longest) + ". Write a shorter name.");
+          list.push_back(place);
+        }
+      return list;
+    }
+
+    void require_inside(const std::string &entry,
+                        const std::string &text,
+                        const std::vector<NamedPlace> &list,
+                        const GridParameters &grid)
+    {
+      for (const NamedPlace &place : list)
+        for (const auto &point : place.points)
+          for (unsigned int a = 0; a < point.size(); ++a)
+            require_entry(point[a] >= grid.lower_corner[a] && point[a] <= grid.upper_corner[a],
+                          { subsection, entry, text },
+                          quoted(place.name) + " lies outside the box of subsection Mesh, from " +
+                              number_text(grid.lower_corner) + " to " + number_text(grid.upper_corner) +
+                              ". Move it, or a corner of the box.");
+    }
+  } // namespace
+
+
+  void ProbeParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection(subsection);
+    prm.add_parameter(
+        "Places",
+        places,
+        "m; places whose state is written with each row of statistics. Format: NAME: x, y; NAME: x, y; ...",
+        Patterns::Anything());
+    prm.add_parameter(
+        "Lines",
+        lines,
+        "m; lines along which the state is written with each graphics output. Format: NAME: x, y to x, y; ...",
+        Patterns::Anything());
+    prm.add_parameter("Places a line",
+                      places_a_line,
+                      "Number of places on each line, equally spaced, ends included.",
+                      Patterns::Integer(2, 100000));
+    prm.add_parameter("Verticals",
+                      verticals,
+                      "m; places on the ground above which the height of the soil surface and the water level are "
+                      "written with each row of statistics. Format: NAME: x; ... (3D: NAME: x, y; ...).",
+                      Patterns::Anything());
+    prm.add_parameter("Front thickness",
+                      front_thickness,
+                      "m; thickness that defines the fronts. The smallest and largest x at which soil and water are "
+                      "this thick are written with each row of statistics. 0: none.",
+                      Patterns::Double(0));
+    prm.add_parameter("Wall forces",
+                      wall_forces,
+                      "true: the force on each face of the box is written with each row of statistics.",
+                      Patterns::Bool());
+    prm.add_parameter("Displacement",
+                      displacement,
+                      "true: the graphics output has the displacement of the soil points since the start. It is always "
+                      "there if the soil settles.",
+                      Patterns::Bool());
+    prm.leave_subsection();
+  }
+
+
+  std::vector<NamedPlace> ProbeParameters::list_of_places(const unsigned int dim) const
+  {
+    return read_list("Places", places, 1, dim, dim == 2 ? "NAME: x, y" : "NAME: x, y, z");
+  }
+
+
+  std::vector<NamedPlace> ProbeParameters::list_of_lines(const unsigned int dim) const
+  {
+    return read_list("Lines", lines, 2, dim, dim == 2 ? "NAME: x, y to x, y" : "NAME: x, y, z to x, y, z");
+  }
+
+
+  std::vector<NamedPlace> ProbeParameters::list_of_verticals(const unsigned int dim) const
+  {
+    return read_list("Verticals", verticals, 1, dim - 1, dim == 2 ? "NAME: x" : "NAME: x, y");
+  }
+
+
+  void ProbeParameters::check(const GridParameters &grid, const unsigned int dim, const bool has_soil) const
+  {
+    std::set<std::string> names{ "front", "walls" };
+    const auto check_list =
+        [&](const std::string &entry, const std::string &text, const std::vector<NamedPlace> &list) {
+          require_inside(entry, text, list, grid);
+          for (const NamedPlace &place : list)
+            require_entry(names.insert(place.name).second,
+                          { subsection, entry, text },
+                          quoted(place.name) + " is the name of another probe. Each has a file of its own name: write "
+                                               "another one.");
+        };
+    check_list("Places", places, list_of_places(dim));
+    check_list("Lines", lines, list_of_lines(dim));
+    check_list("Verticals", verticals, list_of_verticals(dim));
+    for (const NamedPlace &line : list_of_lines(dim))
+      require_entry(line.points[0] != line.points[1],
+                    { subsection, "Lines", lines },
+                    "both ends of " + quoted(line.name) + " are the same. Move one, or write it among the \"Places\".");
+    require_entry(has_soil || !displacement,
+                  { subsection, "Displacement", "true" },
+                  "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
+  }
+
 
   namespace
   {
@@ -36,213 +499,140 @@ namespace scree
                       const WaterBoundaryConditions<dim> *water_walls,
                       const bool has_soil,
                       RunFolder &folder)
-      : grid(grid)
-      , has_soil(has_soil)
+      : has_soil(has_soil)
       , has_water(water_walls != nullptr)
-      , front_thickness(parameters.front_thickness)
       , folder(folder)
   {
-    std::vector<Point<dim>> points;
-    for (const NamedPlace &place : parameters.list_of_places(dim))
-      {
-        places.push_back(new_table(place.name, names_of_state()));
-        points.push_back(point_of<dim>(place.points[0]));
-      }
-    place_values = std::make_unique<PlaceValues<dim>>(grid, points);
-    std::vector<std::string> of_line{ "Distance (m)", "x (m)", "y (m)" };
-    if (dim == 3)
-      of_line.push_back("z (m)");
-    for (const std::string &name : names_of_state())
-      of_line.push_back(name);
-    for (const NamedPlace &line : parameters.list_of_lines(dim))
-      lines.push_back({ new_table(line.name, of_line), { grid, places_on_line<dim>(line, parameters.places_a_line) } });
-
-    make_columns(parameters);
-    if (parameters.wall_forces)
-      {
-        wall_forces = std::make_unique<WallForces<dim>>(grid, box_walls, water_walls);
-        walls       = new_table("walls", wall_forces->names());
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::make_columns(const ProbeParameters &parameters)
-  {
-    std::vector<std::string> of_vertical, of_front;
-    if (has_soil)
-      {
-        of_vertical = { "Surface height (m)", "Thickness (m)" };
-        of_front    = { "Rear (m)", "Front (m)" };
-      }
-    if (has_water)
-      {
-        of_vertical.push_back("Water level (m)");
-        of_front.insert(of_front.end(), { "Water rear (m)", "Water front (m)" });
-      }
-    for (const NamedPlace &vertical : parameters.list_of_verticals(dim))
-      {
-        verticals.push_back(new_table(vertical.name, of_vertical));
-        vertical_places.push_back(vertical.points[0]);
-      }
-    if (front_thickness > 0)
-      front = new_table("front", of_front);
-  }
-
-
-  template <int dim>
-  typename Probes<dim>::Table *Probes<dim>::new_table(const std::string &name, const std::vector<std::string> &columns)
-  {
-    tables.push_back({ TableFile(folder, "probe_" + name), { "Time (s)" } });
-    auto &of_table = tables.back().columns;
-    of_table.insert(of_table.end(), columns.begin(), columns.end());
-    return &tables.back();
-  }
-
-
-  template <int dim>
-  std::vector<std::string> Probes<dim>::names_of_state() const
-  {
-    std::vector<std::string> names;
-    if (has_soil)
-      names = PlaceValues<dim>::names_of_soil();
+    std::vector<std::string> names = has_soil ? PlaceValues<dim>::names_of_soil() : std::vector<std::string>();
     if (has_water)
       for (const std::string &name : PlaceValues<dim>::names_of_water())
         names.push_back(name);
-    return names;
-  }
-
-
-  template <int dim>
-  void Probes<dim>::append(Table &table, const std::vector<std::vector<double>> &rows)
-  {
-    table.rows.append(table.columns, rows);
-  }
-
-
-  template <int dim>
-  std::vector<std::vector<double>> Probes<dim>::state_at(const PlaceValues<dim> &places,
-                                                         const ProbedState<dim> &state) const
-  {
-    std::vector<std::vector<double>> rows(places.places().size());
-    const auto add = [&](const std::vector<std::vector<double>> &values) {
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        rows[i].insert(rows[i].end(), values[i].begin(), values[i].end());
+    const auto new_group = [&](const bool of_pictures, const std::vector<NamedPlace> &places) -> Group & {
+      Group &group = groups.emplace_back(Group{ of_pictures, {}, {}, {} });
+      for (const NamedPlace &place : places)
+        add_table(group, place.name);
+      return group;
     };
+
+    std::vector<Point<dim>> points;
+    for (const NamedPlace &place : parameters.list_of_places(dim))
+      points.push_back(point_of<dim>(place.points[0]));
+    Group &places  = new_group(false, parameters.list_of_places(dim));
+    places.columns = names;
+    places.rows    = [this, values = PlaceValues<dim>(grid, points)](const auto &state) {
+      return state_at(values, state);
+    };
+
+    for (const NamedPlace &line : parameters.list_of_lines(dim))
+      {
+        Group &group  = new_group(true, { line });
+        group.columns = { "Distance (m)", "x (m)", "y (m)" };
+        if (dim == 3)
+          group.columns.push_back("z (m)");
+        group.columns.insert(group.columns.end(), names.begin(), names.end());
+        group.rows = [this, values = PlaceValues<dim>(grid, places_on_line<dim>(line, parameters.places_a_line))](
+                         const auto &state) {
+          Rows rows        = state_at(values, state);
+          const auto &from = values.places();
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            {
+              rows[i].insert(rows[i].begin(), &from[i][0], &from[i][0] + dim);
+              rows[i].insert(rows[i].begin(), from[i].distance(from.front()));
+            }
+          return rows;
+        };
+      }
+
+    Group &verticals = new_group(false, parameters.list_of_verticals(dim));
     if (has_soil)
-      add(places.of_soil(state.bodies));
+      verticals.columns = { "Surface height (m)", "Thickness (m)" };
     if (has_water)
-      add(places.of_water(state.water));
+      verticals.columns.push_back("Water level (m)");
+    Rows feet;
+    for (const NamedPlace &vertical : parameters.list_of_verticals(dim))
+      feet.push_back(vertical.points[0]);
+    verticals.rows = [this, feet, &grid](const auto &state) {
+      Rows rows(feet.size());
+      if (this->has_soil)
+        {
+          const auto columns = ground_columns(point_volumes(state.bodies), feet, grid);
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            rows[i] = { columns[i].height, columns[i].thickness };
+        }
+      if (has_water)
+        {
+          const auto columns = ground_columns(point_volumes(state.bodies, state.water, grid), feet, grid);
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            rows[i].push_back(columns[i].height);
+        }
+      return rows;
+    };
+
+    if (parameters.front_thickness > 0)
+      {
+        Group &front = new_group(false, { { "front", {} } });
+        if (has_soil)
+          front.columns = { "Rear (m)", "Front (m)" };
+        if (has_water)
+          front.columns.insert(front.columns.end(), { "Water rear (m)", "Water front (m)" });
+        front.rows = [this, &grid, thickness = parameters.front_thickness](const auto &state) {
+          std::vector<double> row;
+          const auto add = [&](const std::vector<PointVolume<dim>> &lumps) {
+            const auto [rear, tip] = rear_and_front(lumps, thickness, grid);
+            row.insert(row.end(), { rear, tip });
+          };
+          if (this->has_soil)
+            add(point_volumes(state.bodies));
+          if (has_water)
+            add(point_volumes(state.bodies, state.water, grid));
+          return Rows{ row };
+        };
+      }
+
+    if (parameters.wall_forces)
+      {
+        wall_forces   = std::make_unique<WallForces<dim>>(grid, box_walls, water_walls);
+        Group &walls  = new_group(false, { { "walls", {} } });
+        walls.columns = wall_forces->names();
+        walls.rows    = [this](const auto &state) {
+          return Rows{ wall_forces->collect(state.totals, state.time, state.view) };
+        };
+      }
+  }
+
+
+  template <int dim>
+  void Probes<dim>::add_table(Group &group, const std::string &name)
+  {
+    group.tables.push_back(&tables.emplace_back(folder, "probe_" + name));
+  }
+
+
+  template <int dim>
+  typename Probes<dim>::Rows Probes<dim>::state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const
+  {
+    Rows rows      = has_soil ? places.of_soil(state.bodies) : Rows(places.places().size());
+    const Rows wet = has_water ? places.of_water(state.water) : Rows(rows.size());
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      rows[i].insert(rows[i].end(), wet[i].begin(), wet[i].end());
     return rows;
   }
 
 
   template <int dim>
-  void Probes<dim>::write_places(const ProbedState<dim> &state)
+  void Probes<dim>::write(const ProbedState<dim> &state, const bool of_pictures)
   {
-    auto rows = state_at(*place_values, state);
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      {
-        rows[i].insert(rows[i].begin(), state.time);
-        append(*places[i], { rows[i] });
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_verticals(const ProbedState<dim> &state)
-  {
-    std::vector<std::vector<double>> rows(verticals.size(), { state.time });
-    if (has_soil)
-      {
-        const auto columns = ground_columns(lumps_of(state.bodies), vertical_places, grid);
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          rows[i].insert(rows[i].end(), { columns[i].height, columns[i].thickness });
-      }
-    if (has_water)
-      {
-        const auto columns = ground_columns(lumps_of(state.bodies, state.water, grid), vertical_places, grid);
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          rows[i].push_back(columns[i].height);
-      }
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      append(*verticals[i], { rows[i] });
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_front(const ProbedState<dim> &state)
-  {
-    std::vector<double> row{ state.time };
-    const auto add = [&](const std::vector<Lump<dim>> &lumps) {
-      const auto [rear, tip] = rear_and_front(lumps, front_thickness, grid);
-      row.insert(row.end(), { rear, tip });
-    };
-    if (has_soil)
-      add(lumps_of(state.bodies));
-    if (has_water)
-      add(lumps_of(state.bodies, state.water, grid));
-    append(*front, { row });
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_rows(const ProbedState<dim> &state)
-  {
-    if (!places.empty())
-      write_places(state);
-    if (!verticals.empty())
-      write_verticals(state);
-    if (front)
-      write_front(state);
-    if (wall_forces)
-      {
-        std::vector<double> row = wall_forces->collect(state.totals, state.time, state.view);
-        row.insert(row.begin(), state.time);
-        append(*walls, { row });
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write_lines(const ProbedState<dim> &state)
-  {
-    for (Line &line : lines)
-      {
-        auto rows          = state_at(line.values, state);
-        const auto &points = line.values.places();
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          {
-            std::vector<double> where{ state.time, points[i].distance(points.front()) };
-            where.insert(where.end(), &points[i][0], &points[i][0] + dim);
-            rows[i].insert(rows[i].begin(), where.begin(), where.end());
-          }
-        append(*line.table, rows);
-      }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::sync()
-  {
-    for (Table &table : tables)
-      table.rows.sync();
-  }
-
-
-  template <int dim>
-  void Probes<dim>::cut()
-  {
-    for (Table &table : tables)
-      table.rows.cut();
-  }
-
-
-  template <int dim>
-  void Probes<dim>::complete()
-  {
-    for (Table &table : tables)
-      table.rows.complete();
+    for (Group &group : groups)
+      if (group.of_pictures == of_pictures && !group.tables.empty())
+        {
+          Rows rows = group.rows(state);
+          for (auto &row : rows)
+            row.insert(row.begin(), state.time);
+          std::vector<std::string> columns{ "Time (s)" };
+          columns.insert(columns.end(), group.columns.begin(), group.columns.end());
+          for (unsigned int t = 0; t < group.tables.size(); ++t)
+            group.tables[t]->append(columns, group.tables.size() == 1 ? rows : Rows{ rows[t] });
+        }
   }
 
   template class Probes<2>;

@@ -1,18 +1,323 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
+#include <scree/postprocess/measures.h>
 #include <scree/postprocess/statistics.h>
+#include <scree/step/budget.h>
+#include <scree/tensor/vector.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 
 namespace scree
 {
   using namespace dealii;
 
   template <int dim>
+  void RunBalance<dim>::add(const UpdateReport &report)
+  {
+    plastic_dissipation += report.plastic_dissipation;
+    n_updates += report.n_updates;
+    n_substeps += report.n_substeps;
+    n_fallbacks += report.n_fallbacks;
+    n_vertices += report.n_vertices;
+    n_unresolved += report.n_unresolved;
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> RunBalance<dim>::impulse() const
+  {
+    return balance.wall_impulse + balance.body_impulse + balance.pressure_impulse + balance.load_impulse +
+           balance.bed_impulse + balance.obstacle_impulse() + entered_momentum - lost_momentum;
+  }
+
+
+  template <int dim>
+  double RunBalance<dim>::energy_taken() const
+  {
+    return plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation + balance.contact_dissipation +
+           balance.drag_dissipation + balance.viscous_dissipation + lost_energy - balance.load_work -
+           balance.correction_work - balance.obstacle_energy() - entered_energy;
+  }
+
+
+  template <int dim>
+  RunBalance<dim> RunBalance<dim>::sum_over_ranks(const MPI_Comm communicator) const
+  {
+    RunBalance total = *this;
+    const NumbersOf numbers(total);
+    std::vector<double> sums; // one message for all
+    for (const double *number : numbers.list)
+      sums.push_back(*number);
+    Utilities::MPI::sum(sums, communicator, sums);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      *numbers.list[i] = sums[i];
+    return total;
+  }
+
+  template struct RunBalance<2>;
+  template struct RunBalance<3>;
+
+
+  namespace
+  {
+    constexpr double rest_part     = 1e-3; // of sqrt(g h): soil at rest takes more than 1000 sqrt(h/g) for a cell
+    constexpr double flow_part     = 0.1;  // of sqrt(g h): oscillations of soil at rest are slower
+    constexpr double part_at_rest  = 0.99; // of the mass
+    constexpr double least_cells   = 3.;   // over the thickness of moving soil
+    constexpr double least_change  = 0.1;  // of the cell size: less is no loss or deposit of a column
+    constexpr double part_of_path  = 0.99; // of the deposit
+    constexpr double steepest_wall = 0.5;  // cosine of the slope: steeper ground is a wall beside the soil
+
+    /// Length normal to the ground over that along the last axis.
+    template <int dim, typename PointOfSet>
+    double cosine_of_ground(const DiscreteLevelSet<dim> *bed, const PointOfSet &point)
+    {
+      if (bed == nullptr || !bed->is_near(point.cell))
+        return 1.;
+      const double cosine = std::abs(bed->view(point.cell, point.reference_location).normal[dim - 1]);
+      return cosine > steepest_wall ? cosine : 1.;
+    }
+
+
+    /// The value that half of the sum of all values exceeds; 0 if there are none.
+    double median_by_volume(std::vector<double> values)
+    {
+      std::sort(values.begin(), values.end());
+      double all = 0., below = 0.;
+      for (const double value : values)
+        all += value;
+      for (const double value : values)
+        if ((below += value) >= 0.5 * all)
+          return value;
+      return 0.;
+    }
+  } // namespace
+
+
+  template <int dim>
+  SoilMotion<dim>::SoilMotion(const BackgroundGrid<dim> &grid,
+                              const Tensor<1, dim> &gravity,
+                              const DiscreteLevelSet<dim> *bed)
+      : grid(grid)
+      , gravity(gravity)
+      , bed(bed)
+      , columns(grid)
+  {
+  }
+
+
+  template <int dim>
+  double SoilMotion<dim>::rest_speed() const
+  {
+    return rest_part * std::sqrt(gravity.norm() * grid.cell_size());
+  }
+
+
+  template <int dim>
+  MotionNumbers SoilMotion<dim>::look(const std::list<SoilBody<dim>> &bodies, const double time)
+  {
+    const std::size_t n = columns.size();
+    std::vector<double> sums(3 * n + 3, 0.); // thickness, its moment, moving; mass, moving mass, kinetic energy
+    std::vector<PartOfMass> speeds;
+    double largest      = 0.;
+    const bool is_start = start_thickness.empty();
+    const auto include  = [&](const SoilBody<dim> &body, const auto &point) {
+      const double mass    = point.properties[body.layout.mass];
+      const double speed   = vector_of<dim>(point.properties + body.layout.velocity).norm();
+      const double share   = point.properties[body.layout.volume] / columns.area();
+      const bool is_moving = speed > rest_speed();
+      const double moving =
+          is_start || speed > flow_part / rest_part * rest_speed() ? share * cosine_of_ground(bed, point) : 0.;
+      for (const auto &[column, weight] : columns.around(point.location))
+        {
+          sums[column] += weight * share;
+          sums[n + column] += weight * share * point.location[dim - 1];
+          sums[2 * n + column] += weight * moving;
+        }
+      sums[3 * n] += mass;
+      sums[3 * n + 1] += is_moving ? mass : 0.;
+      sums[3 * n + 2] += 0.5 * mass * speed * speed;
+      speeds.push_back({ speed, mass });
+      largest = std::max(largest, speed);
+    };
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid)
+        for_each_point(body.points, [&](const auto &point) { include(body, point); });
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
+    largest = Utilities::MPI::max(largest, grid.communicator());
+
+    has_soil         = sums[3 * n] > 0.;
+    last_time        = time;
+    last.moving_part = has_soil ? sums[3 * n + 1] / sums[3 * n] : 0.;
+    last.speed =
+        largest > 0. ? percentiles(speeds, 0., largest * (1. + 1e-9), { part_at_rest }, grid.communicator())[0] : 0.;
+    last.thickness = median_by_volume({ sums.begin() + 2 * n, sums.begin() + 3 * n }) / grid.cell_size();
+    if (last.speed > flow_part / rest_part * rest_speed() && sums[3 * n + 2] > largest_kinetic)
+      {
+        largest_kinetic = sums[3 * n + 2];
+        thickness_then  = last.thickness;
+      }
+    std::vector<double> thickness(sums.begin(), sums.begin() + n), height(n);
+    for (std::size_t c = 0; c < n; ++c) // of the surface, if the soil is in one layer
+      height[c] = thickness[c] > 0. ? sums[n + c] / thickness[c] + 0.5 * thickness[c] : 0.;
+    if (is_start)
+      {
+        start_thickness = thickness;
+        start_height    = height;
+      }
+    find_path(thickness, height);
+    return last;
+  }
+
+
+  template <int dim>
+  void SoilMotion<dim>::find_path(const std::vector<double> &thickness, const std::vector<double> &height)
+  {
+    const Tensor<1, dim> up = gravity.norm() > 0. ? -gravity / gravity.norm() : Tensor<1, dim>();
+    const double least      = least_change * grid.cell_size();
+    const auto surface      = [&](const std::size_t column, const std::vector<double> &heights) {
+      Point<dim> x = columns.middle(column);
+      x[dim - 1]   = heights[column];
+      return x;
+    };
+    struct Gain
+    {
+      double distance, volume, fall; // m, m^3, m
+    };
+    std::vector<Gain> gains;
+    Point<dim> top;
+    bool has_lost = false;
+    for (std::size_t c = 0; c < thickness.size(); ++c)
+      if (start_thickness[c] - thickness[c] > least)
+        if (const Point<dim> x = surface(c, start_height); !has_lost || up * (x - top) > 0.)
+          {
+            has_lost = true;
+            top      = x;
+          }
+    last.area = last.volume = last.length = last.fall = last.travel_angle = 0.;
+    for (std::size_t c = 0; c < thickness.size(); ++c)
+      if (const double gain = thickness[c] - start_thickness[c]; gain > least)
+        {
+          const Tensor<1, dim> path = surface(c, height) - top;
+          gains.push_back({ (path - (path * up) * up).norm(), gain * columns.area(), -(path * up) });
+          last.area += columns.area();
+          last.volume += gain * columns.area();
+        }
+    if (!has_lost || gains.empty())
+      return;
+    std::sort(gains.begin(), gains.end(), [](const Gain &a, const Gain &b) { return a.distance < b.distance; });
+    double below = 0.;
+    auto toe     = gains.begin();
+    while (toe + 1 < gains.end() && below + toe->volume < part_of_path * last.volume)
+      below += (toe++)->volume;
+    const double part = (part_of_path * last.volume - below) / toe->volume; // of this column
+    last.length       = std::max(0., toe->distance + (std::min(part, 1.) - 0.5) * grid.cell_size());
+    last.fall         = toe->fall;
+    last.travel_angle = std::atan2(last.fall, last.length) * 180. / numbers::PI;
+  }
+
+
+  template <int dim>
+  std::vector<CheckResult> SoilMotion<dim>::results() const
+  {
+    if (largest_kinetic == 0. || gravity.norm() == 0.)
+      return {};
+    return { { "thickness of the moving soil " + short_text(thickness_then) + " cells",
+               "at least " + short_text(least_cells) + ", else smaller cells",
+               thickness_then < least_cells,
+               "" } };
+  }
+
+
+  template <int dim>
+  std::string SoilMotion<dim>::text() const
+  {
+    if (!has_soil || gravity.norm() == 0.)
+      return "";
+    const bool is_at_rest = last.moving_part <= 1. - part_at_rest;
+    std::string lines     = std::string("Motion      ") + (is_at_rest ? "at rest" : "not at rest") +
+                        " at the end, t = " + short_text(last_time) + " s: " + short_text(100. * last.moving_part) +
+                        " % of the mass is faster than " + short_text(rest_speed()) +
+                        " m/s\n            (0.001 sqrt(g h)), and 1 % of it faster than " + short_text(last.speed) +
+                        " m/s";
+    if (last.length > 0.)
+      lines += std::string("\nRun-out     ") + (is_at_rest ? "" : "so far: ") + "H = " + short_text(last.fall) +
+               " m, L = " + short_text(last.length) + " m, H/L = " + short_text(last.fall / last.length) +
+               ", travel angle " + short_text(last.travel_angle) + " degrees;\n            deposit " +
+               short_text(last.area) + (dim == 2 ? " m, " : " m^2, ") + short_text(last.volume) +
+               (dim == 2 ? " m^3/m" : " m^3");
+    return lines;
+  }
+
+  template class SoilMotion<2>;
+  template class SoilMotion<3>;
+
+
+  namespace
+  {
+    template <int dim>
+    using ColumnGroups =
+        std::map<std::pair<ColumnTopic, std::string>, std::function<void(const Snapshot<dim> &, StatisticsRow &)>>;
+
+    /// Made at the first call, whichever source file registers first.
+    template <int dim>
+    ColumnGroups<dim> &column_groups()
+    {
+      static ColumnGroups<dim> all;
+      return all;
+    }
+  } // namespace
+
+
+  void add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const double value)
+  {
+    row.emplace_back(unit.empty() ? name : name + " (" + unit + ')', value);
+  }
+
+
+  void add_value(StatisticsRow &row, const std::string &, const std::string &, const StatisticsRow &values)
+  {
+    row.insert(row.end(), values.begin(), values.end());
+  }
+
+
+  template <int dim>
+  void RegisterColumns::insert(const ColumnTopic topic,
+                               const std::string &name,
+                               const std::function<void(const Snapshot<dim> &, StatisticsRow &)> &add)
+  {
+    column_groups<dim>()[{ topic, name }] = add;
+  }
+
+
+  template <int dim>
+  StatisticsRow row_of(const Snapshot<dim> &now)
+  {
+    StatisticsRow row;
+    for (const auto &[place, add] : column_groups<dim>())
+      add(now, row);
+    return row;
+  }
+
+  template void RegisterColumns::insert<2>(const ColumnTopic,
+                                           const std::string &,
+                                           const std::function<void(const Snapshot<2> &, StatisticsRow &)> &);
+  template void RegisterColumns::insert<3>(const ColumnTopic,
+                                           const std::string &,
+                                           const std::function<void(const Snapshot<3> &, StatisticsRow &)> &);
+  template StatisticsRow row_of(const Snapshot<2> &);
+  template StatisticsRow row_of(const Snapshot<3> &);
+
+
+  template <int dim>
   Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid,
                               const Tensor<1, dim> &gravity,
-                              const FurtherColumns<dim> &further)
+                              const SceneFeatures<dim> &further)
       : grid(grid)
       , gravity(gravity)
       , further(further)
@@ -24,7 +329,7 @@ namespace scree
   template <int dim>
   void Statistics<dim>::collect(const std::list<SoilBody<dim>> &bodies,
                                 const std::list<WaterPhase<dim>> &water,
-                                const RunTotals<dim> &local,
+                                const RunBalance<dim> &local,
                                 const double time,
                                 const unsigned long long step,
                                 const double time_step,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/pressure/free_surface.h>
-#include <scree/mixture/closures.h>
+#include <scree/mixture/mixture.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,20 +1,404 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/advise.h>
-#include <scree/program/arguments.h>
+#include <scree/input/input_error.h>
+#include <scree/input/input_file.h>
 #include <scree/program/command_line.h>
-#include <scree/program/new_case.h>
-#include <scree/run/phases.h>
 #include <scree/run/safety.h>
+#include <scree/run/simulation.h>
 #include <scree/version.h>
 
 #include <deal.II/base/mpi.h>
 
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <vector>
 
 namespace scree
 {
+  using namespace dealii;
+
   namespace
   {
+    /// What a command line asks for.
+    enum class Task
+    {
+      run,
+      resume,
+      safety,
+      advise,
+      print_parameters,
+      new_case,
+      version,
+      help
+    };
+
+    /// A command line, read.
+    struct Arguments
+    {
+      Task task = Task::run;          ///< what to do
+      std::string case_file;          ///< to read; of Task::new_case to write; may be empty where the task needs none
+      double accuracy = 0;            ///< of Task::advise, relative error
+      std::string subsection;         ///< of Task::print_parameters; empty: all
+      bool as_json           = false; ///< of Task::print_parameters
+      bool names_of_sections = false; ///< of Task::print_parameters: no more than the names of the subsections
+      std::string scene;              ///< of Task::new_case; empty: the list of scenes is asked for
+      bool overwrite = false;         ///< of Task::new_case
+    };
+
+
+    /// An option of the command line.
+    struct Option
+    {
+      std::string name;
+      std::optional<Task> task; ///< that it asks for; nothing: it belongs to another option
+      std::string belongs_to;   ///< that option
+    };
+
+    const std::vector<Option> &options()
+    {
+      static const std::vector<Option> table{ { "--resume", Task::resume, "" },
+                                              { "--safety", Task::safety, "" },
+                                              { "--advise", Task::advise, "" },
+                                              { "--accuracy", {}, "--advise" },
+                                              { "--print-parameters", Task::print_parameters, "" },
+                                              { "--json", {}, "--print-parameters" },
+                                              { "--sections", {}, "--print-parameters" },
+                                              { "--new", Task::new_case, "" },
+                                              { "--overwrite", {}, "--new" },
+                                              { "--version", Task::version, "" },
+                                              { "--help", Task::help, "" },
+                                              { "-h", Task::help, "" } };
+      return table;
+    }
+
+
+    InputError fault(const std::string &text)
+    {
+      return InputError("command line: " + text + " scree --help lists all options.");
+    }
+
+
+    /// " Did you mean ...?", or nothing.
+    std::string meant(const std::string &word)
+    {
+      std::vector<std::string> names;
+      for (const Option &option : options())
+        names.push_back(option.name);
+      const std::size_t first  = word.find_first_not_of('-');
+      const std::string dashed = "--" + (first == std::string::npos ? "" : word.substr(first));
+      const auto close         = nearest(names, dashed);
+      return close.empty() ? "" : " Did you mean " + quoted(close.front()) + '?';
+    }
+
+
+    const Option &find_option(const std::string &word)
+    {
+      const auto found =
+          std::find_if(options().begin(), options().end(), [&](const Option &option) { return option.name == word; });
+      if (found == options().end())
+        throw fault("there is no option " + quoted(word) + '.' + meant(word));
+      return *found;
+    }
+
+
+    double accuracy_of(const std::string &text)
+    {
+      std::istringstream number(text);
+      double accuracy;
+      if (!(number >> accuracy) || !number.eof() || !(accuracy > 0 && accuracy < 1))
+        throw fault("\"--accuracy\" is " + quoted(text) + ". Write a relative error between 0 and 1, such as 0.05.");
+      return accuracy;
+    }
+
+
+    /// The words with --option=value as two.
+    std::vector<std::string> split_values(const std::vector<std::string> &words)
+    {
+      std::vector<std::string> result;
+      for (const std::string &word : words)
+        if (const std::size_t equals = word.find('='); word.rfind("--", 0) == 0 && equals != std::string::npos)
+          {
+            result.push_back(word.substr(0, equals));
+            result.push_back(word.substr(equals + 1));
+          }
+        else
+          result.push_back(word);
+      return result;
+    }
+
+
+    /// Options of a command line, and the words that are none.
+    struct SortedWords
+    {
+      std::vector<Option> options;
+      std::vector<std::string> others;
+
+      bool has(const std::string &name) const
+      {
+        return std::any_of(options.begin(), options.end(), [&](const Option &option) { return option.name == name; });
+      }
+    };
+
+
+    /// Sets the task and the accuracy.
+    SortedWords sort_words(const std::vector<std::string> &words, Arguments &arguments)
+    {
+      SortedWords sorted;
+      std::string task_option;
+      for (std::size_t w = 0; w < words.size(); ++w)
+        if (words[w].size() < 2 || words[w][0] != '-')
+          sorted.others.push_back(words[w]);
+        else
+          {
+            const Option &option = find_option(words[w]);
+            sorted.options.push_back(option);
+            if (option.name == "--accuracy")
+              {
+                if (++w == words.size())
+                  throw fault("after \"--accuracy\", a relative error is missing. Write one, such as 0.05.");
+                arguments.accuracy = accuracy_of(words[w]);
+              }
+            if (!option.task)
+              continue;
+            if (!task_option.empty() && arguments.task != *option.task)
+              throw fault(scree::quoted(task_option) + " and " + quoted(option.name) +
+                          " exclude each other. Write one of them.");
+            task_option    = option.name;
+            arguments.task = *option.task;
+          }
+      for (const Option &option : sorted.options)
+        if (!option.belongs_to.empty() && !sorted.has(option.belongs_to))
+          throw fault(quoted(option.name) + " has no effect without " + quoted(option.belongs_to) +
+                      ". Remove it, or add that.");
+      return sorted;
+    }
+
+
+    bool is_case_file(const std::string &word)
+    {
+      const std::string end = ".prm";
+      return word.size() > end.size() && word.compare(word.size() - end.size(), end.size(), end) == 0;
+    }
+
+
+    /// Takes the one case file out of the words.
+    void take_case_file(const std::vector<std::string> &others, Arguments &arguments)
+    {
+      if (others.empty())
+        throw fault("a case file is missing. Write one, such as scree case.prm; scree --new makes one.");
+      if (others.size() > 1)
+        throw fault("there is one case file, " + quoted(others[0]) + ", and then " + quoted(others[1]) + '.' +
+                    (is_case_file(others[1]) ? " Write one case file." : meant(others[1])));
+      arguments.case_file = others[0];
+    }
+
+
+    /// The same where a case file may be left out; `what` is the other word.
+    void take_name_and_case_file(const std::vector<std::string> &others,
+                                 const std::string &what,
+                                 std::string &name,
+                                 Arguments &arguments)
+    {
+      for (const std::string &word : others)
+        {
+          std::string &place = is_case_file(word) ? arguments.case_file : name;
+          if (!place.empty())
+            throw fault(scree::quoted(place) + " and " + quoted(word) + " are " +
+                        (is_case_file(word) ? "case files" : what) +
+                        ". Write one of them; a name with blanks stands between quotes.");
+          place = word;
+        }
+    }
+
+
+    /// Reads the words behind `scree`; options may stand before or after the case file. Throws InputError at an unknown
+    /// option, with the closest one, and at words that are missing, too many or without effect.
+    Arguments read_arguments(const std::vector<std::string> &words)
+    {
+      Arguments arguments;
+      arguments.accuracy          = default_accuracy;
+      const SortedWords sorted    = sort_words(split_values(words), arguments);
+      arguments.as_json           = sorted.has("--json");
+      arguments.names_of_sections = sorted.has("--sections");
+      arguments.overwrite         = sorted.has("--overwrite");
+      switch (arguments.task)
+        {
+        case Task::run:
+        case Task::resume:
+        case Task::safety:
+        case Task::advise:
+          take_case_file(sorted.others, arguments);
+          break;
+        case Task::print_parameters:
+          take_name_and_case_file(sorted.others, "subsections", arguments.subsection, arguments);
+          if (arguments.as_json && !(arguments.subsection.empty() && arguments.case_file.empty()))
+            throw fault("\"--json\" prints all entries with their defaults. Remove the subsection and the case file.");
+          if (arguments.as_json && arguments.names_of_sections)
+            throw fault("\"--json\" and \"--sections\" exclude each other. Write one of them.");
+          break;
+        case Task::new_case:
+          take_name_and_case_file(sorted.others, "scenes", arguments.scene, arguments);
+          if (arguments.scene.empty() && (!arguments.case_file.empty() || arguments.overwrite))
+            throw fault(
+                "after \"--new\", a scene is missing. Write one, such as scree --new slope case.prm; scree --new "
+                "lists them.");
+          break;
+        default:
+          if (!sorted.others.empty())
+            throw fault(quoted(sorted.options[0].name) + " stands alone. Remove " + quoted(sorted.others[0]) + '.');
+        }
+      return arguments;
+    }
+
+
+    /// The text of `--help`.
+    std::string usage()
+    {
+      return "Usage: scree case.prm             run a case\n"
+             "       scree case.prm --resume    continue from the newest checkpoint in its run folder\n"
+             "       scree case.prm --safety    factor of safety of a slope by strength reduction\n"
+             "       scree case.prm --advise [--accuracy 0.05]\n"
+             "                                  regime, estimated cost and recommendations\n"
+             "       scree --new                list of scenes to start from\n"
+             "       scree --new SCENE [case.prm] [--overwrite]\n"
+             "                                  write the case of a scene, by default into SCENE.prm\n"
+             "       scree --print-parameters [SUBSECTION] [case.prm]\n"
+             "                                  all entries with values and descriptions, or those of a subsection;\n"
+             "                                  defaults, or the values of a case\n"
+             "       scree --print-parameters --sections [case.prm]\n"
+             "                                  names of all subsections\n"
+             "       scree --print-parameters --json\n"
+             "                                  all entries with their types, as JSON\n"
+             "       scree --version            version and commit, libraries, compiler\n"
+             "       scree --help, -h           this text\n"
+             "Options may stand before or after the case file.\n"
+             "In parallel: mpirun -np 2 scree case.prm\n"
+             "Exit code: 0 finished, 1 error, 3 stopped on request before the end time (--resume continues, unless the "
+             "run "
+             "was settling)\n";
+    }
+
+
+    namespace fs = std::filesystem;
+
+    /// A file of a scene: the case, which comes first, or one that it names.
+    struct SceneFile
+    {
+      const char *scene, *name, *text;
+    };
+
+    const SceneFile scene_files[] = {
+#include <scene_files.h> // made of files of prm/, see source/cmake/scene_files.cmake
+    };
+
+
+    std::vector<SceneFile> files_of(const std::string &scene)
+    {
+      std::vector<SceneFile> files;
+      for (const SceneFile &file : scene_files)
+        if (file.scene == scene)
+          files.push_back(file);
+      return files;
+    }
+
+
+    std::vector<std::string> names_of_scenes()
+    {
+      std::vector<std::string> names;
+      for (const SceneFile &file : scene_files)
+        if (names.empty() || names.back() != file.scene)
+          names.push_back(file.scene);
+      return names;
+    }
+
+
+    std::string content_of(const fs::path &file)
+    {
+      std::ifstream in(file, std::ios::binary);
+      return { std::istreambuf_iterator<char>(in), {} };
+    }
+
+
+    /// Writes what is not there yet; returns what is wrong, in words, or nothing.
+    std::string write_files(const std::vector<std::pair<fs::path, std::string>> &files, const bool overwrite)
+    {
+      for (const auto &[path, text] : files)
+        if (!overwrite && fs::exists(path) && content_of(path) != text)
+          return path.string() + ": the file exists. " +
+                 (path == files[0].first
+                      ? "Choose another name (scree --new SCENE other.prm)"
+                      : "The case needs it. Choose another folder (scree --new SCENE folder/case.prm)") +
+                 ", or replace it with \"--overwrite\".";
+      for (const auto &[path, text] : files)
+        {
+          std::ofstream out(path, std::ios::binary);
+          out << text;
+          if (!out.flush())
+            return path.string() + ": the file cannot be written. Go to a folder in which you may write.";
+        }
+      return "";
+    }
+
+
+    /// The scenes that a case may start from, one per line, each with its description.
+    std::string list_of_scenes()
+    {
+      std::string list = "Scenes for scree --new SCENE:\n";
+      for (const std::string &name : names_of_scenes())
+        {
+          const std::string text        = files_of(name).front().text;
+          const std::size_t first       = text.find_first_not_of("# ");
+          const std::string description = text.substr(first, text.find('\n') - first);
+          list += "  " + name + std::string(std::max<std::size_t>(10, name.size() + 1) - name.size(), ' ') +
+                  description + '\n';
+        }
+      return list;
+    }
+
+
+    /// Writes the case of a scene and the files that it names; its run folder is named after the case file.
+    /// @param file to write; empty: SCENE.prm in the working folder. Its other files stand beside it.
+    /// @param overwrite whether files that differ are replaced
+    /// @return what was written and what to do next, in words
+    ///
+    /// Throws InputError if there is no such scene, or if a file is there already or cannot be written. Collective.
+    std::string
+    write_new_case(const std::string &scene, const std::string &file, const bool overwrite, const MPI_Comm communicator)
+    {
+      const std::vector<SceneFile> of_scene = files_of(scene);
+      if (of_scene.empty())
+        {
+          const auto close = nearest(names_of_scenes(), scene);
+          throw InputError("command line: there is no scene " + quoted(scene) + '.' +
+                           (close.empty() ? "" : " Did you mean " + quoted(close.front()) + '?') +
+                           " scree --new lists all of them.");
+        }
+      const fs::path case_file = file.empty() ? scene + ".prm" : file;
+      std::vector<std::pair<fs::path, std::string>> files;
+      for (const SceneFile &one : of_scene)
+        files.emplace_back(files.empty() ? case_file : case_file.parent_path() / one.name, one.text);
+      files[0].second = std::regex_replace(
+          files[0].second, std::regex("(\n *set Output directory *= ).*"), "$1results/" + case_file.stem().string());
+
+      const bool writes = Utilities::MPI::this_mpi_process(communicator) == 0;
+      const std::string fault =
+          Utilities::MPI::broadcast(communicator, writes ? write_files(files, overwrite) : std::string());
+      if (!fault.empty())
+        throw InputError(fault);
+      std::string text = "Written:";
+      for (const auto &[path, content] : files)
+        text += ' ' + path.string();
+      return text + "\nNext: scree " + case_file.string() + " --advise, then scree " + case_file.string() + '\n';
+    }
+
+
     constexpr int exit_code_of_a_stop = 3;
 
     /// Calls `act` with a number of the type of the case's dimension; completes its errors.

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/geometry/raster.h>
+#include <scree/io/progress.h>
 #include <scree/run/case_record.h>
-#include <scree/geometry/raster_formats/coordinate_system.h>
-#include <scree/io/log_header.h>
+#include <scree/version.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <sstream>
 
 namespace scree
@@ -34,6 +40,121 @@ namespace scree
               : rides               ? "soil and water (single-point)"
                                     : "soil and water (double-point)") +
              ", " + parameters.transfer.text();
+    }
+
+
+    constexpr std::size_t right_margin = 79;
+
+    std::string date()
+    {
+      const std::time_t now = std::time(nullptr);
+      char text[64];
+      std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S %Z", std::localtime(&now));
+      return text;
+    }
+
+    /// Of all ranks.
+    std::string megabytes(const unsigned long kilobytes, const MPI_Comm communicator)
+    {
+      return std::to_string(std::lround(Utilities::MPI::sum(double(kilobytes), communicator) / 1024)) + " MB";
+    }
+
+    Utilities::System::MemoryStats memory()
+    {
+      Utilities::System::MemoryStats kilobytes;
+      Utilities::System::get_memory_stats(kilobytes);
+      return kilobytes;
+    }
+
+    /// On all ranks.
+    template <int dim>
+    unsigned long long count(const PointSet<dim> &points, const MPI_Comm communicator)
+    {
+      const unsigned long long n = points.n_points();
+      return Utilities::MPI::sum(n, communicator);
+    }
+
+    /// "1 rank", "2 ranks"
+    std::string counted(const unsigned long long n, const std::string &what)
+    {
+      return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+    }
+
+    /// "Scree 0.9.0 (c75edbf), 2 ranks" and, at the right margin, the date.
+    std::string header_line(const MPI_Comm communicator)
+    {
+      std::string program      = version_text().substr(0, version_text().find('\n'));
+      const std::string before = "(commit ";
+      if (const std::size_t place = program.find(before); place != std::string::npos)
+        program.replace(place, before.size(), "(");
+      program += ", " + counted(Utilities::MPI::n_mpi_processes(communicator), "rank");
+      const std::string now = date();
+      program.resize(std::max(program.size() + 2, right_margin - std::min(right_margin, now.size())), ' ');
+      return program + now;
+    }
+
+    /// ", 38480 soil points, 1200 water points"; of several bodies also each one's.
+    template <int dim>
+    std::string points_text(const std::list<SoilBody<dim>> &bodies,
+                            const std::list<WaterPhase<dim>> &water,
+                            const MPI_Comm communicator)
+    {
+      std::string of_each;
+      unsigned long long n_soil = 0, n_water = 0;
+      for (const auto &body : bodies)
+        {
+          const unsigned long long n = count(body.points, communicator);
+          of_each += (of_each.empty() ? " (" : ", ") + body.name + ' ' + std::to_string(n);
+          n_soil += n;
+        }
+      for (const auto &part : water)
+        if (part.carrier() == nullptr)
+          n_water += count(part.points(), communicator);
+      return (bodies.empty() ? "" : ", " + counted(n_soil, "soil point")) + (bodies.size() > 1 ? of_each + ')' : "") +
+             (n_water > 0 ? ", " + counted(n_water, "water point") : "");
+    }
+
+
+    /// For log.txt alone: libraries, compiler and its flags, process and host.
+    void record_environment(RunFolder &folder)
+    {
+      std::istringstream version(version_text());
+      std::string program, libraries, compiler;
+      std::getline(version, program);
+      std::getline(version, libraries);
+      std::getline(version, compiler);
+      folder.record("Libraries   " + libraries);
+      folder.record("Compiler    " + compiler + ", flags " + single_blanks(compiler_flags()));
+      folder.record("Process     " + std::to_string(getpid()) + " on " + Utilities::System::get_hostname() +
+                    " (first rank)");
+    }
+
+
+    /// Logs the five lines of the head: program, commit, ranks and date; case and run folder; model and points; mesh;
+    /// memory, MB of all ranks. Records libraries, compiler and its flags, process and host. Collective.
+    template <int dim>
+    void log_header(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder)
+    {
+      const auto &grid            = scene.grid;
+      const MPI_Comm communicator = grid.communicator();
+      const double expected_bytes = scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator));
+      folder.log(header_line(communicator));
+      folder.log("Case        " + parameters.case_file + " -> " + parameters.output_directory);
+      folder.log("Model       " + model_text(parameters) + points_text(scene.bodies, scene.water, communicator));
+      const double n_cells = Utilities::MPI::sum(double(grid.fine_cells().n_owned()), communicator);
+      const double n_all   = grid.n_cells_of_box();
+      folder.log("Mesh        " + number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +
+                 (n_cells < n_all ? " around the points, in a box of " + number_text(n_all) : ""));
+      folder.log("Memory      " + std::to_string(std::lround(expected_bytes / (1024. * 1024.))) + " MB estimated");
+
+      record_environment(folder);
+      folder.record("In use      " + megabytes(memory().VmRSS, communicator) + " at the start (all ranks)");
+      const unsigned long long n_ghosts =
+          Utilities::MPI::sum(grid.numbering().partitioner()->n_ghost_indices(), communicator);
+      if (n_ghosts > 0)
+        folder.record("Ghost nodes " + std::to_string(n_ghosts));
+      if (!folder.dead_run().empty())
+        folder.log("The run before this one (" + folder.dead_run() + ") did not come to its end.");
     }
 
 
@@ -70,12 +191,7 @@ namespace scree
   template <int dim>
   void log_case(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator)
   {
-    log_header(folder,
-               { parameters.case_file, parameters.output_directory, model_text(parameters) },
-               scene.grid,
-               scene.bodies,
-               scene.water,
-               scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator)));
+    log_header(parameters, scene, folder);
     if (const Point<2> &origin = parameters.bed.map_origin; origin != Point<2>())
       folder.record(
           "Local origin: x = 0, y = 0 is " + number_text(origin) +
@@ -110,6 +226,130 @@ namespace scree
                  "conductivity. Compare with a body of Material = rigid.");
   }
 
-  template void log_case(const Parameters &, const Scene<2> &, RunFolder &, const MPI_Comm);
-  template void log_case(const Parameters &, const Scene<3> &, RunFolder &, const MPI_Comm);
+
+  void log_peak_memory(RunFolder &folder, const MPI_Comm communicator)
+  {
+    folder.record("Largest memory: " + megabytes(memory().VmHWM, communicator) + " (all ranks)");
+  }
+
+  template decltype(log_case<2>) log_case<2>;
+  template decltype(log_case<3>) log_case<3>;
+
+
+  namespace
+  {
+    /// Of the points of all ranks, kg (2D: per m). Collective.
+    template <int dim>
+    double mass_of(const PointSet<dim> &points, const unsigned int mass_slot, const MPI_Comm communicator)
+    {
+      double mass = 0.;
+      for_each_point(points, [&](const auto &point) { mass += point.properties[mass_slot]; });
+      return Utilities::MPI::sum(mass, communicator);
+    }
+
+
+    template <int dim>
+    double water_mass(const Scene<dim> &scene, const MPI_Comm communicator)
+    {
+      double mass = 0.;
+      for (const auto &part : scene.water)
+        mass += mass_of(part.points(), part.layout.mass, communicator);
+      return mass;
+    }
+
+
+    template <int dim>
+    std::string kilograms(const double mass)
+    {
+      return number_text(mass) + (dim == 2 ? " kg/m" : " kg");
+    }
+
+
+    template <int dim>
+    std::string volume_and_mass(const double volume, const double mass)
+    {
+      return number_text(volume) + (dim == 2 ? " m^3/m, " : " m^3, ") + kilograms<dim>(mass);
+    }
+
+
+    std::string stress_text(const BodyParameters &body)
+    {
+      const InitialStateParameters &state = body.initial_state;
+      if (state.stress_kind() == InitialStress::k0)
+        return "stress by weight, K0 = " + number_text(body.k0());
+      if (state.stress_kind() == InitialStress::isotropic)
+        return "isotropic stress " + number_text(state.pressure) + " Pa";
+      return "no stress (\"Type = none\" in subsection Initial state)";
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  log_released(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator)
+  {
+    auto entries = parameters.bodies.begin();
+    for (const auto &body : scene.bodies)
+      {
+        const BodyParameters &of_case = *entries++;
+        if (of_case.is_rigid())
+          continue;
+        const double mass        = mass_of(body.points, body.layout.mass, communicator);
+        const double porosity    = of_case.initial_porosity();
+        const bool is_of_the_law = of_case.seeding.initial_porosity < 0.;
+        folder.record(body.name + " at the start: " + volume_and_mass<dim>(mass / body.density, mass) + "; " +
+                      number_text(body.density) + " kg/m^3 dry: grains of " + number_text(body.grain_density) +
+                      " kg/m^3, porosity " + number_text(porosity) +
+                      (of_case.seeding.has_unit_weights() ? " (of the unit weights)"
+                       : !is_of_the_law                   ? ""
+                       : porosity > 0.                    ? " (of the law)"
+                                       : " (no \"Initial porosity\" is set, and \"Material = " + of_case.material.law +
+                                             "\" has none of its own)") +
+                      "; " + stress_text(of_case));
+      }
+    if (!scene.water.empty())
+      folder.record("Water at the start: " + kilograms<dim>(water_mass(scene, communicator)));
+  }
+
+
+  template <int dim>
+  void
+  log_balance(const Scene<dim> &scene, const RunBalance<dim> &totals, RunFolder &folder, const MPI_Comm communicator)
+  {
+    const RunBalance<dim> all = totals.sum_over_ranks(communicator);
+    double mass = 0., volume = 0.;
+    bool moves = false;
+    for (const auto &body : scene.bodies)
+      if (!body.is_rigid)
+        {
+          const double of_body = mass_of(body.points, body.layout.mass, communicator);
+          moves                = true;
+          mass += of_body;
+          volume += of_body / body.density;
+        }
+    const bool has_inflows = scene.is_fed();
+    if (moves)
+      folder.record("Soil at the end, at its density of the start: in the box " + volume_and_mass<dim>(volume, mass) +
+                    "; lost through open walls " + volume_and_mass<dim>(all.lost_volume, all.lost_mass) + " (" +
+                    number_text(all.n_lost) + " points)" +
+                    (has_inflows ? "; entered " + kilograms<dim>(all.entered_mass) : ""));
+    if (!scene.water.empty())
+      folder.record("Water at the end: in the box " + kilograms<dim>(water_mass(scene, communicator)) +
+                    "; lost through open walls " + kilograms<dim>(all.lost_water_mass) +
+                    (has_inflows ? "; entered " + kilograms<dim>(all.entered_water_mass) : ""));
+    if (scene.rain)
+      {
+        const RainBooks rain = scene.rain->account();
+        const double density = scene.water.front().density;
+        folder.record("Rain at the end: fell " + kilograms<dim>(density * rain.fell) + "; entered " +
+                      kilograms<dim>(density * rain.entered) + "; beside the soil " +
+                      kilograms<dim>(density * rain.beside_soil) + "; waiting for a whole drop " +
+                      kilograms<dim>(density * rain.waiting));
+      }
+  }
+
+  template decltype(log_released<2>) log_released<2>;
+  template decltype(log_released<3>) log_released<3>;
+  template decltype(log_balance<2>) log_balance<2>;
+  template decltype(log_balance<3>) log_balance<3>;
 } // namespace scree

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
+#include <scree/postprocess/measures.h>
 #include <scree/run/results.h>
+#include <scree/tensor/vector.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <iostream>
 #include <utility>
 
@@ -111,7 +116,8 @@ namespace scree
   void Results<dim>::sync()
   {
     rows.sync();
-    probes.sync();
+    for (TableFile &table : probes.files())
+      table.sync();
   }
 
 
@@ -119,7 +125,8 @@ namespace scree
   void Results<dim>::cut()
   {
     graphics.cut();
-    probes.cut();
+    for (TableFile &table : probes.files())
+      table.cut();
     rows.cut();
   }
 
@@ -150,7 +157,8 @@ namespace scree
       statistics.print_last_row(std::cout);
     folder.require_presence();
     rows.complete();
-    probes.complete();
+    for (TableFile &table : probes.files())
+      table.complete();
   }
 
   template class Results<2>;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/io/table_file.h>
-#include <scree/run/factor_search.h>
+#include <scree/input/input_error.h>
+#include <scree/io/run_folder.h>
 #include <scree/run/safety.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,37 +15,60 @@ namespace scree
 {
   using namespace dealii;
 
+  std::optional<FactorBracket> search_factor(const SafetyParameters &safety,
+                                             const std::function<TrialEnd(double)> &try_factor)
+  {
+    constexpr double growth = 1.3;
+    const TrialEnd first    = try_factor(safety.lower);
+    if (first == TrialEnd::undecided)
+      return {};
+    require_entry(first == TrialEnd::rests,
+                  { "Safety", "Lower factor", safety.lower },
+                  "the slope does not come to rest with its strength divided by this. Write a smaller one.");
+    FactorBracket bracket{ safety.lower, 0. };
+    bool has_failed = false;
+    double factor   = std::min(safety.lower < 1. ? 1. : growth * safety.lower, safety.upper);
+    while (!has_failed || bracket.fails - bracket.rests > safety.tolerance)
+      {
+        const TrialEnd end = try_factor(factor);
+        if (end == TrialEnd::undecided)
+          return {};
+        has_failed                                               = has_failed || end == TrialEnd::fails;
+        (end == TrialEnd::fails ? bracket.fails : bracket.rests) = factor;
+        require_entry(bracket.rests < safety.upper,
+                      { "Safety", "Upper factor", safety.upper },
+                      "the slope still comes to rest with its strength divided by this. Write a larger one.");
+        factor = has_failed ? 0.5 * (bracket.rests + bracket.fails) : std::min(growth * factor, safety.upper);
+      }
+    return bracket;
+  }
+
+
   namespace
   {
     void check(const Parameters &parameters)
     {
-      require_entry(!parameters.bodies.empty(), "", "Bodies", "none", "without soil there is no slope. Name a body.");
+      require_entry(
+          !parameters.bodies.empty(), { "", "Bodies", "none" }, "without soil there is no slope. Name a body.");
       require_entry(!parameters.has_water || parameters.settling.maximum_time > 0.,
-                    "Settling",
-                    "Maximum time",
-                    parameters.settling.maximum_time,
+                    { "Settling", "Maximum time", parameters.settling.maximum_time },
                     "--safety holds the pore pressure of settled soil. Write a time above 0, in s.");
       for (const BodyParameters &body : parameters.bodies)
         require_entry(body.material.law != "Nor-Sand" && body.material.law != "Nor-Sand (Jefferies-Been)",
-                      body.name,
-                      "Material",
-                      body.material.law,
+                      { body.name, "Material", body.material.law },
                       "the hardening of this law depends on the strength that --safety divides. Write Mohr-Coulomb.");
       require_entry(parameters.time_step.mass_scaling == 1.,
-                    "Time step",
-                    "Mass scaling",
-                    parameters.time_step.mass_scaling,
+                    { "Time step", "Mass scaling", parameters.time_step.mass_scaling },
                     "the times of --safety are those of the true inertia. Write 1.");
       require_entry(parameters.safety.strength_factor == 1.,
-                    "Safety",
-                    "Strength factor",
-                    parameters.safety.strength_factor,
+                    { "Safety", "Strength factor", parameters.safety.strength_factor },
                     "--safety searches this factor. Remove the entry.");
       for (const double component : parameters.gravity)
         if (component != 0.)
           return;
-      require_entry(
-          false, "", "Gravity", number_text(parameters.gravity), "without gravity no slope fails. Write another one.");
+      require_entry(false,
+                    { "", "Gravity", number_text(parameters.gravity) },
+                    "without gravity no slope fails. Write another one.");
     }
 
 
@@ -190,9 +214,7 @@ namespace scree
                " sqrt(H/g)");
     const TrialEnd first = trials.settle();
     require_entry(first != TrialEnd::fails,
-                  "Safety",
-                  "Lower factor",
-                  safety.lower,
+                  { "Safety", "Lower factor", safety.lower },
                   "the slope does not settle with its strength divided by half of this. Write a smaller one.");
     std::optional<FactorBracket> bracket;
     try

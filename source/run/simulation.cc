@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/case/case_changes.h>
-#include <scree/run/case_record.h>
+#include <scree/case/case_checks.h>
 #include <scree/input/input_error.h>
-#include <scree/run/log_of_masses.h>
-#include <scree/run/lost_points.h>
 #include <scree/io/checkpoint.h>
-#include <scree/io/log_header.h>
+#include <scree/postprocess/measures.h>
+#include <scree/io/progress.h>
+#include <scree/run/case_record.h>
 #include <scree/run/simulation.h>
-#include <scree/transfer/point_fault.h>
-#include <scree/case/case_remarks.h>
+#include <scree/run/step_control.h>
+#include <scree/transfer/transfer.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,6 +16,54 @@
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// The column of the progress table that says where a scene is: the front of the soil, or of the water without
+    /// soil; on a bed in space, where no axis is that of the motion, the largest speed.
+    template <int dim>
+    class ShownMotion
+    {
+    public:
+      /// The scene is kept by reference.
+      explicit ShownMotion(const Scene<dim> &scene)
+          : scene(scene)
+          , shows_speed(dim == 3 && scene.bed)
+      {
+      }
+
+      /// Heading of the column, with the unit.
+      std::string heading() const
+      {
+        return shows_speed ? "fastest (m/s)" : scene.bodies.empty() ? "water front 90 % (m)" : "front 90 % (m)";
+      }
+
+      /// Value of the column. Collective.
+      double value() const
+      {
+        constexpr double part_behind_front = 0.90; // of the mass
+        if (!shows_speed)
+          return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, 0, { part_behind_front })[0]
+                                      : mass_percentiles(scene.bodies, scene.grid, 0, { part_behind_front })[0];
+        double largest  = 0.;
+        const auto look = [&](const PointSet<dim> &points, const unsigned int velocity) {
+          for_each_point(points, [&](const auto &point) {
+            largest = std::max(largest, vector_of<dim>(point.properties + velocity).norm());
+          });
+        };
+        for (const auto &body : scene.bodies)
+          look(body.points, body.layout.velocity);
+        for (const auto &part : scene.water)
+          look(part.points(), part.layout.velocity);
+        return Utilities::MPI::max(largest, scene.grid.communicator());
+      }
+
+    private:
+      const Scene<dim> &scene;
+      const bool shows_speed; // or a front
+    };
+  } // namespace
+
 
   template <int dim>
   Simulation<dim>::Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
@@ -75,13 +122,11 @@ namespace scree
     const std::vector<std::string> notes = notes_on_changes(checkpoint, parameters.entries());
     load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
     require_entry(!(parameters.end_time < clock.time()),
-                  "",
-                  "End time",
-                  parameters.end_time,
+                  { "", "End time", parameters.end_time },
                   "the checkpoint " + checkpoint.folder + " is at " + number_text(clock.time()) +
                       " s already. Write a later time.");
     if (!folder.is_writer())
-      totals = RunTotals<dim>(scene.obstacles.size()); // The writer holds the sums.
+      totals = RunBalance<dim>(scene.obstacles.size()); // The writer holds the sums.
     reinit();
     adaptation.look_at_points();
     output_times.begin(clock.time());
@@ -125,7 +170,12 @@ namespace scree
             step(largest_step, output_times.next(largest_step));
             report();
             if (progress_is_due || is_at_end())
-              progress->report(clock.time(), clock.step(), last_time_step, motion.value(), motion.kinetic_energy());
+              progress->report(
+                  clock.time(),
+                  clock.step(),
+                  last_time_step,
+                  motion.value(),
+                  PointSums<dim>(scene.bodies, scene.water, scene.forcing.gravity(), communicator).kinetic);
           }
       }
     catch (const InputError &)
@@ -293,12 +343,12 @@ namespace scree
     results.add_checks(relaxation().settle());
     is_released = control.stop_reason() == StopReason::none;
     // Balances begin at the release; what was lost stays lost.
-    const RunTotals<dim> settled = totals;
-    totals                       = RunTotals<dim>(scene.obstacles.size());
-    totals.n_lost                = settled.n_lost;
-    totals.lost_mass             = settled.lost_mass;
-    totals.lost_volume           = settled.lost_volume;
-    totals.lost_water_mass       = settled.lost_water_mass;
+    const RunBalance<dim> settled = totals;
+    totals                        = RunBalance<dim>(scene.obstacles.size());
+    totals.n_lost                 = settled.n_lost;
+    totals.lost_mass              = settled.lost_mass;
+    totals.lost_volume            = settled.lost_volume;
+    totals.lost_water_mass        = settled.lost_water_mass;
   }
 
 
@@ -364,8 +414,8 @@ namespace scree
   template <int dim>
   void Simulation<dim>::begin_checkpoint()
   {
-    const RunTotals<dim> own = totals;
-    totals                   = totals.sum_over_ranks(communicator);
+    const RunBalance<dim> own = totals;
+    totals                    = totals.sum_over_ranks(communicator);
     results.sync();
     FileJob job = checkpoint_files(parameters.output_directory,
                                    clock.time(),
@@ -381,4 +431,31 @@ namespace scree
 
   template class Simulation<2>;
   template class Simulation<3>;
+
+
+  template <int dim>
+  End run_in_phases(Parameters &parameters, const Start start, const MPI_Comm communicator)
+  {
+    const double factor = parameters.safety.strength_factor;
+    const bool weakens  = parameters.settling.maximum_time > 0. && factor != 1.;
+    if (weakens && start == Start::fresh)
+      {
+        Parameters(parameters.case_file).reduce_strength(factor); // throws before files are touched
+        parameters.set("Safety", "Strength factor", "1");
+        const double begin = MPI_Wtime();
+        Simulation<dim> settled(parameters, start, communicator);
+        if (!settled.is_settled())
+          return settled.run();
+        settled.report();
+        settled.write_checkpoint();
+        if (double &limit = parameters.output.wall_time_limit; limit > 0.)
+          limit = std::max(limit + begin - MPI_Wtime(), 1e-3); // 0 is no limit
+      }
+    if (weakens)
+      parameters.reduce_strength(factor);
+    return Simulation<dim>(parameters, weakens ? Start::resume : start, communicator).run();
+  }
+
+  template End run_in_phases<2>(Parameters &, const Start, const MPI_Comm);
+  template End run_in_phases<3>(Parameters &, const Start, const MPI_Comm);
 } // namespace scree

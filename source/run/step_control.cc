@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/step/timer_section.h>
 #include <scree/run/step_control.h>
+#include <scree/step/step_report.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>
@@ -153,4 +153,161 @@ namespace scree
 
   template class StepControl<2>;
   template class StepControl<3>;
+
+
+  template <int dim>
+  MeshAdaptation<dim>::MeshAdaptation(Scene<dim> &scene,
+                                      Scheme<dim> &scheme,
+                                      TimerOutput &timer,
+                                      const MPI_Comm communicator)
+      : scene(scene)
+      , scheme(scheme)
+      , timer(timer)
+      , communicator(communicator)
+  {
+  }
+
+
+  template <int dim>
+  void MeshAdaptation<dim>::follow_points(const double time_step, const std::function<void()> &reinit)
+  {
+    if (!points_at_edge)
+      return;
+    const TimedPart part(timer, TimerSection::repartition);
+    const Blocks blocks = blocks_ahead(time_step);
+    const auto sets     = scheme.point_sets();
+    for (PointSet<dim> *points : sets)
+      points->lift();
+    scene.grid.refine(blocks, Shares::kept);
+    for (PointSet<dim> *points : sets)
+      {
+        points->put_down();
+        points->costs().reinit(scene.grid.triangulation().n_active_cells());
+      }
+    reinit();
+    points_at_edge = are_points_at_edge();
+    ++n_refinements;
+    AssertThrow(!points_at_edge, ExcInternalError("A point is outside the fine cells."));
+  }
+
+
+  template <int dim>
+  Blocks MeshAdaptation<dim>::blocks_ahead(const double time_step) const
+  {
+    constexpr double steps_ahead = 2000; // A new mesh costs about 100 steps, a cell without points memory alone.
+    constexpr double few_blocks  = GridParameters::least_ahead / (1 << dim);
+    const auto blocks            = [this](const double time) {
+      return scene.grid.with_surroundings(scene.blocks_of_points(time));
+    };
+    const Blocks around = blocks(0.);
+    for (double steps = steps_ahead; steps > 1; steps /= 2)
+      if (Blocks ahead = blocks(steps * time_step);
+          ahead.size() <= std::max(few_blocks, GridParameters::most_ahead * around.size()))
+        return ahead;
+    return around;
+  }
+
+
+  template <int dim>
+  bool MeshAdaptation<dim>::are_points_at_edge() const
+  {
+    const auto sets = scheme.point_sets();
+    const bool own  = std::any_of(sets.begin(), sets.end(), [](const auto *points) { return points->is_at_edge(); });
+    return Utilities::MPI::max(int(own), communicator) == 1;
+  }
+
+
+  template <int dim>
+  void MeshAdaptation<dim>::look_at_points()
+  {
+    points_at_edge = are_points_at_edge() || points_at_edge;
+  }
+
+
+  template <int dim>
+  void MeshAdaptation<dim>::summarise(RunFolder &folder) const
+  {
+    if (scene.grid.follows_points())
+      folder.record("fine cells at the end: " +
+                    number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
+                    "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
+                    number_text(seconds_of(timer, TimerSection::repartition)) + " s");
+  }
+
+  template class MeshAdaptation<2>;
+  template class MeshAdaptation<3>;
+
+
+  namespace
+  {
+    /// Adds one that left the box through the face of this name.
+    template <int dim>
+    void lose(const Scene<dim> &scene,
+              const std::string &name,
+              const LostPoint<dim> &point,
+              const std::pair<std::string, bool> &face_and_whether_open,
+              const unsigned int velocity_slot,
+              const unsigned int mass_slot,
+              const double time,
+              double &lost_mass,
+              RunBalance<dim> &totals)
+    {
+      const auto &[face, is_open] = face_and_whether_open;
+      AssertThrow(is_open,
+                  ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
+                             number_text(point.location) + ") m, t = " + number_text(time) +
+                             " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
+                             "Boundaries."));
+      const double *velocity_of_point = point.properties.data() + velocity_slot;
+      const double mass               = point.properties[mass_slot];
+      const Tensor<1, dim> velocity(make_array_view(velocity_of_point, velocity_of_point + dim));
+      lost_mass += mass;
+      const double inertia = scene.forcing.mass_scaling() * mass;
+      totals.lost_momentum += inertia * velocity;
+      totals.lost_energy +=
+          0.5 * inertia * velocity.norm_square() - mass * (scene.forcing.gravity() * (point.location - Point<dim>()));
+    }
+  } // namespace
+
+
+  template <int dim>
+  void account_for_lost_points(Scene<dim> &scene, RunBalance<dim> &totals, const double time)
+  {
+    for (auto &part : scene.water)
+      for (const LostPoint<dim> &point : part.points().lost())
+        lose(scene,
+             "the water",
+             point,
+             part.own_points() != nullptr ? scene.water_walls->face_crossed(point.location)
+                                          : scene.walls.face_crossed(point.location),
+             part.layout.velocity,
+             part.layout.mass,
+             time,
+             totals.lost_water_mass,
+             totals);
+    for (auto &body : scene.bodies)
+      {
+        for (const LostPoint<dim> &point : body.points.lost())
+          lose(scene,
+               body.name,
+               point,
+               scene.walls.face_crossed(point.location),
+               body.layout.velocity,
+               body.layout.mass,
+               time,
+               totals.lost_mass,
+               totals);
+        for (const LostPoint<dim> &point : body.points.lost())
+          totals.lost_volume += point.properties[body.layout.mass] / body.density;
+        totals.n_lost += body.points.lost().size();
+        body.points.lost().clear();
+      }
+    for (auto &part : scene.water)
+      part.points().lost().clear();
+    for (auto &load : scene.loads)
+      load.points().lost().clear();
+  }
+
+  template void account_for_lost_points(Scene<2> &, RunBalance<2> &, const double);
+  template void account_for_lost_points(Scene<3> &, RunBalance<3> &, const double);
 } // namespace scree

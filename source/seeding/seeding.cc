@@ -3,15 +3,342 @@
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/seeding/seeding.h>
-#include <scree/seeding/slivers.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
 
 namespace scree
 {
   using namespace dealii;
+
+  namespace
+  {
+    GrainsAndPores solve(const UnitWeights &given, const double gravity, const double water_density)
+    {
+      const double dry = given.dry / gravity, saturated = given.saturated / gravity; // kg/m^3
+      double porosity = given.porosity.value_or(0.);
+      if (given.dry > 0 && given.saturated > 0)
+        porosity = (saturated - dry) / water_density;
+      else if (!given.porosity)
+        porosity = given.dry > 0 ? 1. - dry / given.grain_density
+                                 : (given.grain_density - saturated) / (given.grain_density - water_density);
+      const double bulk_density = given.dry > 0 ? dry : saturated - porosity * water_density;
+      return { bulk_density / (1. - porosity), porosity };
+    }
+  } // namespace
+
+
+  GrainsAndPores
+  grains_and_pores(const std::string &body, const UnitWeights &given, const double gravity, const double water_density)
+  {
+    const std::string entry = given.dry > 0 ? "Dry unit weight" : "Saturated unit weight";
+    const double value      = given.dry > 0 ? given.dry : given.saturated;
+    const auto require      = [&](const bool possible, const std::string &remedy) {
+      require_entry(possible, { body, entry, value }, remedy);
+    };
+    require(gravity > 0,
+            "without gravity nothing has a weight. Change entry \"Gravity\", or write a \"Grain density\".");
+    const GrainsAndPores result = solve(given, gravity, water_density);
+    const std::string with      = given.dry > 0 && given.saturated > 0
+                                      ? "with \"Saturated unit weight\" = " + number_text(given.saturated)
+                                  : given.porosity ? "with a porosity of " + number_text(*given.porosity)
+                                                   : "with \"Grain density\" = " + number_text(given.grain_density);
+    const std::string unit      = " Look at the units: N/m^3 (1 kN/m^3 = 1e3 N/m^3).";
+    require(result.porosity >= 0 && result.porosity <= 0.999 && result.grain_density > 0 &&
+                std::isfinite(result.grain_density),
+            with + " it gives a porosity of " + number_text(result.porosity) + " and grains of " +
+                number_text(result.grain_density) + " kg/m^3." + unit);
+    constexpr double tolerance = 1e-3;
+    require(!given.has_grain_density ||
+                std::abs(result.grain_density - given.grain_density) <= tolerance * given.grain_density,
+            with + " it gives grains of " + number_text(result.grain_density) + " kg/m^3, and \"Grain density\" = " +
+                number_text(given.grain_density) + " contradicts that. Remove one of the entries.");
+    require(!given.porosity || std::abs(result.porosity - *given.porosity) <= tolerance,
+            with + " it gives a porosity of " + number_text(result.porosity) +
+                ", and the porosity of \"Initial porosity\" or of the law, " + number_text(*given.porosity) +
+                ", contradicts that. Remove one of the entries.");
+    return result;
+  }
+
+
+  namespace
+  {
+    template <int dim>
+    using CellOf = typename Triangulation<dim>::active_cell_iterator;
+
+
+    /// The order of two places, whatever the rank.
+    template <int dim>
+    bool is_before(const Point<dim> &a, const Point<dim> &b)
+    {
+      return std::lexicographical_compare(&a[0], &a[0] + dim, &b[0], &b[0] + dim);
+    }
+
+
+    /// What a seed may be to a sliver beside it, the best last.
+    enum class Role : int
+    {
+      none,     ///< it may not be joined
+      largest,  ///< a sliver that fills most of its surroundings
+      anchored, ///< a sliver beside a full seed
+      full
+    };
+
+
+    /// A seed as other ranks see it.
+    template <int dim>
+    struct SeedView
+    {
+      Point<dim> location; ///< m
+      double filled;       ///< see Seed
+      Role role;
+
+      bool fills_more_than(const SeedView &other) const
+      {
+        return filled != other.filled ? filled > other.filled : is_before(location, other.location);
+      }
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &location &filled &role;
+      }
+    };
+
+
+    /// A sliver and the seed of another cell that it joins.
+    template <int dim>
+    struct Joining
+    {
+      Point<dim> target;   ///< where that seed stands, m
+      Point<dim> location; ///< of the sliver, m
+      double volume;       ///< m^3
+      double filled;       ///< see Seed
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &target &location &volume &filled;
+      }
+    };
+
+
+    /// Visits the cells around one that hold nodes.
+    template <int dim, typename Visit>
+    void for_cells_around(const CellOf<dim> &cell, const Visit &visit)
+    {
+      std::vector<CellOf<dim>> around{ cell };
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int i = 0, n = around.size(); i < n; ++i)
+          for (const unsigned int face : { 2 * a, 2 * a + 1 })
+            if (const CellOf<dim> near = around[i]; !near->at_boundary(face) && near->neighbor(face)->is_active())
+              if (const CellOf<dim> next = near->neighbor(face); !next->is_artificial() && holds_nodes(next))
+                around.push_back(next);
+      for (unsigned int i = 1; i < around.size(); ++i)
+        visit(around[i]);
+    }
+
+
+    /// The slivers of a rank and what is around them.
+    template <int dim>
+    class Slivers
+    {
+    public:
+      Slivers(const Triangulation<dim> &triangulation, const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
+          : triangulation(triangulation)
+          , ground(ground)
+          , seeds(seeds)
+      {
+      }
+
+      /// Lets slivers join seeds with at least one of these roles, but for those that have a full one beside them.
+      /// Returns whether any did, on any rank.
+      bool gather()
+      {
+        find_roles();
+        return join([](const Role own, const Role other) { return own < Role::anchored && other > own; });
+      }
+
+      /// Lets slivers join full seeds.
+      void finish()
+      {
+        find_roles();
+        join([](const Role own, const Role other) { return own == Role::anchored && other == Role::full; });
+      }
+
+    private:
+      using Views = std::vector<SeedView<dim>>;
+
+      static bool may_join(const Seed<dim> &seed)
+      {
+        return seed.is_sliver() && !seed.stays;
+      }
+
+      /// The first seed of a cell: they are in the order of the cells.
+      auto first_of(const unsigned int cell) const
+      {
+        return std::partition_point(
+            seeds.begin(), seeds.end(), [&](const auto &seed) { return seed.cell->active_cell_index() < cell; });
+      }
+
+      /// Takes the views of this rank's cells and the ghosts. Collective.
+      void exchange(std::map<unsigned int, Views> own)
+      {
+        of_cells = std::move(own);
+        GridTools::exchange_cell_data_to_ghosts<Views, Triangulation<dim>>(
+            triangulation,
+            [&](const CellOf<dim> &cell) {
+              const auto found = of_cells.find(cell->active_cell_index());
+              return found == of_cells.end() ? std::optional<Views>() : found->second;
+            },
+            [&](const CellOf<dim> &cell, const Views &views) { of_cells[cell->active_cell_index()] = views; });
+      }
+
+      template <typename Visit>
+      void for_views_around(const CellOf<dim> &cell, const Visit &visit) const
+      {
+        for_cells_around<dim>(cell, [&](const CellOf<dim> &near) {
+          if (const auto found = of_cells.find(near->active_cell_index()); found != of_cells.end())
+            for (const SeedView<dim> &view : found->second)
+              visit(view);
+        });
+      }
+
+      void find_roles()
+      {
+        std::map<unsigned int, Views> own;
+        for (const Seed<dim> &seed : seeds)
+          if (!seed.is_sliver() || may_join(seed))
+            own[seed.cell->active_cell_index()].push_back(
+                { seed.location, seed.filled, seed.is_sliver() ? Role::none : Role::full });
+        exchange(own);
+        for (const Seed<dim> &seed : seeds)
+          if (may_join(seed))
+            {
+              SeedView<dim> &sliver = own[seed.cell->active_cell_index()].front(); // alone in its cell
+              sliver.role           = Role::largest;
+              for_views_around(seed.cell, [&](const SeedView<dim> &other) {
+                if (other.role == Role::full)
+                  sliver.role = Role::anchored;
+                else if (sliver.role == Role::largest && other.fills_more_than(sliver))
+                  sliver.role = Role::none;
+              });
+            }
+        exchange(std::move(own));
+      }
+
+      template <typename May>
+      bool join(const May &may)
+      {
+        joinings.clear();
+        for (Seed<dim> &seed : seeds)
+          if (may_join(seed))
+            {
+              const SeedView<dim> own = of_cells.at(seed.cell->active_cell_index()).front();
+              std::optional<SeedView<dim>> best;
+              for_views_around(seed.cell, [&](const SeedView<dim> &other) {
+                const auto rank = [&](const SeedView<dim> &view) {
+                  return std::make_pair(-static_cast<int>(view.role), view.location.distance_square(seed.location));
+                };
+                if (may(own.role, other.role) && (!best || rank(other) < rank(*best)))
+                  best = other;
+              });
+              if (best)
+                joinings[seed.cell] = { best->location, seed.location, seed.volume, seed.filled };
+            }
+        const bool any = Utilities::MPI::max(joinings.empty() ? 0u : 1u, communicator_of(triangulation)) > 0;
+        if (any)
+          take_in();
+        return any;
+      }
+
+      /// Gives slivers to the seeds that they join, in an order that is the same on any number of ranks.
+      void take_in()
+      {
+        seeds.erase(std::remove_if(seeds.begin(),
+                                   seeds.end(),
+                                   [&](const Seed<dim> &seed) { return joinings.find(seed.cell) != joinings.end(); }),
+                    seeds.end());
+        GridTools::exchange_cell_data_to_ghosts<Joining<dim>, Triangulation<dim>>(
+            triangulation,
+            [&](const CellOf<dim> &cell) {
+              const auto joining = joinings.find(cell);
+              return joining == joinings.end() ? std::optional<Joining<dim>>() : joining->second;
+            },
+            [&](const CellOf<dim> &cell, const Joining<dim> &joining) { joinings[cell] = joining; });
+        std::vector<std::pair<Joining<dim>, Seed<dim> *>> due;
+        for (const auto &[cell, joining] : joinings)
+          for_cells_around<dim>(cell, [&, &joining = joining](const CellOf<dim> &near) {
+            const auto end = first_of(near->active_cell_index() + 1);
+            for (auto seed = first_of(near->active_cell_index()); seed != end; ++seed)
+              if (seed->location == joining.target)
+                due.emplace_back(joining, &*seed);
+          });
+        std::sort(due.begin(), due.end(), [](const auto &a, const auto &b) {
+          return is_before(a.first.location, b.first.location);
+        });
+        for (const auto &[joining, seed] : due)
+          take_in(joining, *seed);
+      }
+
+      void take_in(const Joining<dim> &joining, Seed<dim> &seed) const
+      {
+        constexpr double margin = 0.01; // of a cell
+        const double width = seed.cell->extent_in_direction(0), reach = 2. * seed.cell->diameter();
+        const auto distance = [&](const Point<dim> &x) { return ground->view(x, reach).distance; };
+        const double least  = ground ? std::min(distance(seed.location), distance(joining.location)) : 0.;
+        seed.take_in(joining.location, joining.volume, joining.filled);
+        if (ground)
+          if (const auto view = ground->view(seed.location, reach); view.distance < least)
+            seed.location += (least - view.distance) * view.normal;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const double lower = seed.cell->vertex(0)[a];
+            seed.location[a]   = std::clamp(seed.location[a], lower + margin * width, lower + (1. - margin) * width);
+          }
+      }
+
+      const Triangulation<dim> &triangulation;
+      const LevelSet<dim> *ground;
+      std::vector<Seed<dim>> &seeds;
+      std::map<unsigned int, Views> of_cells;       // by active cell, with the ghosts
+      std::map<CellOf<dim>, Joining<dim>> joinings; // by the sliver's cell
+    };
+  } // namespace
+
+
+  template <int dim>
+  void keep_slivers_at(const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
+  {
+    for (Seed<dim> &seed : seeds)
+      if (ground != nullptr && seed.is_sliver())
+        {
+          const double reach = seed.cell->diameter();
+          seed.stays         = seed.stays || ground->view(seed.location, reach).distance < reach;
+        }
+  }
+
+
+  template <int dim>
+  void join_slivers(const Triangulation<dim> &triangulation, const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
+  {
+    Slivers<dim> slivers(triangulation, ground, seeds);
+    while (slivers.gather())
+      ;
+    slivers.finish();
+  }
+
+  template void keep_slivers_at(const LevelSet<2> *, std::vector<Seed<2>> &);
+  template void keep_slivers_at(const LevelSet<3> *, std::vector<Seed<3>> &);
+  template decltype(join_slivers<2>) join_slivers<2>;
+  template decltype(join_slivers<3>) join_slivers<3>;
+
 
   void SeedingParameters::add_parameters(ParameterHandler &prm)
   {
@@ -55,14 +382,10 @@ namespace scree
     const std::string where_region = entry_name(body, "Region");
     const std::string where_speed  = entry_name(body, "Initial velocity");
     require_entry(region != SeedingParameters().region || source.is_region() || is_fed,
-                  body,
-                  "Region",
-                  region,
+                  { body, "Region", region },
                   "the body has no region. Write one, for instance x < 1 && y < 1");
     require_entry(initial_porosity == -1 || initial_porosity >= 0,
-                  body,
-                  "Initial porosity",
-                  initial_porosity,
+                  { body, "Initial porosity", initial_porosity },
                   "write a number from 0 to 0.999, or -1 for what the material law implies.");
     if (dim == 2)
       {
@@ -121,9 +444,7 @@ namespace scree
           const unsigned int first  = body_at(x, 0);
           const unsigned int second = body_at(x, first + 1);
           if (second < regions.size())
-            fault = entry_message(soil[second].name,
-                                  soil[second].entry().first,
-                                  soil[second].entry().second,
+            fault = entry_message({ soil[second].name, soil[second].entry().first, soil[second].entry().second },
                                   "it overlaps that of " + quoted(soil[first].name) + ", " +
                                       soil[first].entry().second + ": both are true at " + number_text(x) +
                                       " m, and would be filled twice. Leave the place to one of them.");
@@ -165,9 +486,7 @@ namespace scree
     for (const Seed<dim> &one : seeds)
       volume += one.volume;
     require_entry(Utilities::MPI::sum(volume, communicator) > 0 || parameters.is_fed,
-                  body.name,
-                  parameters.place().first,
-                  parameters.place().second,
+                  { body.name, parameters.place().first, parameters.place().second },
                   ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection Bed. "
                            "Move the region, the box or the bed."
                          : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
@@ -211,22 +530,10 @@ namespace scree
     });
   }
 
-  template void
-  require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<2> &, const double);
-  template void
-  require_apart(const std::vector<SoilRegion> &, const unsigned int, const Triangulation<3> &, const double);
-  template void seed(SoilBody<2> &,
-                     const SeedingParameters &,
-                     const Triangulation<2> &,
-                     const double,
-                     const LevelSet<2> *,
-                     const bool);
-  template void seed(SoilBody<3> &,
-                     const SeedingParameters &,
-                     const Triangulation<3> &,
-                     const double,
-                     const LevelSet<3> *,
-                     const bool);
-  template void set_velocity_gradient(PointSet<2> &, const std::string &, const unsigned int, const double);
-  template void set_velocity_gradient(PointSet<3> &, const std::string &, const unsigned int, const double);
+  template decltype(require_apart<2>) require_apart<2>;
+  template decltype(require_apart<3>) require_apart<3>;
+  template decltype(seed<2>) seed<2>;
+  template decltype(seed<3>) seed<3>;
+  template decltype(set_velocity_gradient<2>) set_velocity_gradient<2>;
+  template decltype(set_velocity_gradient<3>) set_velocity_gradient<3>;
 } // namespace scree

@@ -2,7 +2,7 @@
 #include <scree/deal_ii_versions.h>
 #include <scree/input/expression.h>
 #include <scree/input/input_error.h>
-#include <scree/seeding/slivers.h>
+#include <scree/seeding/seeding.h>
 #include <scree/seeding/water_seeding.h>
 
 #include <deal.II/base/mpi.h>
@@ -36,9 +36,7 @@ namespace scree
   void require_pores(const SoilRegion &soil)
   {
     require_entry(soil.porosity > 0,
-                  soil.name,
-                  "Initial porosity",
-                  soil.porosity,
+                  { soil.name, "Initial porosity", soil.porosity },
                   "the body lies in the water and needs pores. Write a number above 0, or move the region of "
                   "subsection Water.");
   }
@@ -56,15 +54,11 @@ namespace scree
       const auto [entry, value] = parameters.place();
       require_entry(entry.rfind("Phreatic", 0) != 0 ||
                         std::any_of(filled.begin(), filled.begin() + n_bodies, [](const double v) { return v > 0; }),
-                    "Water",
-                    entry,
-                    value,
+                    { "Water", entry, value },
                     "there is no soil below it. Write a higher elevation, or a \"Reservoir level\" alone.");
       require_entry(parameters.is_fed ||
                         std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
-                    "Water",
-                    entry,
-                    value,
+                    { "Water", entry, value },
                     has_ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
                                  "Bed. Move the region, the box or the bed."
                                : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
@@ -158,18 +152,8 @@ namespace scree
       seed_own_points(water, parameters, soil, triangulation, cell_size, ground);
   }
 
-  template std::vector<WaterPart<2>> water_parts<2>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template std::vector<WaterPart<3>> water_parts<3>(const WaterParameters &, const std::vector<SoilRegion> &);
-  template void seed_water(WaterPhase<2> &,
-                           const WaterParameters &,
-                           const std::vector<SoilRegion> &,
-                           const Triangulation<2> &,
-                           const double,
-                           const LevelSet<2> *);
-  template void seed_water(WaterPhase<3> &,
-                           const WaterParameters &,
-                           const std::vector<SoilRegion> &,
-                           const Triangulation<3> &,
-                           const double,
-                           const LevelSet<3> *);
+  template decltype(water_parts<2>) water_parts<2>;
+  template decltype(water_parts<3>) water_parts<3>;
+  template decltype(seed_water<2>) seed_water<2>;
+  template decltype(seed_water<3>) seed_water<3>;
 } // namespace scree

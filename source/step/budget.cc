@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/step/budget.h>
-#include <scree/step/numbers_of.h>
 
 namespace scree
 {

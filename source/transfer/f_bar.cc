@@ -73,6 +73,6 @@ namespace scree
     });
   }
 
-  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<2> &, BlockMotion<2> &);
-  template void apply_f_bar(const FBar, const unsigned int, const MaterialPoints<3> &, BlockMotion<3> &);
+  template decltype(apply_f_bar<2>) apply_f_bar<2>;
+  template decltype(apply_f_bar<3>) apply_f_bar<3>;
 } // namespace scree

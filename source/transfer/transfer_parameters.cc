@@ -32,14 +32,10 @@ namespace scree
       return;
     const double number = number_of(rate);
     require_entry(std::isfinite(number) && number >= 0,
-                  "Transfer",
-                  "PIC rate",
-                  rate,
+                  { "Transfer", "PIC rate", rate },
                   "write auto, or a number from 0 on, in 1/s.");
     require_entry(keeps_velocity(transfer_method()),
-                  "Transfer",
-                  "PIC rate",
-                  rate,
+                  { "Transfer", "PIC rate", rate },
                   "this entry has no effect, as \"Method = " + method +
                       "\" has no such rate. Remove it, or write \"Method = FLIP\" or \"Method = AFLIP\".");
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/particles/batch_pointers.h>
+#include <scree/particles/point_set.h>
 #include <scree/transfer/cell_sums.h>
-#include <scree/transfer/mixture_sums.h>
-#include <scree/transfer/pore_velocity.h>
+#include <scree/transfer/velocity_transfer.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <cmath>

@@ -7,7 +7,7 @@ import re
 import sys
 
 # What is opened there is no file of an entry: cases, also those that --new writes, a raster's .prj, /proc, the run folder.
-OPENED_ELSEWHERE = {"program/new_case.cc", "input/number_table.cc", "input/named_file.cc", "input/input_file.cc", "geometry/raster_formats/raster_file.cc", "case/memory.cc"}
+OPENED_ELSEWHERE = {"program/command_line.cc", "input/number_table.cc", "input/case_entries.cc", "input/input_file.cc", "geometry/raster.cc", "case/memory.cc"}
 
 
 def faults(root):

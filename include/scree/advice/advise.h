@@ -2,6 +2,8 @@
 #ifndef scree_advice_advise_h
 #define scree_advice_advise_h
 
+#include <scree/advice/cost.h>
+#include <scree/advice/recommendation.h>
 #include <scree/case/parameters.h>
 
 #include <mpi.h>

@@ -4,8 +4,9 @@
 
 #include <scree/advice/scene_numbers.h>
 #include <scree/io/output_parameters.h>
-#include <scree/step/timer_section.h>
+#include <scree/run/simulation.h>
 #include <scree/schemes/time_step.h>
+#include <scree/step/step_report.h>
 
 #include <map>
 #include <vector>
@@ -26,7 +27,7 @@ namespace scree
   };
 
   /// What limits the steps for a while.
-  struct Passage
+  struct SpeedInterval
   {
     double duration = 0; ///< s
     double wave     = 0, ///< largest speed of a pressure wave, m/s
@@ -36,18 +37,18 @@ namespace scree
   /// What was seen of a run.
   struct Observation
   {
-    std::vector<Passage> passages; ///< from the start on
-    double n_first  = 0;           ///< steps whose cost is `first`
-    double n_points = 0;           ///< of soil and water
-    StepCost first,                ///< cost of the first steps
-        later;                     ///< cost of the steps after them
+    std::vector<SpeedInterval> intervals; ///< from the start on
+    double n_first  = 0;                  ///< steps whose cost is `first`
+    double n_points = 0;                  ///< of soil and water
+    StepCost first,                       ///< cost of the first steps
+        later;                            ///< cost of the steps after them
     double setup          = 0;     ///< what the very first step takes beyond `first`: to make room, start libraries
     double picture        = 0,     ///< cost of writing a picture, core-seconds
         row               = 0;     ///< cost of writing a row of statistics, core-seconds
     double memory         = 0;     ///< of all ranks, bytes
     double program_memory = 1.2e8; ///< of `memory`, what does not grow with points and cells, bytes
 
-    /// Of all passages, s.
+    /// Of all intervals, s.
     double duration() const;
   };
 
@@ -92,6 +93,17 @@ namespace scree
 
   /// The run of the scene's soil without its water.
   Observation without_water(Observation seen, const SceneNumbers &scene);
+
+  /// Takes the time of the first steps of a run, until rank 0 has spent `seconds` core-seconds or the run is at its
+  /// end, and of what is written then; later steps count as the first. Collective.
+  template <int dim>
+  Observation measure_first_steps(Simulation<dim> &simulation, const double seconds, const MPI_Comm communicator);
+
+  /// Takes the time of a whole run, of its first steps until `begin` s and of those that come later; or of less, once
+  /// rank 0 has spent `seconds` core-seconds. Nothing is written. Collective.
+  template <int dim>
+  Observation
+  measure_run(Simulation<dim> &simulation, const double begin, const double seconds, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

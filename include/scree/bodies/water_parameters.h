@@ -2,7 +2,6 @@
 #ifndef scree_bodies_water_parameters_h
 #define scree_bodies_water_parameters_h
 
-#include <scree/bodies/seepage_start.h>
 #include <scree/geometry/level_set.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -15,6 +14,40 @@
 
 namespace scree
 {
+  /// Subsection Pressure of subsection Water.
+  struct PressureParameters
+  {
+    double relative_tolerance       = 1e-4; ///< of the residual, over the larger of |b| and |S p|
+    unsigned int maximum_iterations = 500;  ///< the run ends with an error beyond them
+    double cavitation_pressure      = -1e5; ///< Pa
+
+    /// Declares the entries in the subsection that is open.
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Entries of subsection Water for a start from steady seepage.
+  struct SeepageStart
+  {
+    bool is_steady         = false; ///< whether the pressure in soil is that of steady flow
+    std::string wall_heads = "";    ///< `Left: 12, Right: 4`, m; empty: none
+
+    /// Declares the entries in the subsection that is open.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations with other entries of subsection Water.
+    /// @param phreatic entry and value of a phreatic surface; empty: not given
+    void check(const unsigned int n_bodies,
+               const std::pair<std::string, std::string> &phreatic,
+               const std::string &reservoir_level,
+               const std::string &initial_pressure) const;
+
+    /// Throws EntryError if a head at a wall is not in the box.
+    void check_heads(const std::vector<double> &lower, const std::vector<double> &upper) const;
+
+    /// Names of walls and heads, m. Throws EntryError if the text does not read.
+    std::vector<std::pair<std::string, double>> heads() const;
+  };
+
   /// How points carry soil and water.
   enum class PointSets
   {
@@ -131,6 +164,22 @@ namespace scree
     void check_levels(const std::vector<double> &gravity, const unsigned int n_bodies) const;
 
     std::tuple<std::shared_ptr<const LevelSet<2>>, std::shared_ptr<const LevelSet<3>>> tables;
+  };
+
+  /// What a body of soil does to water that flows through it, where it differs from what subsection Water says.
+  struct SeepageParameters
+  {
+    double conductivity = 0; ///< m/s, at the initial porosity; 0: that of subsection Water
+
+    /// Declares the entries in the body's subsection.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations; `body` is the name of the subsection.
+    /// @param water null in a dry scene
+    void check(const std::string &body, const WaterParameters *water) const;
+
+    /// The entries of subsection Water, with those of the body in their place.
+    WaterParameters in_place_of(const WaterParameters &water) const;
   };
 } // namespace scree
 

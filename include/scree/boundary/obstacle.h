@@ -2,7 +2,7 @@
 #ifndef scree_boundary_obstacle_h
 #define scree_boundary_obstacle_h
 
-#include <scree/geometry/obstacle_parameters.h>
+#include <scree/geometry/bed_parameters.h>
 #include <scree/mesh/discrete_level_set.h>
 #include <scree/input/expression.h>
 

@@ -3,7 +3,7 @@
 #define scree_boundary_wall_gaps_h
 
 #include <scree/boundary/constraints.h>
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 #include <scree/particles/point_set.h>
 #include <scree/boundary/body_forces.h>
 #include <scree/mixture/mixture.h>

@@ -27,9 +27,6 @@ namespace scree
   template <int dim>
   MemoryEstimate estimate_memory(const Parameters &parameters);
 
-  /// Bytes that this host still has for this process: what is free, and what its control groups and limits let it take.
-  double available_memory();
-
   /// The estimate; throws EntryError, with it, if the hosts of the ranks have not enough memory for the case.
   /// Collective.
   template <int dim>

@@ -2,29 +2,87 @@
 #ifndef scree_case_parameters_h
 #define scree_case_parameters_h
 
-#include <scree/case/body_parameters.h>
-#include <scree/case/safety_parameters.h>
-#include <scree/mesh/background_grid.h>
+#include <scree/bodies/water_parameters.h>
 #include <scree/boundary/boundary_conditions.h>
+#include <scree/boundary/inflow/inflow_parameters.h>
+#include <scree/boundary/rain.h>
 #include <scree/boundary/water_walls.h>
+#include <scree/contact/contact_parameters.h>
+#include <scree/geometry/bed_parameters.h>
+#include <scree/initial/initial_state.h>
 #include <scree/input/case_entries.h>
 #include <scree/input/input_file.h>
 #include <scree/io/output_parameters.h>
-#include <scree/postprocess/probe_parameters.h>
-#include <scree/geometry/bed_parameters.h>
-#include <scree/geometry/obstacle_parameters.h>
-#include <scree/momentum/surface_load.h>
-#include <scree/bodies/water_parameters.h>
-#include <scree/contact/contact_parameters.h>
+#include <scree/materials/table.h>
+#include <scree/mesh/background_grid.h>
 #include <scree/momentum/explicit_update.h>
-#include <scree/boundary/inflow/inflow_parameters.h>
-#include <scree/boundary/rain.h>
-#include <scree/bodies/pressure_parameters.h>
+#include <scree/momentum/surface_load.h>
+#include <scree/postprocess/probes.h>
 #include <scree/schemes/time_step.h>
+#include <scree/seeding/seeding.h>
 #include <scree/transfer/transfer_parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
 
 namespace scree
 {
+  /// One body of soil: where it is, what it is made of, how it starts. One subsection of the `.prm`, named after the
+  /// body.
+  struct BodyParameters
+  {
+    std::string name;                     ///< name of its subsection
+    SeedingParameters seeding;            ///< where it is, and its points
+    SeepageParameters seepage;            ///< hydraulic conductivity
+    MaterialParameters material;          ///< law and its entries
+    InitialStateParameters initial_state; ///< stress before the first step
+
+    /// Declares the body's subsection and its entries.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations of entries.
+    /// @param water null in a dry scene
+    void check(const std::vector<double> &gravity, const WaterParameters *water) const;
+
+    /// Whether the body keeps its place.
+    bool is_rigid() const;
+
+    /// Volume of pores over total volume, as the entry or the law says.
+    double initial_porosity() const;
+
+    /// Density of the dry body, kg/m^3: grains times (1 - porosity).
+    double bulk_density() const;
+
+    /// Horizontal over vertical stress of a K0 start.
+    double k0() const;
+
+    /// Of pressure waves in the dry body at the entry of its pressure, m/s; 0 without stiffness.
+    double wave_speed() const;
+
+  private:
+    void check_rigid() const;
+  };
+
+  /// Subsection Safety: the search of scree --safety, and a strength that is reduced in a run.
+  struct SafetyParameters
+  {
+    double strength_factor = 1;    ///< divides the strength from the release on
+    double lower           = 0.5;  ///< smallest factor that is tried
+    double upper           = 5;    ///< largest factor that is tried
+    double tolerance       = 0.01; ///< of the factor
+    double displacement    = 0.02; ///< of a slope that fails, over its height
+
+    /// Longest duration of a trial, in sqrt(height of the soil/gravity); what moves then fails.
+    static constexpr double longest_trial = 40;
+
+    /// Declares the subsection and its entries.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at impossible combinations.
+    void check() const;
+  };
+
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
   class Parameters
   {
@@ -124,13 +182,10 @@ namespace scree
 
   private:
     void name_bodies();
-    void name_obstacles();
-    void name_inflows();
 
     /// The subsections with this prefix. Throws EntryError if two differ by case only.
     /// @param kind `obstacle`, for the message
     std::vector<std::string> named_subsections(const std::string &prefix, const std::string &kind) const;
-    void name_contacts();
     void declare(dealii::ParameterHandler &prm);
     void declare_water(dealii::ParameterHandler &prm);
     void take_box_from_raster();
@@ -152,6 +207,7 @@ namespace scree
     std::vector<std::string> body_names{ "Soil" };
     dealii::ParameterHandler handler;
   };
+
 } // namespace scree
 
 #endif

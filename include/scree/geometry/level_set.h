@@ -4,7 +4,9 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace scree
 {
@@ -36,6 +38,39 @@ namespace scree
       return "";
     }
   };
+
+  /// Several rigid surfaces as one: what is inside any of them is inside.
+  template <int dim>
+  class JoinedSurface : public LevelSet<dim>
+  {
+  public:
+    /// @param parts at least one; they must live on
+    explicit JoinedSurface(std::vector<const LevelSet<dim> *> parts);
+
+    bool is_open(const dealii::Point<dim> &x) const override;
+
+    /// The part that is nearest, or deepest around `x`: a distance outside, inside several of them less than that.
+    SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const override;
+
+  private:
+    const std::vector<const LevelSet<dim> *> parts;
+  };
+
+  /// The corners of a triangle in space, m.
+  using Triangle = std::array<dealii::Point<3>, 3>;
+
+  /// A place of a triangle, and which part of it holds the place.
+  struct PlaceOfTriangle
+  {
+    dealii::Point<3> place; ///< m
+    unsigned int part;      ///< 0: the inside; 1 + i: the edge from corner i to the next one; 4 + i: corner i
+  };
+
+  /// The place of a triangle that is nearest to `x` (@source{ericson2005}, section 5.1.5).
+  PlaceOfTriangle nearest_place(const dealii::Point<3> &x, const Triangle &corners);
+
+  /// Normal of a triangle, twice as long as its area, m^2; corners are counter-clockwise seen from where it points.
+  dealii::Tensor<1, 3> across(const Triangle &corners);
 } // namespace scree
 
 #endif

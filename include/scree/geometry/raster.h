@@ -4,6 +4,7 @@
 
 #include <deal.II/base/point.h>
 
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +71,85 @@ namespace scree
 
   /// The Raster::system of a raster alone; empty if it is not known. Throws EntryError if there is no such file.
   std::string read_raster_system(const std::string &file, const std::string &where);
+
+  /// Throws EntryError unless a text such as `EPSG:2056` is a projected system of coordinates in m that GDAL has.
+  /// @param name entry and text, for the message: `entry "Coordinate system" = EPSG:1: `
+  void require_system_in_metres(const std::string &system, const std::string &name);
+
+  /// Whether both texts, each a code or that of a .prj file, are of the same system: also if they name it otherwise but
+  /// have the place, m, at the same coordinates. Only names are compared of systems that GDAL does not have.
+  bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place);
+
+  /// What a message calls a system: its code, or its name in the text of a .prj file.
+  std::string name_of_system(const std::string &system);
+
+  /// The text of a .prj file.
+  std::string prj_text(const std::string &system);
+
+  /// Stands for missing values in files, as in most programs of maps.
+  constexpr double missing_value = -9999.;
+
+  /// The content of an ESRI ASCII grid.
+  std::string ascii_grid(const Raster &raster);
+
+  /// The content of a GeoTIFF of one band of 32-bit numbers, in the raster's system of coordinates.
+  /// @param name of the band, such as `thickness`
+  /// @param unit of its values
+  std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit);
+
+  /// A part of the plane with straight edges.
+  class Polygon
+  {
+  public:
+    /// @param corners one after the other, m; the last is joined to the first
+    explicit Polygon(std::vector<dealii::Point<2>> corners);
+
+    /// Whether a place, m, is inside.
+    bool contains(const dealii::Point<2> &x) const;
+
+    /// Lower and upper corner of the box around it, m.
+    std::pair<dealii::Point<2>, dealii::Point<2>> bounds() const
+    {
+      return { lower, upper };
+    }
+
+    /// The first edge that one beyond its neighbours crosses or touches; the number of edges if there is none.
+    unsigned int first_crossing() const;
+
+  private:
+    const dealii::Point<2> &corner(const unsigned int i) const
+    {
+      return corners[i % corners.size()];
+    }
+
+    std::vector<dealii::Point<2>> corners;
+    dealii::Point<2> lower, upper; // of the box around it
+  };
+
+  /// Areas on the map, such as those of a release; they may overlap.
+  class Outline
+  {
+  public:
+    /// @param areas at least one: the edge and the holes of each, m
+    explicit Outline(std::vector<std::vector<Polygon>> areas);
+
+    /// Whether a place, m, is in an area and in none of its holes.
+    bool contains(const dealii::Point<2> &x) const;
+
+    /// Lower and upper corner of the box around all areas, m.
+    std::pair<dealii::Point<2>, dealii::Point<2>> bounds() const;
+
+  private:
+    std::vector<std::vector<Polygon>> areas;
+  };
+
+  /// Reads the areas of a file in a vector format of GDAL, else one by read_polygon(). Throws
+  /// EntryError, which begins with `where` (see entry_name()), if there is none, or if edges cross.
+  /// @param origin where the map has the origin of the outline's x and y, m
+  Outline read_outline(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
+
+  /// The coordinate system of an outline, see Raster::system; empty if it is not known.
+  std::string read_outline_system(const std::string &file, const std::string &where);
 } // namespace scree
 
 #endif

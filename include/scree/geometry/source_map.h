@@ -4,7 +4,6 @@
 
 #include <scree/geometry/bed_parameters.h>
 #include <scree/geometry/level_set.h>
-#include <scree/geometry/outline.h>
 #include <scree/geometry/raster.h>
 
 #include <deal.II/base/parameter_handler.h>

@@ -2,93 +2,126 @@
 #ifndef scree_initial_steady_seepage_h
 #define scree_initial_steady_seepage_h
 
-#include <scree/initial/seepage_cells.h>
-#include <scree/initial/seepage_field.h>
-#include <scree/pressure/free_surface.h>
+#include <scree/bodies/water_parameters.h>
+#include <scree/boundary/water_walls.h>
+#include <scree/geometry/level_set.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/particles/cell_places.h>
+#include <scree/seeding/seeding.h>
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/base/function_lib.h>
 
-#include <limits>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace scree
 {
-  /// Steady flow of water through soil, div(k_r k grad phi) = 0 with the head phi, on the corners of the cells with
-  /// soil. Above the free surface the conductivity falls to next to nothing (@source{bathe1979}); at faces in air water
-  /// leaves where its pressure would be positive, and does not enter. Both are found by iterations.
+  /// Properties of the soil that the flow depends on.
+  struct SeepageSoil
+  {
+    std::vector<SoilRegion> bodies;     ///< where they are
+    std::vector<double> conductivities; ///< of each, m/s; 0: no flow
+  };
+
+  /// What is at a place before the flow is known: soil, ground, air or free water, and the heads at the walls.
   template <int dim>
-  class SteadySeepage
+  class SeepageSurvey
   {
   public:
-    /// Takes the soil from the survey. Collective; throws EntryError if no soil touches a given head.
-    SteadySeepage(const BackgroundGrid<dim> &grid, const SeepageSurvey<dim> &survey);
+    static constexpr int air = -1,    ///< see kind()
+        closed               = -2;    ///< ground and soil without flow, see kind()
+    const BackgroundGrid<dim> &grid;  ///< the mesh
+    const SeepageSoil soil;           ///< the bodies
+    const std::string reservoir_text; ///< of the entry, for messages
 
-    /// Iterates until nothing changes. Collective.
-    /// @param gravity m/s^2; conductivities hold at 9.81
-    std::shared_ptr<const SeepageField<dim>> solve(const double gravity);
+    /// @param ground only its open holds soil; null: all
+    SeepageSurvey(const BackgroundGrid<dim> &grid,
+                  const SeepageSoil &soil,
+                  const WaterParameters &water,
+                  const WaterBoundaryConditions<dim> &walls,
+                  const double unit_weight,
+                  const LevelSet<dim> *ground);
 
-  private:
-    using Cell                               = SeepageCell<dim>;
-    static constexpr unsigned int n_vertices = 1 << dim;
-    using Shape                              = std::array<double, n_vertices>;
-    using CellMatrix                         = std::array<Shape, n_vertices>;
+    /// Elevation of free water at a place, m; NaN without a reservoir.
+    double level(const dealii::Point<dim> &x) const;
 
-    /// Value of the hat functions of a cell at a place in it, from 0 to 1 along each axis.
-    static Shape hats(const dealii::Point<dim> &place);
+    /// Number of the body at a place, or air, or closed.
+    int kind(const dealii::Point<dim> &x) const;
 
-    void integrate_parts();
-    void number_rows();
-    void make_pattern();
-
-    /// Sets matrix and right-hand side of the conductivities and faces as they are.
-    void assemble();
-
-    /// Solves for the heads; returns the largest change, m. Collective.
-    double solve_system();
-
-    /// Follows the heads with the conductivities; `share` of the way.
-    void update_conductivities(const double share);
-
-    /// Follows the heads at the faces in air; returns whether any has changed. Collective.
-    bool update_faces();
-
-    /// Head at a face, m.
-    double head_at(const SeepageFace<dim> &face) const;
-
-    /// Flow through a face over the difference of heads, m^(dim-1)/s.
-    double conductance(const unsigned int face) const;
-
-    /// Head beyond a face, m: in air without pressure.
-    static double head_beyond(const SeepageFace<dim> &face);
-
-    /// What went through the faces.
-    /// @param scale of the flow, for gravity
-    SeepageReport report(const double scale) const;
-    std::shared_ptr<const SeepageField<dim>> field(const SeepageReport &report) const;
-
-    /// The row of a vertex.
-    dealii::types::global_dof_index row(const unsigned int vertex) const
+    /// Whether a body with flow is there.
+    bool is_in_soil(const dealii::Point<dim> &x) const
     {
-      return static_cast<dealii::types::global_dof_index>(rows.local_element(vertex));
+      return kind(x) >= 0;
     }
 
-    const BackgroundGrid<dim> &grid;
-    NodeNumbering<dim> vertices;
-    std::vector<Cell> cells;
-    std::vector<SeepageFace<dim>> faces;
-    std::vector<std::array<double, Cell::n_parts>> relative; // conductivity over that of full pores
-    std::vector<char> is_leaving;                            // of the faces in air
-    std::array<Shape, Cell::n_parts> shapes;                 // in the middle of a part
-    std::array<CellMatrix, Cell::n_parts> laplacian;         // of a part
+    /// Whether a place is beyond this face of the box.
+    bool is_beyond(const dealii::Point<dim> &x, const unsigned int face) const;
 
-    VertexVector heads, rows; // at the vertices; number of the row, -1 where there is none
-    VertexVector scales;      // of the rows
-    double smallest_conductivity = std::numeric_limits<double>::max(); // at a face, m/s
-    bool has_no_soil             = false;                              // of this rank: its one row stands for itself
-    dealii::TrilinosWrappers::SparseMatrix matrix;
-    VertexVector source, solution; // by row
+    /// The head of a wall at a height of it, m: NaN where water only leaves, nothing if it is closed there.
+    std::optional<double> head_of_wall(const unsigned int face, const double height) const;
+
+  private:
+    const WaterBoundaryConditions<dim> &walls;
+    const LevelSet<dim> *ground;
+    const double unit_weight; // of water, N/m^3
+    const std::vector<double> heads;
+    std::vector<Region<dim>> regions;
+    std::unique_ptr<Expression<dim>> reservoir;
   };
+
+  /// What steady seepage came to.
+  struct SeepageReport
+  {
+    unsigned int n_iterations = 0;     ///< solves
+    bool has_converged        = false; ///< whether the last one changed nothing
+    double inflow             = 0;     ///< m^3/s (2D: m^2/s)
+    double outflow_in_air     = 0;     ///< through faces in air, m^3/s
+    double outflow_below      = 0;     ///< to where a head is given, m^3/s
+    double exit_height        = 0;     ///< elevation of the highest face in air where water leaves, m; NaN: nowhere
+
+    /// A line for the log.
+    std::string text(const unsigned int dim) const;
+  };
+
+  /// The pressure head of steady seepage at the corners of the cells with soil, on every rank. As a level set its open
+  /// is dry.
+  template <int dim>
+  class SeepageField : public LevelSet<dim>
+  {
+  public:
+    /// @param box of the mesh
+    /// @param first corner of the box's cells that has a value, by its numbers along the axes
+    /// @param values of the pressure head, m; NaN where no soil is near
+    SeepageField(const CellsOfBox<dim> &box,
+                 const CellPlace<dim> &first,
+                 const dealii::Table<dim, double> &values,
+                 const SeepageReport &report);
+
+    /// Pressure head, m, and its gradient; NaN where no soil is near.
+    std::pair<double, dealii::Tensor<1, dim>> pressure_head(const dealii::Point<dim> &x) const;
+
+    /// See LevelSet::is_open(): whether the pressure is negative or unknown.
+    bool is_open(const dealii::Point<dim> &x) const override;
+
+    /// See LevelSet::view(): of the surface without pressure, to first order.
+    SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const override;
+
+    const SeepageReport report; ///< how it was found
+
+  private:
+    const CellsOfBox<dim> box;
+    CellPlace<dim> first, n; // of the cells with values
+    std::unique_ptr<const dealii::Functions::InterpolatedUniformGridData<dim>> heads;
+  };
+
+  /// Steady flow of water through the soil. Collective; throws EntryError if no soil touches a given head, or if a
+  /// reservoir is higher than the box.
+  /// @param gravity m/s^2; conductivities hold at 9.81
+  template <int dim>
+  std::shared_ptr<const SeepageField<dim>> solve_seepage(const SeepageSurvey<dim> &survey, const double gravity);
 } // namespace scree
 
 #endif

@@ -9,6 +9,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace scree
@@ -40,31 +41,50 @@ namespace scree
   /// `subsection Soil/Initial state, entry "K0"`, as messages begin; an empty path is the top of the file.
   std::string entry_name(const std::string &subsection, const std::string &entry);
 
-  /// entry_name(), value and remedy: `entry "Colour" = red: there is no such entry.`
-  std::string entry_message(const std::string &subsection,
-                            const std::string &entry,
-                            const std::string &value,
-                            const std::string &remedy);
-
-  /// Throws EntryError with the entry_message() unless the value is `possible`.
-  void require_entry(const bool possible,
-                     const std::string &subsection,
-                     const std::string &entry,
-                     const std::string &value,
-                     const std::string &remedy);
-
-  /// The same for a number.
-  void require_entry(const bool possible,
-                     const std::string &subsection,
-                     const std::string &entry,
-                     const double value,
-                     const std::string &remedy);
-
   /// The number that a text is; NaN if it is none.
   double number_of(const std::string &text);
 
   /// A number as a user would write it.
   std::string number_text(const double value);
+
+  /// An entry with its value, as messages begin.
+  struct EntryValue
+  {
+    std::string subsection, ///< path; empty at the top of the file
+        entry,              ///< its name
+        value;              ///< as text
+
+    /// A value that is a text.
+    EntryValue(const std::string &subsection, const std::string &entry, const std::string &value)
+        : subsection(subsection)
+        , entry(entry)
+        , value(value)
+    {
+    }
+    /// A value that is a number.
+    template <typename Number, typename = std::enable_if_t<std::is_arithmetic_v<Number>>>
+    EntryValue(const std::string &subsection, const std::string &entry, const Number value)
+        : EntryValue(subsection, entry, number_text(double(value)))
+    {
+    }
+  };
+
+  /// entry_name(), value and remedy: `entry "Colour" = red: there is no such entry.`
+  std::string entry_message(const EntryValue &entry, const std::string &remedy);
+
+  /// Throws EntryError with the entry_message() unless the value is `possible`.
+  void require_entry(const bool possible, const EntryValue &entry, const std::string &remedy);
+
+  /// The same with the parts of the entry.
+  template <typename Value>
+  void require_entry(const bool possible,
+                     const std::string &subsection,
+                     const std::string &entry,
+                     const Value &value,
+                     const std::string &remedy)
+  {
+    require_entry(possible, { subsection, entry, value }, remedy);
+  }
 
   /// Several numbers, separated by commas.
   std::string number_text(const std::vector<double> &values);

@@ -2,21 +2,47 @@
 #ifndef scree_io_checkpoint_h
 #define scree_io_checkpoint_h
 
-#include <scree/step/background_writer.h>
-#include <scree/mesh/background_grid.h>
 #include <scree/input/case_entries.h>
-#include <scree/io/checkpoint_files.h>
+#include <scree/io/files.h>
+#include <scree/mesh/background_grid.h>
 #include <scree/particles/point_set.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace scree
 {
+  /// One file of a checkpoint, as it was written.
+  struct CheckedFile
+  {
+    std::string name;       ///< name in the folder of the checkpoint
+    std::uint64_t size = 0, ///< bytes
+        checksum       = 0; ///< CRC-64
+
+    /// Saves or loads name, size and checksum (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &name &size &checksum;
+    }
+  };
+
+  /// The head of a checkpoint: who wrote it, and the files that belong to it. Written last, as the file `manifest`,
+  /// under a checksum of its own.
+  struct Manifest
+  {
+    std::string program;            ///< that wrote it
+    unsigned int dimension = 0;     ///< 2 or 3
+    double time            = 0;     ///< s
+    std::uint64_t step     = 0;     ///< number of the time step
+    std::vector<CheckedFile> files; ///< files of the checkpoint but the manifest
+  };
+
   /// A whole checkpoint of a run.
   struct Checkpoint
   {
@@ -24,6 +50,9 @@ namespace scree
     Manifest manifest;   ///< its files and their checksums
     CaseEntries entries; ///< of the case that wrote it
   };
+
+  using SaveState = std::function<void(boost::archive::binary_oarchive &)>; ///< writes the state of a run
+  using LoadState = std::function<void(boost::archive::binary_iarchive &)>; ///< reads it
 
   /// Gathers `entries`, the points of all `sets` and the `state` of a run at `time` s. The job writes them to a new
   /// checkpoint of the run, which gets its name when all of it has been read again and found whole; before that no
@@ -36,13 +65,16 @@ namespace scree
                            const CaseEntries &entries,
                            const BackgroundGrid<dim> &grid,
                            const std::vector<PointSet<dim> *> &sets,
-                           const std::function<void(boost::archive::binary_oarchive &)> &state);
+                           const SaveState &state);
 
   /// The newest checkpoint of the run that is whole; `log` gets a line for each newer one that is not. Collective;
   /// throws EntryError if there is none.
   Checkpoint find_checkpoint(const std::string &run_folder,
                              const std::function<void(const std::string &)> &log,
                              const MPI_Comm communicator);
+
+  /// The folders of the checkpoints of a run whose files are all as they were written, the newest first.
+  std::vector<std::string> whole_checkpoints(const std::string &run_folder);
 
   /// Reads a checkpoint, on any number of ranks. The grid must be of the same box; it gets the fine cells of then. The
   /// sets, in the order in which they were saved, lose the points they have. Collective; throws
@@ -51,7 +83,7 @@ namespace scree
   void load_checkpoint(const Checkpoint &checkpoint,
                        BackgroundGrid<dim> &grid,
                        const std::vector<PointSet<dim> *> &sets,
-                       const std::function<void(boost::archive::binary_iarchive &)> &state);
+                       const LoadState &state);
 } // namespace scree
 
 #endif

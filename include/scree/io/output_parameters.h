@@ -8,6 +8,21 @@
 
 namespace scree
 {
+  /// Times in the names of files, such as `05.0s`: of the same length for all times of a run, so that the names sort.
+  class TimeLabel
+  {
+  public:
+    /// @param end_time of the run, s: its digits before the point
+    /// @param interval of the files, s: its digits behind the point
+    TimeLabel(const double end_time, const double interval);
+
+    /// The label of a time from 0 to the end, s.
+    std::string operator()(const double time) const;
+
+  private:
+    int width, decimals;
+  };
+
   /// What a run prints on the screen.
   enum class Screen
   {
@@ -75,6 +90,37 @@ namespace scree
 
     /// Time between rows of statistics, s; that of pictures by default.
     double interval_of_statistics() const;
+  };
+
+  /// When a run writes what: all times are s of the run.
+  class OutputTimes
+  {
+  public:
+    /// Takes the intervals of the entries; begin() comes next.
+    /// @param end_time of the run, s
+    OutputTimes(const OutputParameters &parameters, const double end_time);
+
+    /// From here on, what is due comes after `time`.
+    void begin(const double time);
+
+    /// The time at which a step has to end next, for steps of `largest_step` s at most.
+    double next(const double largest_step) const;
+
+    /// Whether the run ends at a time, s, within rounding.
+    bool is_end(const double time) const;
+
+    /// Whether a picture is due at a time, s.
+    bool picture_is_due(const double time) const;
+
+    /// Whether a row of the statistics is due at a time, s.
+    bool row_is_due(const double time) const;
+
+    /// Whether a checkpoint is due at a time, s; never if the interval is 0.
+    bool checkpoint_is_due(const double time) const;
+
+  private:
+    const double picture_interval, row_interval, checkpoint_interval, end_time;
+    double picture = 0, row = 0, checkpoint = 0;
   };
 } // namespace scree
 

@@ -7,8 +7,33 @@
 
 #include <deal.II/base/timer.h>
 
+#include <string>
+#include <vector>
+
 namespace scree
 {
+  /// What a run has found in a check of itself.
+  struct CheckResult
+  {
+    std::string text;         ///< name and worst value, in words
+    std::string bound;        ///< what a sound run does not exceed, in words; empty: the value is for information
+    bool is_exceeded = false; ///< whether the bound is
+    std::string where;        ///< point, place and time of the worst value; may be empty
+
+    /// Saves or loads all of it (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &text &bound &is_exceeded &where;
+    }
+  };
+
+  /// A number with three digits.
+  std::string short_text(const double value);
+
+  /// The lines `Checks`: values out of bounds with their bounds and places, then the others.
+  std::string verdict(const std::vector<CheckResult> &results);
+
   /// Processor time that this process has taken so far, its own and the system's for it, s. (deal.II's CPUClock counts
   /// its own alone, which the system guesses from ticks: of short runs that is nothing or twice as much.)
   double processor_time();

@@ -2,8 +2,8 @@
 #ifndef scree_mesh_cut_cells_h
 #define scree_mesh_cut_cells_h
 
-#include <scree/mesh/cubic_weights.h>
-#include <scree/mesh/rigid_boundary.h>
+#include <scree/mesh/cell_basis.h>
+#include <scree/mesh/discrete_level_set.h>
 
 #include <algorithm>
 

@@ -2,17 +2,17 @@
 #ifndef scree_model_scene_h
 #define scree_model_scene_h
 
-#include <scree/boundary/constraints.h>
-#include <scree/initial/seepage_cells.h>
-#include <scree/initial/seepage_field.h>
-#include <scree/mesh/cut_cells.h>
-#include <scree/case/memory.h>
-#include <scree/postprocess/statistics.h>
-#include <scree/case/parameters.h>
-#include <scree/schemes/explicit_scheme.h>
 #include <scree/boundary/body_forces.h>
+#include <scree/boundary/constraints.h>
 #include <scree/boundary/inflow/inflow.h>
 #include <scree/boundary/rain.h>
+#include <scree/case/memory.h>
+#include <scree/case/parameters.h>
+#include <scree/initial/steady_seepage.h>
+#include <scree/mesh/cut_cells.h>
+#include <scree/mesh/fine_cells.h>
+#include <scree/postprocess/statistics.h>
+#include <scree/schemes/explicit_scheme.h>
 #include <scree/schemes/scheme.h>
 
 #include <deal.II/base/timer.h>
@@ -22,6 +22,10 @@
 
 namespace scree
 {
+  /// Where the case puts points at the start. Refers to the parameters.
+  template <int dim>
+  PlacesOfPoints<dim> places_of_points(const Parameters &parameters);
+
   /// What a case describes: the mesh, its walls, bodies of soil, water and loads.
   template <int dim>
   class Scene
@@ -56,7 +60,8 @@ namespace scree
 
     /// Puts in the layers that enter with a step, s, from `time` on, and the drops of rain, and books them. Collective.
     /// @param pressure of the water, for its points that enter; read in scenes with water
-    void let_in(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
+    void
+    let_in(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunBalance<dim> &totals);
 
     /// Moves the obstacles to where they are after the step. Collective.
     void move_obstacles(const double time_step);
@@ -194,19 +199,19 @@ namespace scree
                            PointSet<dim> &points,
                            const unsigned int mass_slot,
                            const Fill &fill,
-                           RunTotals<dim> &totals) const;
+                           RunBalance<dim> &totals) const;
     /// What rain enters: the least porosity of the bodies that take water.
     RainedSoil rained_soil() const;
     /// The soil and water under the rain. Collective.
     typename Rain<dim>::Columns columns_of_rain();
     /// The drops of rain of let_in().
     void
-    let_rain(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunTotals<dim> &totals);
-    unsigned int add_soil(const Inflow<dim> &inflow, const unsigned int back, RunTotals<dim> &totals);
+    let_rain(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunBalance<dim> &totals);
+    unsigned int add_soil(const Inflow<dim> &inflow, const unsigned int back, RunBalance<dim> &totals);
     unsigned int add_water(const Inflow<dim> &inflow,
                            const unsigned int back,
                            const PressureOfCell<dim> &pressure,
-                           RunTotals<dim> &totals);
+                           RunBalance<dim> &totals);
 
     /// Writes the properties of a point of soil that enters.
     void fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const;

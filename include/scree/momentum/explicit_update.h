@@ -3,7 +3,7 @@
 #define scree_momentum_explicit_update_h
 
 #include <scree/boundary/constraints.h>
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 #include <scree/boundary/body_forces.h>
 #include <scree/step/budget.h>
 #include <scree/boundary/wall_gaps.h>

@@ -2,7 +2,7 @@
 #ifndef scree_momentum_load_transfer_h
 #define scree_momentum_load_transfer_h
 
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 #include <scree/momentum/surface_load.h>
 
 #include <array>

@@ -3,7 +3,7 @@
 #define scree_momentum_nodal_forces_h
 
 #include <scree/boundary/body_forces.h>
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 
 namespace scree
 {

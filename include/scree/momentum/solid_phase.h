@@ -2,7 +2,6 @@
 #ifndef scree_momentum_solid_phase_h
 #define scree_momentum_solid_phase_h
 
-#include <scree/step/timer_section.h>
 #include <scree/step/step_report.h>
 #include <scree/momentum/load_transfer.h>
 #include <scree/transfer/nonlocal_average.h>

@@ -2,22 +2,155 @@
 #ifndef scree_particles_point_set_h
 #define scree_particles_point_set_h
 
-#include <scree/particles/cell_costs.h>
-#include <scree/particles/cell_table.h>
-#include <scree/particles/cell_use.h>
-#include <scree/particles/point_exchange.h>
+#include <scree/particles/cell_places.h>
 #include <scree/particles/point_lists.h>
+#include <scree/simd/records.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/fe/mapping.h>
+#include <deal.II/grid/cell_id.h>
 #include <deal.II/particles/particle_handler.h>
+#include <deal.II/particles/property_pool.h>
 
+#include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace scree
 {
+  /// Processor time of this thread, s: that of others on the machine does not count.
+  double thread_time();
+
+
+  /// What a point of each of this rank's cells costs, measured around the cells in some passes over them; and what its
+  /// contacts with the ground cost, measured in the same steps.
+  ///
+  /// Costs belong to active cell indices: reinit() clears them when the mesh is partitioned anew.
+  class CellCosts
+  {
+  public:
+    /// Nothing is measured before the first call.
+    void reinit(const unsigned int n_cells);
+
+    /// Asks for the next pass to be timed. Others cost a branch a cell.
+    void time_next_pass();
+
+    /// Whether it will be.
+    bool is_due() const
+    {
+      return is_wanted;
+    }
+
+    /// A pass over the cells begins.
+    void start_pass()
+    {
+      is_timed = is_wanted;
+      if (!is_timed)
+        return;
+      is_wanted = false;
+      last      = TimeStepper::now();
+    }
+
+    /// The pass is through with a cell of `n_points`: the time since the cell before was its own.
+    void finish_cell(const unsigned int cell, const unsigned int n_points)
+    {
+      if (!is_timed)
+        return;
+      const auto now = TimeStepper::now();
+      add(cell, std::chrono::duration<double>(now - last).count() / n_points);
+      last = now;
+    }
+
+    /// The same for a range of cells that hold `n_points` in all.
+    template <typename Iterator>
+    void finish_cells(const Iterator &begin, const Iterator &end, const unsigned int n_points)
+    {
+      if (!is_timed)
+        return;
+      const auto now = TimeStepper::now();
+      for (auto cell = begin; cell != end; ++cell)
+        add(cell->cell, std::chrono::duration<double>(now - last).count() / n_points);
+      last = now;
+    }
+
+    /// Adds a measurement, s a point.
+    void add(const unsigned int cell, const double seconds);
+
+    /// Seconds a point of the cell: the mean of its measurements without the largest, since the system may have
+    /// interrupted the rank in that one; `otherwise` if there are none.
+    double of_point(const unsigned int cell, const double otherwise) const;
+
+    /// Adds the time, s, that contacts of the cell's points took in a step whose next pass is_due().
+    void add_contacts(const unsigned int cell, const unsigned int n_points, const double seconds);
+
+    /// Seconds that contacts of a point of the cell take, the mean over its measured passes; 0 without any.
+    double of_contacts(const unsigned int cell) const;
+
+  private:
+    using TimeStepper = std::chrono::steady_clock;
+
+    struct Cell
+    {
+      double sum = 0, largest = 0, contacts = 0; // s a point
+      unsigned int n_measurements = 0;
+    };
+
+    std::vector<Cell> cells;
+    bool is_wanted = false, is_timed = false;
+    TimeStepper::time_point last;
+  };
+
+  /// What a point carries from cell to cell or rank to rank.
+  template <int dim>
+  struct PointRecord
+  {
+    dealii::CellId::binary_type cell; ///< where it goes
+    dealii::Point<dim> location;      ///< m
+    dealii::types::particle_index id; ///< lasting number of the point
+    std::vector<double> properties;   ///< in the layout of its set
+
+    /// Saves or loads all members (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &cell &location &id &properties;
+    }
+  };
+
+
+  /// The points of one set that go from rank to rank.
+  template <int dim>
+  class PointExchange
+  {
+  public:
+    using CellIterator = typename CellTable<dim>::Iterator; ///< iterator over the cells of the mesh
+
+    /// @param triangulation mesh of the points; must live on
+    explicit PointExchange(const dealii::Triangulation<dim> &triangulation);
+
+    /// Adds a point to those that leave for the rank of this ghost cell.
+    void add(const CellIterator &cell, PointRecord<dim> &record);
+
+    /// Whether no point of this rank leaves.
+    bool is_empty() const
+    {
+      return emigrants.empty();
+    }
+
+    /// Sends the points that leave and returns those that come. Collective.
+    std::vector<PointRecord<dim>> exchange();
+
+  private:
+    using Record = PointRecord<dim>;
+
+    const dealii::Triangulation<dim> &mesh;
+    std::map<unsigned int, std::vector<Record>> emigrants; // by rank
+  };
+
   /// A point that lay outside the mesh when the set was sorted.
   template <int dim>
   struct LostPoint
@@ -234,6 +367,59 @@ namespace scree
     for (const auto &cell : points.cells())
       for_each_point(cell, act);
   }
+
+  /// Where the records of a batch of a cell's points lie.
+  template <int dim>
+  struct BatchPointers
+  {
+    RecordPointers<double> properties,   ///< properties of each point
+        locations;                       ///< location of each point, m
+    RecordPointers<const double> places; ///< in the cell, from 0 to 1
+
+    /// @param indices of points in the cell
+    BatchPointers(const CellPoints<dim> &cell, const BatchIndices &indices)
+    {
+      for (unsigned int l = 0; l < batch_size; ++l)
+        {
+          properties[l] = apart(cell.properties_of(indices[l]));
+          locations[l]  = apart(&cell.location_of(indices[l])[0]);
+          places[l]     = apart(&cell.reference_location_of(indices[l])[0]);
+        }
+    }
+
+    /// Properties from a slot on.
+    RecordPointers<double> slots_at(const unsigned int slot) const
+    {
+      RecordPointers<double> slots = properties;
+      for (double *&pointer : slots)
+        pointer = apart(pointer + slot);
+      return slots;
+    }
+  };
+
+
+  /// The largest of squares of speeds, m^2/s^2, lane by lane; not a number if any was not.
+  struct LargestSquare
+  {
+    Batch of_lanes = simd::broadcast<Batch>(0.); ///< largest square so far
+
+    /// Takes in the first `n` of a batch.
+    void include(const Batch &squares, const unsigned int n)
+    {
+      const simd::Mask<Batch> is_larger = simd::first_lanes(n) & !(squares <= of_lanes) & (of_lanes == of_lanes);
+      of_lanes                          = simd::select<Batch>(is_larger, squares, of_lanes);
+    }
+
+    /// Largest speed, m/s.
+    double speed() const
+    {
+      double largest = 0;
+      for (unsigned int l = 0; l < batch_size; ++l)
+        if (!(of_lanes[l] <= largest))
+          largest = of_lanes[l];
+      return simd::any(of_lanes != of_lanes) ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(largest);
+    }
+  };
 } // namespace scree
 
 #endif

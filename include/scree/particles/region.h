@@ -5,10 +5,16 @@
 #include <scree/geometry/level_set.h>
 #include <scree/geometry/source_map.h>
 #include <scree/input/expression.h>
+#include <scree/particles/point_set.h>
 
+#include <deal.II/base/function.h>
+#include <deal.II/grid/tria.h>
+
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace scree
 {
@@ -65,6 +71,78 @@ namespace scree
     std::shared_ptr<const SourceMap> map;
     std::shared_ptr<const LevelSet<dim>> table;
   };
+
+  /// What a material fills of one cube of a lattice.
+  template <int dim>
+  struct CubePart
+  {
+    double filled;               ///< part of the cube that its region covers, m^3 (2D: m^2)
+    double volume;               ///< of the material itself there: less than `filled` in pores
+    dealii::Point<dim> location; ///< centroid of the volume, m
+    bool stays = false;          ///< in its cell, however little it is: free water has a pressure there
+  };
+
+  /// A point to be.
+  template <int dim>
+  struct Seed
+  {
+    typename dealii::Triangulation<dim>::active_cell_iterator cell; ///< cell in which it stands
+    dealii::Point<dim> location;                                    ///< m
+    double volume;                                                  ///< m^3 (2D: per m)
+    double filled = 1.;    ///< part of a cube of the lattice that its region covers, of several the sum
+    bool stays    = false; ///< see CubePart
+
+    static constexpr double least_filled = 0.25; ///< seeds that fill less are slivers
+
+    /// Whether it fills less than `least_filled` of its cube.
+    bool is_sliver() const
+    {
+      return filled < least_filled;
+    }
+
+    /// Takes the volume, m^3, and what it fills from another place and moves to the common centroid.
+    void take_in(const dealii::Point<dim> &from, const double more_volume, const double more_filled)
+    {
+      volume += more_volume;
+      filled += more_filled;
+      location += more_volume / volume * (from - location);
+    }
+  };
+
+  /// What lies in the cube with this lower corner, m, and width, m.
+  template <int dim>
+  using PartOfCube = std::function<CubePart<dim>(const dealii::Point<dim> &lower, const double width)>;
+
+  /// The seeds of this rank's cells on a lattice of cubes. Cubes covered by less than a quarter join the nearest fuller
+  /// one of their cell.
+  /// @param n points along each axis of a cell
+  template <int dim>
+  std::vector<Seed<dim>> lattice_seeds(const dealii::Triangulation<dim> &triangulation,
+                                       const double cell_size,
+                                       const unsigned int n,
+                                       const PartOfCube<dim> &part_of_cube);
+
+  /// Throws ValueError if the velocity of a seed is no number.
+  /// @param velocity null: at rest
+  template <int dim>
+  void require_velocities(const dealii::Function<dim> *velocity, const std::vector<Seed<dim>> &seeds)
+  {
+    for (const Seed<dim> &seed : seeds)
+      for (unsigned int a = 0; velocity && a < dim; ++a)
+        velocity->value(seed.location, a);
+  }
+
+  /// Writes a new point's properties, which are 0 before.
+  template <int dim>
+  using FillProperties = std::function<void(const Seed<dim> &seed, std::vector<double> &properties)>;
+
+  /// Makes points of the seeds. Collective.
+  template <int dim>
+  void insert_points(PointSet<dim> &points,
+                     const std::vector<Seed<dim>> &seeds,
+                     const double cell_size,
+                     const MPI_Comm communicator,
+                     const FillProperties<dim> &fill);
 } // namespace scree
 
 #endif

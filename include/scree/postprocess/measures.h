@@ -2,15 +2,166 @@
 #ifndef scree_postprocess_measures_h
 #define scree_postprocess_measures_h
 
-#include <scree/mesh/discrete_level_set.h>
 #include <scree/bodies/soil_body.h>
 #include <scree/bodies/water_phase.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/mesh/discrete_level_set.h>
 
+#include <deal.II/base/point.h>
+
+#include <array>
 #include <list>
+#include <utility>
 #include <vector>
 
 namespace scree
 {
+  /// Sums over the points of one cell (2D: per m).
+  struct CellContents
+  {
+    unsigned int n_soil_points = 0, ///< number of points of soil
+        n_water_points         = 0; ///< number of points of water
+    double soil_mass           = 0; ///< kg
+    double soil_volume         = 0; ///< with pores, m^3
+    double grain_volume        = 0; ///< m^3
+    double soil_pressure       = 0; ///< volume times P, J
+    double water_mass          = 0; ///< kg
+    double water_volume        = 0; ///< m^3
+
+    /// Whether no point lies in the cell.
+    bool is_empty() const
+    {
+      return n_soil_points == 0 && n_water_points == 0;
+    }
+
+    /// Of the soil; 1 without soil.
+    double porosity() const
+    {
+      return soil_volume > 0 ? 1. - grain_volume / soil_volume : 1.;
+    }
+
+    /// Water volume over pore volume, at most 1; without soil the whole cell, m^3, is pore.
+    double saturation(const double cell_volume) const;
+  };
+
+  /// What the cells of this rank hold, by active cell index; other ranks' cells are empty.
+  template <int dim>
+  std::vector<CellContents> contents_of_cells(const std::list<SoilBody<dim>> &bodies,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid);
+
+  /// Sums over all points of all ranks (2D: per m). Momentum and energies are those of soil and water together.
+  template <int dim>
+  struct PointSums
+  {
+    double soil_points = 0;          ///< number of points
+    double soil_mass   = 0;          ///< kg
+    dealii::Tensor<1, dim> momentum; ///< N s
+    double kinetic          = 0;     ///< of velocities and affine fields, J
+    double potential        = 0;     ///< of gravity, J
+    double elastic          = 0;     ///< of the soil, J
+    double pressure         = 0;     ///< P of the soil, Pa, summed over points
+    double largest_pressure = 0;     ///< P, Pa
+    double height;                   ///< of the highest soil point, m; far below everything without soil
+    double largest_porosity = 0;     ///< of soil points
+
+    /// Collective.
+    /// @param gravity m/s^2
+    PointSums(const std::list<SoilBody<dim>> &bodies,
+              const std::list<WaterPhase<dim>> &water,
+              const dealii::Tensor<1, dim> &gravity,
+              const MPI_Comm communicator);
+
+  private:
+    class Energies;
+
+    void add(const SoilBody<dim> &body,
+             const dealii::Point<dim> &x,
+             const double *properties,
+             const dealii::Tensor<1, dim> &gravity);
+
+    /// Mass and velocity of a point of any phase: its momentum and energies.
+    /// @param layout of the phase
+    /// @param affine_inertia see TransferParameters
+    template <typename Layout>
+    void add_motion(const Layout &layout,
+                    const double affine_inertia,
+                    const double *properties,
+                    const dealii::Point<dim> &x,
+                    const dealii::Tensor<1, dim> &gravity);
+  };
+
+  /// The columns of the mesh's fine cells along the last axis, along x first.
+  template <int dim>
+  class CellColumns
+  {
+  public:
+    /// Keeps a reference to the grid.
+    explicit CellColumns(const BackgroundGrid<dim> &grid);
+
+    /// Their number.
+    std::size_t size() const;
+
+    /// Area of each, m^2 (2D: width, m).
+    double area() const;
+
+    /// The middle of a column, with 0 as its last coordinate, m.
+    dealii::Point<dim> middle(const std::size_t column) const;
+
+    /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
+    /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
+    std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> around(const dealii::Point<dim> &x) const;
+
+    /// Cells along each axis.
+    const std::array<std::size_t, dim> &n_cells() const
+    {
+      return n;
+    }
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    std::array<std::size_t, dim> n;
+  };
+
+  /// A piece of material around a point: its place, m, and volume with pores, m^3 (2D: per m).
+  template <int dim>
+  struct PointVolume
+  {
+    dealii::Point<dim> location; ///< its centre, m
+    double volume;               ///< volume with pores, m^3 (2D: per m)
+  };
+
+  /// This rank's points as lumps: of soil, or of water with the share of the pores around that it fills.
+  template <int dim>
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies);
+
+  /// The same of the water.
+  template <int dim>
+  std::vector<PointVolume<dim>> point_volumes(const std::list<SoilBody<dim>> &bodies,
+                                              const std::list<WaterPhase<dim>> &water,
+                                              const BackgroundGrid<dim> &grid);
+
+  /// What stands above a place on the ground.
+  struct GroundColumn
+  {
+    double thickness; ///< volume over area, of lumps weighted by 1 - |distance|/(cell size) along each axis, m
+    /// The tops of the highest lumps within half a cell, the mean over the quarters (2D: halves) around the place, m;
+    /// nan without lumps. A lump's top is half its side above it, at most half a cell.
+    double height;
+  };
+
+  /// The column at each of the places, dim - 1 coordinates, m. Collective.
+  template <int dim>
+  std::vector<GroundColumn> ground_columns(const std::vector<PointVolume<dim>> &lumps,
+                                           const std::vector<std::vector<double>> &places,
+                                           const BackgroundGrid<dim> &grid);
+
+  /// The smallest and the largest x at which the thickness, volume over area of columns of cells, falls to `threshold`,
+  /// m: linear between the columns' centres; of all y in 3D. nan if it is nowhere as thick. Collective.
+  template <int dim>
+  std::pair<double, double>
+  rear_and_front(const std::vector<PointVolume<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid);
+
   /// A mass, kg, and a number of it, such as a coordinate or a speed.
   struct PartOfMass
   {

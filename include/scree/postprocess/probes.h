@@ -2,18 +2,151 @@
 #ifndef scree_postprocess_probes_h
 #define scree_postprocess_probes_h
 
-#include <scree/postprocess/place_values.h>
-#include <scree/postprocess/probe_parameters.h>
-#include <scree/io/table_file.h>
-#include <scree/postprocess/wall_forces.h>
+#include <scree/bodies/soil_body.h>
+#include <scree/bodies/water_phase.h>
+#include <scree/boundary/boundary_conditions.h>
+#include <scree/boundary/water_walls.h>
+#include <scree/io/run_folder.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/step/budget.h>
+#include <scree/transfer/water_transfer.h>
 
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <functional>
 #include <list>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace scree
 {
+  /// The state of soil and water at given places: of each quantity a linear fit by least squares to the points around
+  /// (@source{lancaster1981}), weighted by mass and by 1 - |distance|/(cell size) along each axis. Exact for
+  /// linear fields, at walls and surfaces, too; the same on any number of ranks but for rounding.
+  template <int dim>
+  class PlaceValues
+  {
+  public:
+    /// Lists the places, m.
+    PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<dealii::Point<dim>> &places);
+
+    /// Names with units of the quantities of soil: velocity, effective stress (tension positive), P, porosity.
+    static std::vector<std::string> names_of_soil();
+
+    /// Names with units of the quantities of water: pore pressure, velocity.
+    static std::vector<std::string> names_of_water();
+
+    /// Their values, a row a place; nan where no such point lies within half a cell along each axis. Collective.
+    std::vector<std::vector<double>> of_soil(const std::list<SoilBody<dim>> &bodies) const;
+
+    /// The same of the water.
+    std::vector<std::vector<double>> of_water(const std::list<WaterPhase<dim>> &water) const;
+
+    /// The places, m, in the order of the rows.
+    const std::vector<dealii::Point<dim>> &places() const
+    {
+      return place_list;
+    }
+
+  private:
+    using CellPlace = std::array<int, dim>; // numbers of a cell along the axes
+    struct Sums;
+
+    /// The places whose values the points of a cell touch.
+    const std::vector<unsigned int> &near(const ConstCellPoints<dim> &cell) const;
+
+    /// Adds a point to the sums of a place, unless it is too far.
+    void add(Sums &sums,
+             const unsigned int place,
+             const dealii::Point<dim> &x,
+             const double mass,
+             const std::vector<double> &values) const;
+
+    std::vector<std::vector<double>> fit(Sums &sums) const;
+
+    const BackgroundGrid<dim> &grid;
+    const std::vector<dealii::Point<dim>> place_list;
+    std::map<CellPlace, std::vector<unsigned int>> places_near_cell;
+  };
+
+  /// The mean force of soil and water on each wall of the box between two calls, N (2D: N/m). Walls are the faces that
+  /// are closed to soil or water.
+  template <int dim>
+  class WallForces
+  {
+  public:
+    /// @param water_walls null in a dry scene
+    WallForces(const BackgroundGrid<dim> &grid,
+               const BoundaryConditions<dim> &walls,
+               const WaterBoundaryConditions<dim> *water_walls);
+
+    /// Names of the columns of collect(), with their unit.
+    std::vector<std::string> names() const;
+
+    /// The forces since the last call, nan at the first one: of the soil and of the water (what walls take of their
+    /// motion; the soil's is the effective one), and the pore pressure's across the wall at this instant, of its
+    /// positive part over the cells that hold water. Collective.
+    /// @param totals sums of this rank since the start
+    /// @param time s
+    /// @param view null in a dry scene
+    std::vector<double> collect(const Budget<dim> &totals, const double time, const WaterView<dim> *view);
+
+    /// Saves or loads time and impulses of the last call (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &has_start &last_time &last_impulses;
+    }
+
+  private:
+    /// Force of the pore pressure on each face, N, of all ranks.
+    std::vector<double> pressure_forces(const WaterView<dim> &view) const;
+
+    const BackgroundGrid<dim> &grid;
+    const bool is_wet;
+    std::vector<unsigned int> faces; // the walls
+    bool has_start   = false;
+    double last_time = 0;
+    std::vector<double> last_impulses; // of all ranks, in the order of impulses()
+  };
+
+  /// A place, a line or a vertical of a case: its name, which is that of its file, and its one or two points, m.
+  struct NamedPlace
+  {
+    std::string name;                        ///< as the case has it
+    std::vector<std::vector<double>> points; ///< coordinates, m: one point, or both ends of a line
+  };
+
+  /// Subsection Probes: what is written of places, lines, verticals, the front and the walls.
+  struct ProbeParameters
+  {
+    std::string places,                 ///< NAME: x, y; ...
+        lines,                          ///< NAME: x, y to x, y; ...
+        verticals;                      ///< NAME: x; ..., in 3D NAME: x, y; ...
+    unsigned int places_a_line = 51;    ///< number of places on each line
+    double front_thickness     = 0;     ///< m; 0: no front
+    bool wall_forces           = false; ///< whether forces on the faces of the box are written
+    bool displacement          = false; ///< of the points of the pictures
+
+    /// Declares the subsection and its entries.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError at what does not read, lies outside the box or has no name of its own.
+    void check(const GridParameters &grid, const unsigned int dim, const bool has_soil) const;
+
+    /// What the entries list. Throw EntryError at what does not read.
+    std::vector<NamedPlace> list_of_places(const unsigned int dim) const;
+
+    /// The same of the lines.
+    std::vector<NamedPlace> list_of_lines(const unsigned int dim) const;
+
+    /// The same of the verticals; their points have dim - 1 coordinates.
+    std::vector<NamedPlace> list_of_verticals(const unsigned int dim) const;
+  };
+
   /// What probes look at.
   template <int dim>
   struct ProbedState
@@ -40,65 +173,53 @@ namespace scree
            RunFolder &folder);
 
     /// Adds a row to the files of places, verticals, front and walls. Collective.
-    void write_rows(const ProbedState<dim> &state);
+    void write_rows(const ProbedState<dim> &state)
+    {
+      write(state, false);
+    }
 
     /// Adds the rows of a time to the files of lines. Collective.
-    void write_lines(const ProbedState<dim> &state);
+    void write_lines(const ProbedState<dim> &state)
+    {
+      write(state, true);
+    }
 
-    /// Brings all rows to the disk, before a checkpoint counts on them.
-    void sync();
-
-    /// After the state has been read from a checkpoint: cuts off the rows that were written after it.
-    void cut();
-
-    /// Writes rows that the disk did not take. Throws FileError if it still refuses them.
-    void complete();
+    /// The tables, one a probe: to be synchronised, cut and completed with the others of the run.
+    std::list<TableFile> &files()
+    {
+      return tables;
+    }
 
     /// Saves or loads the state of the files, and that of the wall forces (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      for (Table &table : tables)
-        archive &table.rows;
+      for (TableFile &table : tables)
+        archive &table;
       if (wall_forces)
         archive &*wall_forces;
     }
 
   private:
-    /// A table, with the names of its columns.
-    struct Table
+    using Rows = std::vector<std::vector<double>>;
+
+    /// Tables that are written together.
+    struct Group
     {
-      TableFile rows;
-      std::vector<std::string> columns;
+      bool of_pictures;                 // or of rows of statistics
+      std::vector<std::string> columns; // besides the time
+      std::vector<TableFile *> tables;
+      std::function<Rows(const ProbedState<dim> &)> rows; // one a table; a single table has all of them
     };
 
-    /// Values along a line.
-    struct Line
-    {
-      Table *table;
-      PlaceValues<dim> values;
-    };
+    void add_table(Group &group, const std::string &name);
+    void write(const ProbedState<dim> &state, const bool of_pictures);
+    Rows state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const;
 
-    /// Makes the tables of verticals and front.
-    void make_columns(const ProbeParameters &parameters);
-    Table *new_table(const std::string &name, const std::vector<std::string> &columns);
-    std::vector<std::string> names_of_state() const;
-    void append(Table &table, const std::vector<std::vector<double>> &rows);
-    std::vector<std::vector<double>> state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const;
-    void write_places(const ProbedState<dim> &state);
-    void write_verticals(const ProbedState<dim> &state);
-    void write_front(const ProbedState<dim> &state);
-
-    const BackgroundGrid<dim> &grid;
     const bool has_soil, has_water;
-    const double front_thickness; // m
     RunFolder &folder;
-    std::list<Table> tables;
-    std::vector<Table *> places, verticals;
-    std::unique_ptr<PlaceValues<dim>> place_values;   // at the places, in their order
-    std::vector<std::vector<double>> vertical_places; // in the order of the verticals
-    std::list<Line> lines;
-    Table *front = nullptr, *walls = nullptr;
+    std::list<TableFile> tables;
+    std::vector<Group> groups;
     std::unique_ptr<WallForces<dim>> wall_forces; // null without that entry
   };
 } // namespace scree

@@ -2,14 +2,326 @@
 #ifndef scree_postprocess_statistics_h
 #define scree_postprocess_statistics_h
 
-#include <scree/postprocess/statistics/column.h>
+#include <scree/boundary/obstacle.h>
+#include <scree/io/progress.h>
+#include <scree/materials/material.h>
+#include <scree/mesh/discrete_level_set.h>
+#include <scree/postprocess/measures.h>
+#include <scree/step/budget.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace scree
 {
+  /// Sums over the steps of a run, of this rank (2D: per m); what balances and the statistics need.
+  template <int dim>
+  struct RunBalance
+  {
+    Budget<dim> balance;                     ///< momentum and energy at the nodes
+    dealii::Tensor<1, dim> lost_momentum;    ///< of soil and water points that left through an open wall, N s
+    double lost_mass       = 0;              ///< of soil, kg
+    double lost_volume     = 0;              ///< of soil as dense as at the start, m^3 (2D: per m)
+    double lost_water_mass = 0;              ///< kg
+    double lost_energy     = 0;              ///< kinetic and potential, J
+    dealii::Tensor<1, dim> entered_momentum; ///< of soil and water points of inflows, N s
+    double n_entered           = 0;          ///< points of soil
+    double entered_mass        = 0;          ///< of soil, kg
+    double entered_water_mass  = 0;          ///< kg
+    double entered_energy      = 0;          ///< kinetic, potential and elastic, J
+    double plastic_dissipation = 0;          ///< J
+
+    // Counts; doubles hold them exactly and travel like the rest.
+    double n_lost    = 0, ///< points that left the box
+        n_updates    = 0, ///< updates of stress, points times steps
+        n_substeps   = 0, ///< return maps
+        n_fallbacks  = 0, ///< see UpdateReport::n_fallbacks
+        n_vertices   = 0, ///< see UpdateReport::n_vertices
+        n_unresolved = 0; ///< see UpdateReport::n_unresolved
+
+    RunBalance() = default;
+
+    /// @param n_obstacles of the scene
+    explicit RunBalance(const unsigned int n_obstacles)
+    {
+      balance.obstacles.resize(n_obstacles);
+    }
+
+    /// Adds dissipation and counts of a step's stress updates.
+    void add(const UpdateReport &report);
+
+    /// The sums over ranks, on all of them. Collective.
+    RunBalance sum_over_ranks(const MPI_Comm communicator) const;
+
+    /// What soil and water have been given, N s.
+    dealii::Tensor<1, dim> impulse() const;
+
+    /// Energy that known losses have taken, less work and energy that has come in, J.
+    double energy_taken() const;
+
+    /// Saves or loads all members (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &balance;
+      archive &plastic_dissipation &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
+      archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
+      archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
+    }
+  };
+
+  /// How fast the soil of all ranks is, and how far it has come since the start (2D: per m). doc/output.md has the
+  /// definitions.
+  struct MotionNumbers
+  {
+    double speed        = 0; ///< that 1 % of the mass exceeds, m/s
+    double moving_part  = 0; ///< of the mass, faster than rest_speed()
+    double thickness    = 0; ///< of moving (at the start: all) soil, normal to the ground, median by volume, cells
+    double length       = 0; ///< horizontal length L of the path, m
+    double fall         = 0; ///< its height H, m
+    double area         = 0; ///< of the deposit, m^2 (2D: m)
+    double volume       = 0; ///< of the deposit, m^3 (2D: m^2)
+    double travel_angle = 0; ///< atan(H/L), degrees
+  };
+
+  /// Whether the soil has come to rest, how well the cells resolve what moves, and the path of the run-out.
+  template <int dim>
+  class SoilMotion
+  {
+  public:
+    /// Keeps references.
+    /// @param gravity m/s^2
+    /// @param bed null: the ground is normal to the last axis
+    SoilMotion(const BackgroundGrid<dim> &grid,
+               const dealii::Tensor<1, dim> &gravity,
+               const DiscreteLevelSet<dim> *bed);
+
+    /// Looks at the soil; the first look is the start. Collective.
+    MotionNumbers look(const std::list<SoilBody<dim>> &bodies, const double time);
+
+    /// Thickness of the moving soil in cells, at the look with the largest kinetic energy; empty if nothing moved.
+    std::vector<CheckResult> results() const;
+
+    /// The lines `Motion` and `Run-out` of the last look; empty without soil, or without gravity.
+    std::string text() const;
+
+    /// Saves or loads the start and the last look (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &start_thickness &start_height &largest_kinetic &thickness_then &last_time &has_soil;
+      archive &last.speed &last.moving_part &last.length &last.fall &last.area &last.volume &last.travel_angle;
+    }
+
+  private:
+    /// Soil below this speed rests, m/s.
+    double rest_speed() const;
+
+    /// Path and deposit: what columns have lost and gained.
+    void find_path(const std::vector<double> &thickness, const std::vector<double> &height);
+
+    const BackgroundGrid<dim> &grid;
+    const dealii::Tensor<1, dim> gravity;
+    const DiscreteLevelSet<dim> *bed;
+    const CellColumns<dim> columns;
+    std::vector<double> start_thickness, start_height; // of the columns, m
+    MotionNumbers last;
+    double largest_kinetic = 0; // J
+    double thickness_then  = 0; // in cells
+    double last_time       = 0; // s
+    bool has_soil          = false;
+  };
+
+  /// What there are columns for besides those of all scenes.
+  template <int dim>
+  struct SceneFeatures
+  {
+    bool loads                                = false,   ///< surface loads
+        volume_correction                     = false,   ///< work of ParticleShifting
+        viscosity                             = false,   ///< viscosity of the water
+        inflows                               = false,   ///< what has entered
+        contacts                              = false;   ///< contact between bodies
+    const DiscreteLevelSet<dim> *bed          = nullptr; ///< the bed; null without it
+    const std::list<Obstacle<dim>> *obstacles = nullptr; ///< the obstacles; null without them
+    double mass_scaling                       = 1.;      ///< see BodyForces
+  };
+
+  /// What rows need of the start of a run, and of all ranks at the last row.
+  template <int dim>
+  struct RowHistory
+  {
+    bool has_start = false;                      ///< whether there has been a row
+    dealii::Tensor<1, dim> start_momentum;       ///< N s
+    double start_energy         = 0;             ///< kinetic, potential and elastic, J
+    unsigned long long step     = 0;             ///< steps of the run
+    double time                 = 0;             ///< s
+    double n_iterations         = 0;             ///< see Budget::n_iterations
+    double n_cavitating         = 0;             ///< see Budget::n_cavitating
+    double n_viscous_iterations = 0;             ///< see Budget::n_viscous_iterations
+    std::vector<ObstacleBalance<dim>> obstacles; ///< see Budget::obstacles
+  };
+
+  /// What a column of the statistics may ask for: soil and water of all ranks when a row is due (2D: per m).
+  template <int dim>
+  struct Snapshot
+  {
+    static constexpr unsigned int dimension = dim; ///< 2 or 3
+
+    const BackgroundGrid<dim> &grid;         ///< with the mesh as it is
+    const SceneFeatures<dim> &further;       ///< what the scene has
+    const std::list<SoilBody<dim>> &bodies;  ///< points of this rank
+    const std::list<WaterPhase<dim>> &water; ///< points of this rank; empty without water
+    const RowHistory<dim> &before;           ///< the start and the last row
+    const UpdateReport &last_step;           ///< of this rank
+    const PointSums<dim> sums;               ///< of one pass over all points
+    const WaterMeasures of_water;            ///< 0 without water
+    const std::vector<double> fronts;        ///< of the soil: x below which 90, 99 and 99.5 % of its mass are, m
+    const std::vector<double> water_fronts;  ///< the same of the water
+    const MotionNumbers motion;              ///< of the soil; 0 without
+    const RunBalance<dim> totals;            ///< since the start
+    const double time;                       ///< s
+    const unsigned long long step;           ///< steps of the run
+    const double time_step;                  ///< s
+
+    /// Kinetic, potential and elastic energy of the balance, with scaled masses, J.
+    double energy() const
+    {
+      return further.mass_scaling * sums.kinetic + sums.potential + sums.elastic;
+    }
+
+    /// Momentum of the balance, with scaled masses, N s.
+    dealii::Tensor<1, dim> momentum() const
+    {
+      return further.mass_scaling * sums.momentum;
+    }
+
+    /// What soil and water have been given since the start, N s.
+    dealii::Tensor<1, dim> impulse() const
+    {
+      return totals.impulse();
+    }
+
+    /// Mean of the steps since the last row of what grows with each; 0 without a step.
+    double mean_of_steps(const double now, const double at_last_row) const
+    {
+      return step > before.step ? (now - at_last_row) / (step - before.step) : 0.;
+    }
+
+    /// Mean over the time since the last row, 1/s; 0 if there is none.
+    double mean_rate(const double now, const double at_last_row) const
+    {
+      const double duration = time - before.time;
+      return duration > 0. ? (now - at_last_row) / duration : 0.;
+    }
+  };
+
+  /// Values by the whole names of their columns, such as `Mass (kg)`.
+  using StatisticsRow = std::vector<std::pair<std::string, double>>;
+
+  /// Where columns stand in a row, from left to right.
+  enum class ColumnTopic
+  {
+    run,
+    soil,
+    lost,
+    water,
+    rigid,
+    inflows,
+    work,
+    further
+  };
+
+  /// Columns of any scene.
+  struct Always
+  {
+    /// True.
+    template <typename Snapshot>
+    bool operator()(const Snapshot &) const
+    {
+      return true;
+    }
+  };
+
+  /// A column of the file `statistics`. Its functions take a Snapshot<2> or a Snapshot<3>; `value` may be collective.
+  template <typename Value, typename Exists = Always>
+  struct Column
+  {
+    std::string name;   ///< without unit
+    std::string unit;   ///< empty: none
+    Value value;        ///< a number; a vector has a column an axis; a StatisticsRow has names of its own
+    Exists exists = {}; ///< whether the scene has it: the same in all rows
+  };
+
+  /// A column of any scene.
+  template <typename Value>
+  Column(const char *, const char *, Value) -> Column<Value>;
+
+  /// A column of some scenes.
+  template <typename Value, typename Exists>
+  Column(const char *, const char *, Value, Exists) -> Column<Value, Exists>;
+
+  /// Adds a value under its column's whole name.
+  void add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const double value);
+
+  /// Adds values that have whole names.
+  void add_value(StatisticsRow &row, const std::string &, const std::string &, const StatisticsRow &values);
+
+  /// Adds a vector: a column an axis.
+  template <int dim>
+  void
+  add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const dealii::Tensor<1, dim> &value)
+  {
+    for (unsigned int a = 0; a < dim; ++a)
+      add_value(row, name + ' ' + "xyz"[a], unit, value[a]);
+  }
+
+  /// All registered columns of a scene, in their order. Collective.
+  template <int dim>
+  StatisticsRow row_of(const Snapshot<dim> &now);
+
+  /// Adds columns to the statistics; their source file has one as a static constant.
+  class RegisterColumns
+  {
+  public:
+    /// Columns at the end of the row, in the order of the first one's name.
+    template <typename... Value, typename... Exists>
+    explicit RegisterColumns(const Column<Value, Exists> &...columns)
+        : RegisterColumns(ColumnTopic::further, Always(), columns...)
+    {
+    }
+
+    /// Columns of scenes for which `exists` is true.
+    template <typename Exists, typename First, typename... Others>
+    RegisterColumns(const ColumnTopic topic, const Exists &exists, const First &first, const Others &...others)
+    {
+      const auto add = [=](const auto &now, StatisticsRow &row) {
+        if (exists(now))
+          (add_column(first, now, row), ..., add_column(others, now, row));
+      };
+      insert<2>(topic, first.name, add);
+      insert<3>(topic, first.name, add);
+    }
+
+  private:
+    template <typename AnyColumn, typename AnySnapshot>
+    static void add_column(const AnyColumn &column, const AnySnapshot &now, StatisticsRow &row)
+    {
+      if (column.exists(now))
+        add_value(row, column.name, column.unit, column.value(now));
+    }
+
+    template <int dim>
+    void insert(const ColumnTopic topic,
+                const std::string &name,
+                const std::function<void(const Snapshot<dim> &, StatisticsRow &)> &add);
+  };
+
   /// The rows of the files `statistics` and `statistics.csv`: global numbers at each due time.
   template <int dim>
   class Statistics
@@ -19,13 +331,13 @@ namespace scree
     /// @param gravity m/s^2
     Statistics(const BackgroundGrid<dim> &grid,
                const dealii::Tensor<1, dim> &gravity,
-               const FurtherColumns<dim> &further);
+               const SceneFeatures<dim> &further);
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
     void collect(const std::list<SoilBody<dim>> &bodies,
                  const std::list<WaterPhase<dim>> &water,
-                 const RunTotals<dim> &totals,
+                 const RunBalance<dim> &totals,
                  const double time,
                  const unsigned long long step,
                  const double time_step,
@@ -67,7 +379,7 @@ namespace scree
   private:
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
-    const FurtherColumns<dim> further;
+    const SceneFeatures<dim> further;
     SoilMotion<dim> motion;
     RowHistory<dim> history;
     StatisticsRow last_row;

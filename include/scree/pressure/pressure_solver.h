@@ -3,7 +3,7 @@
 #define scree_pressure_pressure_solver_h
 
 #include <scree/pressure/pressure_operator.h>
-#include <scree/bodies/pressure_parameters.h>
+#include <scree/bodies/water_parameters.h>
 #include <scree/pressure/schur_operator.h>
 
 #include <functional>

@@ -2,7 +2,7 @@
 #ifndef scree_run_relaxation_h
 #define scree_run_relaxation_h
 
-#include <scree/io/check_result.h>
+#include <scree/io/progress.h>
 #include <scree/io/run_folder.h>
 #include <scree/model/scene.h>
 #include <scree/run/step_control.h>

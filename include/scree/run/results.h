@@ -2,17 +2,18 @@
 #ifndef scree_run_results_h
 #define scree_run_results_h
 
-#include <scree/postprocess/visualization/graphics.h>
-#include <scree/postprocess/visualization/maps.h>
-#include <scree/postprocess/output_times.h>
-#include <scree/postprocess/probes.h>
-#include <scree/step/background_writer.h>
-#include <scree/io/table_file.h>
-#include <scree/run/balance_checks.h>
-#include <scree/postprocess/run_checks.h>
-#include <scree/postprocess/statistics.h>
+#include <scree/io/files.h>
+#include <scree/io/output_parameters.h>
+#include <scree/io/run_folder.h>
 #include <scree/model/scene.h>
+#include <scree/postprocess/checks.h>
+#include <scree/postprocess/graphics.h>
+#include <scree/postprocess/maps.h>
+#include <scree/postprocess/probes.h>
+#include <scree/postprocess/statistics.h>
 #include <scree/schemes/scheme.h>
+
+#include <string>
 
 namespace scree
 {
@@ -20,7 +21,7 @@ namespace scree
   template <int dim>
   struct RunState
   {
-    const RunTotals<dim> &totals;    ///< of this rank
+    const RunBalance<dim> &totals;   ///< of this rank
     const UpdateReport &last_update; ///< of this rank
     double time;                     ///< s
     unsigned long long step;         ///< number of the time step

@@ -2,16 +2,14 @@
 #ifndef scree_run_simulation_h
 #define scree_run_simulation_h
 
-#include <scree/run/mesh_adaptation.h>
-#include <scree/postprocess/output_times.h>
+#include <scree/io/output_parameters.h>
 #include <scree/io/progress.h>
-#include <scree/particles/partition.h>
-#include <scree/run/results.h>
 #include <scree/model/scene.h>
-#include <scree/run/shown_motion.h>
-#include <scree/step/timer_section.h>
-#include <scree/run/step_control.h>
+#include <scree/particles/partition.h>
 #include <scree/run/relaxation.h>
+#include <scree/run/results.h>
+#include <scree/run/step_control.h>
+#include <scree/step/step_report.h>
 
 #include <limits>
 #include <memory>
@@ -207,13 +205,19 @@ namespace scree
     std::unique_ptr<Progress> progress; // of run(); null before
     bool progress_is_due = false;       // on some rank
 
-    RunTotals<dim> totals;
+    RunBalance<dim> totals;
     double point_updates = 0;                  // points times steps, of this rank
     UpdateReport last_update;                  // of this rank
     double last_time_step                 = 0; // s
     unsigned long long step_of_checkpoint = std::numeric_limits<unsigned long long>::max(); // the newest, of this run
     bool is_released                      = true; // or was stopped while it settled
   };
+
+  /// Runs a case to its end time or to a request to stop. If it settles, its "Strength factor" acts from the release
+  /// on: the run then goes on from a checkpoint of the settled soil. Collective.
+  /// @param parameters of the case; afterwards with the strength that the run had
+  template <int dim>
+  End run_in_phases(Parameters &parameters, const Start start, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

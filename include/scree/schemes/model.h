@@ -2,7 +2,7 @@
 #ifndef scree_schemes_model_h
 #define scree_schemes_model_h
 
-#include <scree/bodies/pressure_parameters.h>
+#include <scree/bodies/water_parameters.h>
 #include <scree/bodies/water_phase.h>
 #include <scree/boundary/inflow/inflow.h>
 #include <scree/contact/contact_parameters.h>

@@ -4,7 +4,7 @@
 
 #include <scree/momentum/nodal_forces.h>
 #include <scree/step/step_report.h>
-#include <scree/transfer/water_view.h>
+#include <scree/transfer/water_transfer.h>
 
 #include <memory>
 #include <vector>

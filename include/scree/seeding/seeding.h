@@ -2,19 +2,62 @@
 #ifndef scree_seeding_seeding_h
 #define scree_seeding_seeding_h
 
+#include <scree/bodies/soil_body.h>
 #include <scree/geometry/level_set.h>
 #include <scree/geometry/source_map.h>
 #include <scree/input/input_error.h>
-#include <scree/bodies/soil_body.h>
 #include <scree/particles/region.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace scree
 {
+  /// Unit weights of a soil, and what else its subsection says of grains and pores.
+  struct UnitWeights
+  {
+    double dry             = 0,     ///< N/m^3; 0: not given
+        saturated          = 0;     ///< N/m^3; 0: not given
+    double grain_density   = 0;     ///< kg/m^3, of the entry or its default
+    bool has_grain_density = false; ///< whether the file has the entry
+    std::optional<double> porosity; ///< of the entry or of the law
+  };
+
+  /// Density of the grains, kg/m^3, and volume of pores over total volume.
+  struct GrainsAndPores
+  {
+    double grain_density, ///< kg/m^3
+        porosity;         ///< -
+  };
+
+  /// The grains and pores that have these unit weights: dry (1 - n) rho_s g, saturated (1 - n) rho_s g + n rho_w g.
+  /// Throws EntryError if there are none, or if they contradict another entry of the body.
+  /// @param body name of the subsection
+  /// @param gravity m/s^2
+  /// @param water_density kg/m^3
+  GrainsAndPores
+  grains_and_pores(const std::string &body, const UnitWeights &given, const double gravity, const double water_density);
+
+  /// Lets slivers stay that are less than a cell's diameter from the ground: in water it has to feel them.
+  /// @param ground null: none
+  template <int dim>
+  void keep_slivers_at(const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds);
+
+  /// Seeds that fill less than a quarter of a cube, alone in their cells, join others of the cells around theirs (those
+  /// that share a face, an edge or a corner), but for those that stay. Beside a fuller seed they join the nearest one,
+  /// and take those with them that have no fuller seed but them beside theirs. Elsewhere, as in a sheet that is thin
+  /// everywhere, they gather in the one that fills most of its surroundings. A seed that others join moves towards the
+  /// common centroid, as far as its cell goes, and no nearer to the ground than both were. So volume is kept, and a
+  /// sliver is left only where all that is within a cell of it is one. The same on any number of ranks. Collective.
+  /// @param ground null: none
+  template <int dim>
+  void join_slivers(const dealii::Triangulation<dim> &triangulation,
+                    const LevelSet<dim> *ground,
+                    std::vector<Seed<dim>> &seeds);
+
   /// Where a body is and how densely it is filled with points.
   struct SeedingParameters
   {

@@ -2,16 +2,41 @@
 #ifndef scree_transfer_transfer_h
 #define scree_transfer_transfer_h
 
-#include <scree/mesh/nodal_field.h>
 #include <scree/bodies/soil_body.h>
-#include <scree/particles/batch_pointers.h>
+#include <scree/mesh/node_values.h>
+#include <scree/particles/point_set.h>
 #include <scree/transfer/f_bar.h>
 #include <scree/transfer/transfer_parameters.h>
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace scree
 {
+  /// A point that cannot follow its nodes in a step.
+  class PointFault : public std::runtime_error
+  {
+  public:
+    /// @param point body, number and place
+    /// @param what what is wrong, and what to try
+    PointFault(const std::string &point, const std::string &what)
+        : std::runtime_error(point + ": " + what)
+        , point(point)
+        , fault(what)
+    {
+    }
+
+    /// The whole message, with the time, s, in words.
+    std::string text(const std::string &time) const
+    {
+      return point + ", t = " + time + " s: " + fault;
+    }
+
+  private:
+    const std::string point, fault;
+  };
+
   /// What a pass from the grid to the points found out; cells add up.
   struct MotionReport
   {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
-#include <scree/particles/lattice.h>
 #include <scree/particles/region.h>
 #include <scree/boundary/inflow/inflow.h>
 

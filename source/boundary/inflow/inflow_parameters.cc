@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/face_entries.h>
 #include <scree/input/input_error.h>
-#include <scree/input/named_file.h>
+#include <scree/input/case_entries.h>
 #include <scree/input/number_table.h>
 #include <scree/particles/region.h>
 #include <scree/boundary/inflow/inflow_parameters.h>

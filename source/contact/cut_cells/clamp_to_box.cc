@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/contact/cut_cells/clamp_to_box.h>
-#include <scree/particles/batch_pointers.h>
+#include <scree/particles/point_set.h>
 
 namespace scree
 {

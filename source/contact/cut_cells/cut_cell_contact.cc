@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/contact/cut_cells/cut_cell_contact.h>
 #include <scree/contact/cut_cells/clamp_to_box.h>
-#include <scree/mixture/closures.h>
+#include <scree/mixture/mixture.h>
 
 #include <deal.II/base/geometry_info.h>
 

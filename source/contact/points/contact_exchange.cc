@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/contact/points/contact_exchange.h>
-#include <scree/particles/cell_costs.h>
+#include <scree/particles/point_set.h>
 #include <scree/tensor/vector.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/particles/batch_pointers.h>
+#include <scree/particles/point_set.h>
 #include <scree/contact/points/point_contact.h>
 #include <scree/tensor/vector.h>
 

@@ -7,10 +7,8 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 
-#include <scree/geometry/expression_surface.h>
-#include <scree/geometry/height_surface.h>
-#include <scree/geometry/profile.h>
-#include <scree/mesh/rigid_boundary.h>
+#include <scree/geometry/surfaces.h>
+#include <scree/mesh/discrete_level_set.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -4,9 +4,7 @@
 // of one system differ by program.
 #include "../unit_test.h"
 
-#include <scree/geometry/raster_formats/coordinate_system.h>
 #include <scree/geometry/raster.h>
-#include <scree/geometry/raster_formats/raster_writer.h>
 
 #include <cmath>
 #include <fstream>

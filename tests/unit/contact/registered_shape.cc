@@ -4,7 +4,6 @@
 #include "../unit_test.h"
 
 #include <scree/geometry/bed_parameters.h>
-#include <scree/geometry/rigid_shape.h>
 #include <scree/input/input_error.h>
 
 #include <deal.II/base/utilities.h>

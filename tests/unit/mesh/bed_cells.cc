@@ -7,9 +7,9 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 
-#include <scree/geometry/expression_surface.h>
+#include <scree/geometry/surfaces.h>
 #include <scree/mesh/cut_cells.h>
-#include <scree/mesh/shape_functions.h>
+#include <scree/mesh/background_grid.h>
 #include <scree/particles/region.h>
 
 #include <deal.II/base/geometry_info.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks in which points are put, in boxes that are too large to look at each cell closely: none of those that a close
 // look at all cells around the regions finds is missed, of a ball with a tail thinner than a cell and of a thin layer.
-#include <scree/mesh/occupied_blocks.h>
+#include <scree/mesh/fine_cells.h>
 #include <scree/particles/region.h>
 
 #include <deal.II/base/mpi.h>

@@ -4,7 +4,7 @@
 // rigid motion, dissipates mu V of unit shear, and no motion is slowed faster than largest_rate() says.
 
 #include <scree/seeding/water_seeding.h>
-#include <scree/viscosity/viscous_force.h>
+#include <scree/viscosity/viscous_step.h>
 
 #include <deal.II/base/mpi.h>
 

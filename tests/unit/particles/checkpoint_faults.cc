@@ -6,7 +6,7 @@
 
 #include <scree/input/input_error.h>
 #include <scree/io/checkpoint.h>
-#include <scree/io/whole_file.h>
+#include <scree/io/files.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -295,7 +295,7 @@ std::vector<double> test_return(const std::string &folder, std::ostream &out)
     {
       run.save(folder);
       out << dim << "D " << outcome<dim>(folder, sums) << ", checkpoints:";
-      for (const std::string &name : CheckpointFolder(folder).whole())
+      for (const std::string &name : whole_checkpoints(folder))
         out << ' ' << name;
       out << std::endl;
       run.step();

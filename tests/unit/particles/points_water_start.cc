@@ -5,7 +5,7 @@
 // soil, in two layers, and with gravity along any axis.
 
 #include <scree/mesh/background_grid.h>
-#include <scree/initial/water_start.h>
+#include <scree/initial/geostatic.h>
 #include <scree/materials/table.h>
 #include <scree/seeding/water_seeding.h>
 

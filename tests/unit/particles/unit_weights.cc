@@ -4,7 +4,7 @@
 // told.
 
 #include <scree/input/input_error.h>
-#include <scree/seeding/unit_weights.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/exceptions.h>
 

@@ -3,8 +3,7 @@
 // Files that are written while a run goes on: the order of stages and jobs, faults of one rank, and the end of a run.
 #include "../unit_test.h"
 
-#include <scree/step/background_writer.h>
-#include <scree/io/whole_file.h>
+#include <scree/io/files.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -5,8 +5,8 @@
 
 #include "soil_scene.h"
 
-#include <scree/postprocess/point_sums.h>
-#include <scree/run/balance_checks.h>
+#include <scree/postprocess/measures.h>
+#include <scree/postprocess/checks.h>
 
 #include <iostream>
 
@@ -33,7 +33,7 @@ void check_scaled_masses()
   scene.add_soil("x < 0.4 && y < 0.4");
   const BodyForces<2> forces(scene.grid, { 0., -10. }, BodyForceParameters(), 4.);
   BalanceChecks<2> checks(scene.grid, forces);
-  RunTotals<2> totals;
+  RunBalance<2> totals;
   checks.look(scene.bodies, scene.water, totals, 0.);
   set_velocity(scene, -1.);
   totals.balance.body_impulse = 4. * PointSums<2>(scene.bodies, scene.water, forces.gravity(), MPI_COMM_WORLD).momentum;
@@ -55,7 +55,7 @@ void run()
   BalanceChecks<2> checks(scene.grid, forces);
   std::cout << "nothing known: " << checks.results().size() << " results\n";
 
-  RunTotals<2> totals;
+  RunBalance<2> totals;
   checks.look(scene.bodies, scene.water, totals, 0.);
   std::cout << "at rest\n" << verdict(checks.results()) << '\n';
 

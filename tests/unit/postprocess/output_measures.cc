@@ -7,7 +7,6 @@
 
 #include <scree/postprocess/measures.h>
 #include <scree/tensor/invariants.h>
-#include <scree/postprocess/point_sums.h>
 
 #include <deal.II/base/mpi.h>
 

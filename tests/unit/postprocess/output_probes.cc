@@ -6,8 +6,8 @@
 #include "../expect.h"
 #include "soil_scene.h"
 
-#include <scree/postprocess/columns.h>
-#include <scree/postprocess/place_values.h>
+#include <scree/postprocess/measures.h>
+#include <scree/postprocess/probes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -95,7 +95,7 @@ void test_columns(std::ostream &out)
   if (dim == 3)
     for (auto &one : places)
       one.push_back(0.37);
-  for (const auto &lumps : { lumps_of(block.bodies), lumps_of(block.bodies, block.water, block.grid) })
+  for (const auto &lumps : { point_volumes(block.bodies), point_volumes(block.bodies, block.water, block.grid) })
     {
       const auto columns = ground_columns(lumps, places, block.grid);
       for (unsigned int i = 0; i < 2; ++i)
@@ -119,7 +119,7 @@ void test_columns(std::ostream &out)
 void test_wedge(std::ostream &out)
 {
   const Block<2> block("y < -0.3 + 0.5 * (0.9 - x)");
-  const auto lumps  = lumps_of(block.bodies);
+  const auto lumps  = point_volumes(block.bodies);
   const auto column = ground_columns(lumps, { { 0.3 } }, block.grid)[0];
   expect(column.thickness, 0.3, 0.005, "thickness");
   expect(column.height, 0., 0.025, "height");

@@ -6,8 +6,8 @@
 #include "../expect.h"
 #include "soil_scene.h"
 
-#include <scree/io/table_file.h>
-#include <scree/postprocess/visualization/graphics.h>
+#include <scree/io/run_folder.h>
+#include <scree/postprocess/graphics.h>
 #include <scree/postprocess/statistics.h>
 
 #include <deal.II/base/mpi.h>
@@ -140,7 +140,7 @@ void test_statistics(std::ostream &out)
   Tensor<1, dim> gravity;
   gravity[dim - 1] = -10.;
   Statistics<dim> statistics(scene.grid, gravity, { true, false, false });
-  RunTotals<dim> totals;
+  RunBalance<dim> totals;
   const bool first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   statistics.collect(scene.bodies, scene.water, totals, 0., 0, 0., UpdateReport());
   std::string file = table_head(statistics.columns()) + table_row(statistics.values());
@@ -162,11 +162,11 @@ void test_statistics(std::ostream &out)
   statistics.print_last_row(out);
   std::ostringstream dry, empty;
   Statistics<dim> dry_statistics(scene.grid, gravity, {}), water_statistics(scene.grid, gravity, {});
-  dry_statistics.collect(scene.bodies, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
+  dry_statistics.collect(scene.bodies, {}, RunBalance<dim>(), 0., 0, 0., UpdateReport());
   dry_statistics.print_last_row(dry);
   AssertThrow(dry.str().find("ater") == std::string::npos && dry.str().find("Load") == std::string::npos,
               ExcMessage("A dry scene has columns of water."));
-  water_statistics.collect({}, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
+  water_statistics.collect({}, {}, RunBalance<dim>(), 0., 0, 0., UpdateReport());
   water_statistics.print_last_row(empty);
   AssertThrow(empty.str().find("nan") == std::string::npos && empty.str().find("inf") == std::string::npos,
               ExcMessage("Nothing divides by zero."));

@@ -2,7 +2,7 @@
 // Columns of one file: registered here, they are the last ones of each row of the statistics, in order of their names.
 #include "../unit_test.h"
 
-#include <scree/io/table_file.h>
+#include <scree/io/run_folder.h>
 #include <scree/postprocess/statistics.h>
 
 #include <iostream>
@@ -35,7 +35,7 @@ void print_last_columns(std::ostream &out)
   for (const bool asks : { false, true })
     {
       is_asked = asks;
-      statistics.collect({}, {}, RunTotals<dim>(), 0., 0, 0., UpdateReport());
+      statistics.collect({}, {}, RunBalance<dim>(), 0., 0, 0., UpdateReport());
       std::istringstream head(table_head(statistics.columns()));
       std::string line;
       while (std::getline(head, line))

@@ -3,9 +3,9 @@
 // The files that a table grows in: names of columns in a .csv, rows before and after a resume; times in names of files.
 #include "../unit_test.h"
 
-#include <scree/io/table_file.h>
-#include <scree/io/time_label.h>
-#include <scree/io/whole_file.h>
+#include <scree/io/run_folder.h>
+#include <scree/io/output_parameters.h>
+#include <scree/io/files.h>
 
 #include <boost/archive/text_iarchive.hpp>
 #include <boost/archive/text_oarchive.hpp>

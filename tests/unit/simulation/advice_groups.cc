@@ -4,8 +4,7 @@
 // conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
 
 #include <scree/advice/cost.h>
-#include <scree/advice/regime.h>
-#include <scree/advice/resolution.h>
+#include <scree/advice/recommendation.h>
 
 #include <cmath>
 #include <iostream>
@@ -211,7 +210,7 @@ Observation seen(const SceneNumbers &scene)
   seen.first.seconds = 1e-3;
   seen.later         = seen.first;
   seen.memory        = 2e8;
-  seen.passages      = { { 1e-3, scene.fastest.speed(), 0. } };
+  seen.intervals     = { { 1e-3, scene.fastest.speed(), 0. } };
   return seen;
 }
 
@@ -237,7 +236,7 @@ void test_cost()
                               { TimerSection::pressure_solve, 1.5e-4 },
                               { TimerSection::sort, 2e-5 } };
   const double wave       = column.fastest.speed();
-  pilot.passages          = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
+  pilot.intervals         = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
   const Observation whole = with_pilot(start, pilot);
   const RunCost of_whole  = cost_of_run(column, whole, schedule);
   std::cout << "With a pilot: law " << whole.later.seconds_of(TimerSection::stress) / 5e-4 << ", solve "

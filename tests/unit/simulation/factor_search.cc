@@ -3,7 +3,7 @@
 // The search of a factor of safety, and the judgement of a trial from displacement and speed over time.
 
 #include <scree/input/input_error.h>
-#include <scree/run/factor_search.h>
+#include <scree/run/safety.h>
 
 #include <cmath>
 #include <iostream>

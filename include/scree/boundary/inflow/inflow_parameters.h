@@ -4,7 +4,7 @@
 
 #include <scree/mesh/background_grid.h>
 #include <scree/input/expression.h>
-#include <scree/input/time_record.h>
+#include <scree/input/number_table.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -3,7 +3,7 @@
 #define scree_contact_bodies_body_group_h
 
 #include <scree/boundary/constraints.h>
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 
 namespace scree
 {

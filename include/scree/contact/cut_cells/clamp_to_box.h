@@ -3,7 +3,7 @@
 #define scree_contact_cut_cells_clamp_to_box_h
 
 #include <scree/mesh/background_grid.h>
-#include <scree/mesh/rigid_boundary.h>
+#include <scree/mesh/discrete_level_set.h>
 #include <scree/particles/point_set.h>
 
 namespace scree

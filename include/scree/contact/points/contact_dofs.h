@@ -3,7 +3,7 @@
 #define scree_contact_points_contact_dofs_h
 
 #include <scree/boundary/constraints.h>
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 #include <scree/step/budget.h>
 #include <scree/mesh/node_rows.h>
 

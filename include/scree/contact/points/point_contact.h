@@ -7,7 +7,7 @@
 #include <scree/bodies/soil_body.h>
 #include <scree/contact/points/contact_exchange.h>
 #include <scree/boundary/obstacle.h>
-#include <scree/step/timer_section.h>
+#include <scree/step/step_report.h>
 
 #include <list>
 #include <vector>

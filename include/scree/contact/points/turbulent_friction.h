@@ -4,7 +4,7 @@
 
 #include <scree/bodies/soil_body.h>
 #include <scree/mesh/discrete_level_set.h>
-#include <scree/mesh/nodal_field.h>
+#include <scree/mesh/node_values.h>
 #include <scree/step/budget.h>
 
 #include <list>

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_postprocess_checks_h
+#define scree_postprocess_checks_h
+
+#include <scree/bodies/soil_body.h>
+#include <scree/bodies/water_phase.h>
+#include <scree/boundary/body_forces.h>
+#include <scree/io/progress.h>
+#include <scree/io/run_folder.h>
+#include <scree/mesh/background_grid.h>
+#include <scree/mesh/discrete_level_set.h>
+#include <scree/postprocess/statistics.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <array>
+#include <list>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+  /// What a run watches itself for.
+  enum class Check : unsigned int
+  {
+    speed,     ///< fastest point over the largest 99.9 % quantile of the speeds so far
+    depth,     ///< of a point below the bed, over the cell size
+    shrinkage, ///< V_0/V of soil
+    dilation,  ///< V/V_0 of soil in contact, mean of a cell
+    stress,    ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
+    lost       ///< points of soil that left the box
+  };
+
+  /// Looks at the points now and then for what a sound run does not do, and logs where and when it first did.
+  template <int dim>
+  class RunChecks
+  {
+  public:
+    /// All are kept by reference.
+    /// @param bed null: none
+    RunChecks(const BackgroundGrid<dim> &grid,
+              const dealii::Tensor<1, dim> &gravity,
+              const DiscreteLevelSet<dim> *bed,
+              RunFolder &folder);
+
+    /// Looks at the points if the last look is some steps old, or at the end. Collective.
+    /// @param n_lost points of soil that this rank has lost so far
+    /// @return whether it has looked
+    bool look(const std::list<SoilBody<dim>> &bodies,
+              const std::list<WaterPhase<dim>> &water,
+              const double n_lost,
+              const double time,
+              const unsigned long long step,
+              const bool is_end);
+
+    /// The worst that was seen. What does not apply is left out. Complete on the rank that writes alone.
+    std::vector<CheckResult> results() const;
+
+    /// Saves or loads the worst so far (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &worst &is_told &last_step &has_looked &has_soil &usual_speed_of_soil &usual_speed_of_water;
+    }
+
+  private:
+    static constexpr unsigned int n_checks = 6;
+
+    /// The point that is worst in a check.
+    struct Suspect
+    {
+      double value = 0.; ///< see Check
+      double found = 0.; ///< of the point: speed, m/s, depth, m, V/V_0, stress, Pa, or the number of those lost
+      std::string point; ///< body, number and place, in words
+      double time = 0.;  ///< s
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &value &found &point &time;
+      }
+    };
+    using Suspects = std::array<Suspect, n_checks>;
+
+    /// Looks at the points of a set: calls `look(point, name)`, where name() is that of the point.
+    template <class Look>
+    static void for_each_named(const std::string &set, const PointSet<dim> &points, const Look &look);
+
+    /// Takes a point of this rank if it is worse than those before.
+    template <class Name>
+    void suspect(const Check check, const double value, const double found, const Name &name);
+
+    void look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
+    void look_at_dilation(const SoilBody<dim> &body);
+    void look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
+
+    /// Takes the worst of all ranks and logs what is wrong for the first time. Collective.
+    void agree(const double time);
+
+    static bool is_wrong(const Check check, const double value);
+    static std::string text(const Check check, const Suspect &suspect);
+
+    const BackgroundGrid<dim> &grid;
+    const dealii::Tensor<1, dim> gravity;
+    const DiscreteLevelSet<dim> *bed;
+    RunFolder &folder;
+    double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
+    Suspects now, worst;
+    std::array<bool, n_checks> is_told{};
+    unsigned long long last_step = 0;
+    bool has_looked              = false;
+    bool has_soil                = false;
+  };
+
+  /// Watches mass, momentum and energy of a run from its start. The energy gain is the largest fall of the numerical
+  /// dissipation or of that of a channel (walls, bed, an obstacle, ...), over the released energy: that of the start
+  /// which the run has turned into motion or stored, and work done on it. With mass scaling, momentum and energy are
+  /// those of the scaled masses, and the kinetic energy over the work W shows whether the motion was slow: its integral
+  /// over time, over that of W(end) - W. So it depends neither on the rows nor on the time after the motion.
+  template <int dim>
+  class BalanceChecks
+  {
+  public:
+    /// @param forces besides gravity alone, they do work that is not in the energy balance
+    BalanceChecks(const BackgroundGrid<dim> &grid, const BodyForces<dim> &forces);
+
+    /// Compares the points with the start, which is the first look. Collective.
+    /// @param totals of this rank
+    /// @param time s
+    void look(const std::list<SoilBody<dim>> &bodies,
+              const std::list<WaterPhase<dim>> &water,
+              const RunBalance<dim> &totals,
+              const double time);
+
+    /// The worst of all looks. What does not apply is left out.
+    std::vector<CheckResult> results() const;
+
+    /// Saves or loads start and worst values (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &has_start &soil_mass &water_mass &mass_error;
+      archive &start_momentum &momentum_residual &momentum_scale;
+      archive &start_energy &start_kinetic &start_potential &least_potential &largest_work;
+      archive &dissipation &largest_dissipations &gain &gain_channel &start_time &last_time &work &work_in_time &motion;
+    }
+
+  private:
+    /// Energy below which nothing has moved, J.
+    double least_energy() const;
+
+    /// Whether the motion was slow, for mass scaling.
+    CheckResult check_of_motion() const;
+
+    /// Energy that the run had to spend, J; 0 if too little of it for percentages.
+    double released_energy() const;
+
+    const BackgroundGrid<dim> &grid;
+    const dealii::Tensor<1, dim> gravity;
+    const bool energy_is_closed;
+    const double mass_scaling;
+
+    bool has_start    = false;
+    double soil_mass  = 0; // at the start, kg
+    double water_mass = 0;
+    double mass_error = 0; // largest, relative
+    dealii::Tensor<1, dim> start_momentum;
+    double momentum_residual = 0; // largest, N s
+    double momentum_scale    = 0; // N s
+    double start_energy      = 0; // kinetic, potential and elastic, J
+    double start_kinetic     = 0;
+    double start_potential   = 0;
+    double least_potential   = 0;             // with that of what has left, without that of what has entered
+    double largest_work      = 0;             // of loads, obstacles and volume correction, J
+    double dissipation       = 0;             // numerical, now, J
+    std::vector<double> largest_dissipations; // so far, of each channel, J
+    double gain = 0;                          // largest fall from one of them, J
+    std::string gain_channel;                 // that fell most; empty: numerical
+    double start_time = 0, last_time = 0;     // s
+    double work         = 0;                  // of loads, obstacles and gravity since the start, J
+    double work_in_time = 0;                  // its integral, J s
+    double motion       = 0;                  // that of the kinetic energy, J s
+  };
+} // namespace scree
+
+#endif

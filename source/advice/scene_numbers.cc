@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/advice/scene_numbers.h>
+#include <scree/bodies/drag_law.h>
+#include <scree/postprocess/statistics.h>
+#include <scree/tensor/invariants.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// At which the conductivity is defined, m/s^2, whatever the scene's.
+    constexpr double earth_gravity = 9.81;
+  } // namespace
+
+
+  Groups groups_of(const SceneNumbers &scene)
+  {
+    Groups groups;
+    const double H = scene.height, g = scene.gravity, M = scene.constrained_modulus();
+    groups.cells_over_height = H / scene.cell_size;
+    groups.wave_speed        = scene.mean.speed();
+    groups.motion_time       = g > 0 ? std::sqrt(H / g) : groups.wave_speed > 0 ? H / groups.wave_speed : 0.;
+    if (!scene.has_soil)
+      return groups;
+    const double weight       = scene.density() * g * H; // Pa
+    groups.own_strain         = weight / M;
+    groups.shear_stress_ratio = scene.mean.shear_modulus > 0 ? weight / scene.mean.shear_modulus : 0.;
+    groups.mach_number        = std::sqrt(g * H) / groups.wave_speed;
+    if (!scene.has_water)
+      return groups;
+    const double unit_weight         = scene.water_density * earth_gravity; // N/m^3
+    groups.consolidation_coefficient = scene.conductivity * M / unit_weight;
+    groups.drainage_time             = H * H / groups.consolidation_coefficient;
+    groups.drainage                  = groups.motion_time > 0 ? groups.drainage_time / groups.motion_time : 0.;
+    groups.time_factor               = scene.end_time / groups.drainage_time;
+    const double n = scene.porosity, drag = n * n * unit_weight / scene.conductivity; // N s/m^4
+    groups.drag_time = 1. / (drag * (1. / ((1. - n) * scene.grain_density) + 1. / (n * scene.water_density)));
+    return groups;
+  }
+
+
+  double conductivity_for(const SceneNumbers &scene, const double drainage)
+  {
+    const Groups groups = groups_of(scene);
+    return scene.conductivity * groups.drainage / drainage;
+  }
+
+
+  namespace
+  {
+    template <int dim>
+    class Surveyor
+    {
+    public:
+      Surveyor(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator)
+          : simulation(simulation)
+          , parameters(parameters)
+          , grid(simulation.background_grid())
+          , communicator(communicator)
+          , axis(dim - 1) // without gravity nothing depends on it
+          , occupied(grid.triangulation().n_active_cells(), 0)
+      {
+        for (unsigned int a = 0; a < dim; ++a)
+          if (std::abs(parameters.gravity[a]) > std::abs(parameters.gravity[axis]))
+            axis = a;
+      }
+
+      SceneNumbers look()
+      {
+        read_entries();
+        find_height();
+        for (const auto &body : simulation.bodies())
+          if (!body.is_rigid)
+            look_at_soil(body);
+        for (const auto &part : simulation.water_phases())
+          look_at_water(part);
+        finish();
+        return scene;
+      }
+
+    private:
+      void read_entries()
+      {
+        scene.dim      = dim;
+        scene.end_time = parameters.end_time;
+        scene.gravity =
+            Tensor<1, dim>(make_array_view(parameters.gravity.data(), parameters.gravity.data() + dim)).norm();
+        scene.cell_size = grid.cell_size();
+        scene.n_cells   = grid.n_cells_of_box();
+        scene.has_soil  = std::any_of(
+            parameters.bodies.begin(), parameters.bodies.end(), [](const auto &body) { return !body.is_rigid(); });
+        const Wall floor =
+            parameters.boundaries.walls(dim)[2 * axis + (parameters.gravity[axis] > 0)]; // in deal.II's numbering
+        scene.sticks =
+            parameters.bed.is_set() ? parameters.bed.type_kind() == BedType::fixed : floor.type == WallType::fixed;
+        scene.is_elastic          = scene.has_soil;
+        scene.grain_diameter      = scene.has_soil ? std::numeric_limits<double>::max() : 0;
+        scene.has_water           = parameters.has_water;
+        scene.courant_of_transfer = parameters.transfer.courant_number(parameters.has_water);
+        scene.has_changing_forces = parameters.surface_load.changes_with_time() || parameters.body_forces.is_set();
+        if (!scene.has_water)
+          return;
+        scene.is_single_point  = parameters.water.point_sets_kind() == PointSets::single_point;
+        scene.water_fills_soil = parameters.water.is_where_soil_is();
+        scene.water_density    = parameters.water.density;
+      }
+
+      /// m, against gravity, above the lowest wall of the box.
+      double height_of(const Point<dim> &x) const
+      {
+        return parameters.gravity[axis] > 0 ? grid.upper_corner()[axis] - x[axis] : x[axis] - grid.lower_corner()[axis];
+      }
+
+      void find_height()
+      {
+        if (scene.has_soil && simulation.bed() != nullptr)
+          {
+            SoilMotion<dim> motion(grid, Tensor<1, dim>(), simulation.bed());
+            scene.height = grid.cell_size() * motion.look(simulation.bodies(), 0.).thickness;
+            return;
+          }
+        // Largest coordinate and minus the smallest, for each axis.
+        std::vector<double> ends(2 * dim, -std::numeric_limits<double>::infinity());
+        const auto add = [&](const auto &point) {
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              ends[2 * a]     = std::max(ends[2 * a], point.location[a]);
+              ends[2 * a + 1] = std::max(ends[2 * a + 1], -point.location[a]);
+            }
+        };
+        for (const auto &body : simulation.bodies())
+          for_each_point(body.points, add);
+        if (!scene.has_soil)
+          for (const auto &part : simulation.water_phases())
+            for_each_point(part.points(), add);
+        Utilities::MPI::max(ends, communicator, ends);
+        // Outer points stand half a spacing inside the surface.
+        scene.height  = scene.cell_size / (scene.has_soil ? parameters.bodies[0].seeding.points_per_cell
+                                                          : parameters.water.points_per_cell);
+        double length = 0.; // without points
+        for (unsigned int a = 0; a < dim; ++a)
+          if (scene.gravity == 0. || a == axis)
+            length = std::max(length, ends[2 * a] + ends[2 * a + 1]);
+        scene.height += length;
+      }
+
+      void look_at_soil(const SoilBody<dim> &body)
+      {
+        const Material<dim> &law = *body.material;
+        scene.is_elastic         = scene.is_elastic && law.is_elastic();
+        scene.grain_diameter     = std::min(scene.grain_diameter, law.grain_diameter());
+        // Soil without stress gets its first one from its weight.
+        const double first_pressure = 2. / 3. * body.density * scene.gravity * scene.height;
+        for_each_point(body.points, [&](const auto &point) {
+          const double *properties = point.properties;
+          const double mass = properties[body.layout.mass], volume = properties[body.layout.volume];
+          const double at_start = mean_effective_stress(properties + body.layout.stress);
+          const double pressure = at_start > 0 ? at_start : first_pressure;
+          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus(), body.density, pressure };
+          if (medium.speed() > scene.fastest.speed())
+            scene.fastest = medium;
+          ++soil_points;
+          soil_mass += mass;
+          soil_volume += volume;
+          grain_volume += mass / body.grain_density;
+          pressure_sum += volume * pressure;
+          bulk_sum += volume * medium.bulk_modulus;
+          shear_sum += volume * medium.shear_modulus;
+          height_moment += mass * height_of(point.location);
+        });
+        occupy(body.points);
+      }
+
+      void look_at_water(const WaterPhase<dim> &part)
+      {
+        for_each_point(part.points(), [&](const auto &point) {
+          const double *properties = point.properties;
+          water_points += part.carrier() == nullptr;
+          water_mass += properties[part.layout.mass];
+          water_volume += properties[part.layout.volume];
+          height_moment += properties[part.layout.mass] * height_of(point.location);
+        });
+        occupy(part.points());
+      }
+
+      /// Of the bodies that move, at the start, m/s.
+      double smallest_conductivity() const
+      {
+        double smallest = std::numeric_limits<double>::infinity();
+        for (const BodyParameters &body : parameters.bodies)
+          if (const double porosity = body.initial_porosity(); porosity > 0 && !body.is_rigid())
+            smallest = std::min(smallest,
+                                DragLaw(body.seepage.in_place_of(parameters.water), porosity).conductivity(porosity));
+        return std::isfinite(smallest) ? smallest : parameters.water.conductivity;
+      }
+
+      void occupy(const PointSet<dim> &points)
+      {
+        for (const auto &cell : points.cells())
+          occupied[cell.cell] = 1;
+      }
+
+      void finish()
+      {
+        double n_occupied = std::count(occupied.begin(), occupied.end(), 1);
+        for (double *sum : { &soil_points,
+                             &soil_mass,
+                             &soil_volume,
+                             &grain_volume,
+                             &pressure_sum,
+                             &bulk_sum,
+                             &shear_sum,
+                             &water_points,
+                             &water_mass,
+                             &water_volume,
+                             &height_moment,
+                             &n_occupied })
+          *sum = Utilities::MPI::sum(*sum, communicator);
+        scene.n_soil_points  = soil_points;
+        scene.n_water_points = water_points;
+        scene.n_occupied     = n_occupied;
+        if (scene.has_soil)
+          {
+            scene.mean = {
+              bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume, pressure_sum / soil_volume
+            };
+            scene.grain_density = soil_mass / grain_volume;
+            scene.porosity      = 1. - grain_volume / soil_volume;
+            if (scene.has_water)
+              scene.conductivity = smallest_conductivity();
+          }
+        // The rank with the fastest wave names its soil.
+        const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);
+        std::vector<double> fastest{
+          scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density, scene.fastest.pressure
+        };
+        fastest       = Utilities::MPI::broadcast(communicator, fastest, speeds.max_index);
+        scene.fastest = { fastest[0], fastest[1], fastest[2], fastest[3] };
+
+        // Level in the box, soil and the water that finds no room in its pores have their centre at half their height.
+        const double box_height = grid.upper_corner()[axis] - grid.lower_corner()[axis];
+        const double floor      = scene.n_cells * Utilities::fixed_power<dim>(scene.cell_size) / box_height;
+        const double free_water = std::max(0., water_volume - (soil_volume - grain_volume));
+        const double level      = (soil_volume + free_water) / floor;
+        scene.fall              = std::max(0., height_moment / (soil_mass + water_mass) - 0.5 * level);
+      }
+
+      const Simulation<dim> &simulation;
+      const Parameters &parameters;
+      const BackgroundGrid<dim> &grid;
+      const MPI_Comm communicator;
+      unsigned int axis; // of gravity
+      SceneNumbers scene;
+
+      std::vector<char> occupied; // cells, on this rank
+      // Sums over the points, SI units; pressure and moduli times volume.
+      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, pressure_sum = 0, bulk_sum = 0,
+             shear_sum    = 0;
+      double water_points = 0, water_mass = 0, water_volume = 0;
+      double height_moment = 0; // kg m
+    };
+  } // namespace
+
+
+  template <int dim>
+  SceneNumbers survey(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator)
+  {
+    return Surveyor<dim>(simulation, parameters, communicator).look();
+  }
+
+  template decltype(survey<2>) survey<2>;
+  template decltype(survey<3>) survey<3>;
+} // namespace scree

@@ -1,0 +1,498 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/input_error.h>
+#include <scree/postprocess/checks.h>
+#include <scree/postprocess/measures.h>
+#include <scree/tensor/invariants.h>
+#include <scree/tensor/vector.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned long long steps_between = 20; // a look passes over all points
+
+    /// What a sound run does not exceed, by Check; doc/output.md derives those of volume and stress.
+    constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 1.5, 2., 0. };
+
+    template <int dim>
+    std::string short_text(const Point<dim> &x)
+    {
+      std::string text = "(";
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          char number[32];
+          std::snprintf(number, sizeof number, "%.6g", x[a]);
+          text += (a > 0 ? ", " : "") + std::string(number);
+        }
+      return text + ") m";
+    }
+
+
+    /// Normal stress, Pa, tension positive, on planes with the unit normal `axis`.
+    template <int dim>
+    double along(const Tensor<1, dim> &axis, const double *stress)
+    {
+      double normal = 0.;
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          normal += axis[a] * axis[a] * stress[a];
+          for (unsigned int b = a + 1; b < dim; ++b)
+            normal += 2. * axis[a] * axis[b] * stress[2 + a + b];
+        }
+      return normal;
+    }
+  } // namespace
+
+
+  template <int dim>
+  RunChecks<dim>::RunChecks(const BackgroundGrid<dim> &grid,
+                            const Tensor<1, dim> &gravity,
+                            const DiscreteLevelSet<dim> *bed,
+                            RunFolder &folder)
+      : grid(grid)
+      , gravity(gravity)
+      , bed(bed)
+      , folder(folder)
+  {
+  }
+
+
+  template <int dim>
+  bool RunChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
+                            const std::list<WaterPhase<dim>> &water,
+                            const double n_lost,
+                            const double time,
+                            const unsigned long long step,
+                            const bool is_end)
+  {
+    if (has_looked && !is_end && step < last_step + steps_between)
+      return false;
+    has_looked = true;
+    last_step  = step;
+    now        = Suspects();
+    has_soil   = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return !body.is_rigid; });
+    look_at_speeds(bodies, water);
+    look_at_places(bodies, water);
+    const double n_all = Utilities::MPI::sum(n_lost, grid.communicator());
+    suspect(Check::lost, n_all, n_all, [] { return std::string(); });
+    agree(time);
+    return true;
+  }
+
+
+  template <int dim>
+  template <class Look>
+  void RunChecks<dim>::for_each_named(const std::string &set, const PointSet<dim> &points, const Look &look)
+  {
+    const auto &cells = points.cells();
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        unsigned int p = 0;
+        for_each_point(cells[c], [&](const auto &point) {
+          look(point, [&] {
+            return set + ", point " + std::to_string(points.ids(c)[p]) + " at " + short_text(point.location);
+          });
+          ++p;
+        });
+      }
+  }
+
+
+  template <int dim>
+  template <class Name>
+  void RunChecks<dim>::suspect(const Check check, const double value, const double found, const Name &name)
+  {
+    Suspect &so_far = now[static_cast<unsigned int>(check)];
+    if (!(value <= so_far.value)) // what is no number is worst
+      so_far = { std::isnan(value) ? std::numeric_limits<double>::infinity() : value, found, name(), 0. };
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
+  {
+    const double fall  = std::sqrt(2. * gravity.norm() * grid.cell_size()); // slower points do not harm
+    const auto include = [&](double &usual, const auto &for_each) {
+      std::vector<PartOfMass> speeds; // each point counts as one
+      double largest = 0.;
+      for_each([&](const double *velocity, const auto &) {
+        speeds.push_back({ vector_of<dim>(velocity).norm(), 1. });
+        largest = std::max(largest, speeds.back().place);
+      });
+      largest = Utilities::MPI::max(largest, grid.communicator());
+      if (!(largest > fall))
+        return;
+      if (!std::isinf(largest))
+        usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
+      for_each([&](const double *velocity, const auto &name) {
+        if (const double speed = vector_of<dim>(velocity).norm(); speed > std::max(usual, fall))
+          suspect(Check::speed, speed / std::max(usual, fall), speed, name);
+      });
+    };
+    include(usual_speed_of_soil, [&](const auto &act) {
+      for (const SoilBody<dim> &body : bodies)
+        if (!body.is_rigid)
+          for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
+            act(point.properties + body.layout.velocity, name);
+          });
+    });
+    include(usual_speed_of_water, [&](const auto &act) {
+      for (const WaterPhase<dim> &part : water)
+        if (part.carrier() == nullptr)
+          for_each_named("Water", part.points(), [&](const auto &point, const auto &name) {
+            act(point.properties + part.layout.velocity, name);
+          });
+    });
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
+  {
+    const double g = gravity.norm();
+    std::vector<double> ends(2, std::numeric_limits<double>::lowest()); // heights: highest, minus lowest
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid && g > 0.)
+        for_each_point(body.points, [&](const auto &point) {
+          const double height = -(gravity * (point.location - Point<dim>())) / g;
+          ends                = { std::max(ends[0], height), std::max(ends[1], -height) };
+        });
+    Utilities::MPI::max(ends, grid.communicator(), ends);
+    const double height      = ends[0] + ends[1] + grid.cell_size();
+    const auto look_at_depth = [&](const auto &point, const auto &name) {
+      const double deepest = -grid.cell_size() * now[static_cast<unsigned int>(Check::depth)].value;
+      if (bed == nullptr || bed->least_distance(point.cell) >= deepest)
+        return;
+      const double distance = bed->distance_of(point.cell, point.reference_location, point.location, deepest);
+      if (distance < 0.)
+        suspect(Check::depth, -distance / grid.cell_size(), -distance, name);
+    };
+    for (const WaterPhase<dim> &part : water)
+      if (part.carrier() == nullptr)
+        for_each_named("Water", part.points(), look_at_depth);
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid)
+        for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
+          const double ratio = body.density * point.properties[body.layout.volume] / point.properties[body.layout.mass];
+          const double *stress = point.properties + body.layout.stress;
+          // Passive pressure raises p' alone, and arching the vertical stress alone.
+          const double both = std::min(mean_effective_stress(stress), g > 0. ? -along(gravity / g, stress) : 0.);
+          suspect(Check::shrinkage, 1. / ratio, ratio, name);
+          if (g > 0.)
+            suspect(Check::stress, both / (body.density * g * height), both, name);
+          look_at_depth(point, name);
+        });
+    for (const SoilBody<dim> &body : bodies)
+      if (!body.is_rigid)
+        look_at_dilation(body);
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look_at_dilation(const SoilBody<dim> &body)
+  {
+    for (const auto &cell : body.points.cells())
+      {
+        double volume = 0., volume_at_start = 0.;
+        Point<dim> place;
+        for_each_point(cell, [&](const auto &point) {
+          if (mean_effective_stress(point.properties + body.layout.stress) <= 0.)
+            return; // The volume of loose points is not that of the law.
+          volume += point.properties[body.layout.volume];
+          volume_at_start += point.properties[body.layout.mass] / body.density;
+          place = point.location;
+        });
+        if (const double ratio = volume / volume_at_start; volume_at_start > 0.)
+          suspect(Check::dilation, ratio, ratio, [&] { return body.name + ", cell at " + short_text(place); });
+      }
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::agree(const double time)
+  {
+    for (Suspect &suspect : now)
+      suspect.time = time;
+    const auto of_ranks = Utilities::MPI::gather(grid.communicator(), now);
+    for (const Suspects &of_rank : of_ranks) // none but on the rank that writes
+      for (unsigned int c = 0; c < n_checks; ++c)
+        if (of_rank[c].value > worst[c].value)
+          worst[c] = of_rank[c];
+    for (unsigned int c = 0; c < n_checks && !of_ranks.empty(); ++c)
+      if (const Check check = static_cast<Check>(c); !is_told[c] && is_wrong(check, worst[c].value))
+        {
+          is_told[c] = true;
+          folder.log("Check: " + text(check, worst[c]) + ".");
+        }
+  }
+
+
+  template <int dim>
+  bool RunChecks<dim>::is_wrong(const Check check, const double value)
+  {
+    return value > bounds[static_cast<unsigned int>(check)];
+  }
+
+
+  template <int dim>
+  std::string RunChecks<dim>::text(const Check check, const Suspect &suspect)
+  {
+    const std::string when  = "t = " + short_text(suspect.time) + " s: ";
+    const std::string found = short_text(suspect.found), value = short_text(suspect.value);
+    const std::string which = suspect.point + ", " + when;
+    switch (check)
+      {
+      case Check::speed:
+        return which + "it moves at " + found + " m/s, " + value +
+               " times the largest 99.9 % quantile of the speeds so far";
+      case Check::depth:
+        return which + "it is " + found + " m below the bed, " + value + " of a cell";
+      case Check::shrinkage:
+        return which + "it is compressed to V/V_0 = " + found;
+      case Check::dilation:
+        return which + "soil in contact has dilated to V/V_0 = " + found +
+               "; write a smaller dilation angle, a larger tension cut-off, or a law with a critical state";
+      case Check::stress:
+        return which + "p' and the vertical stress reach " + found + " Pa, " + value + " times rho g H of all the soil";
+      default:
+        return when + found + " points of soil left the box";
+      }
+  }
+
+
+  template <int dim>
+  std::vector<CheckResult> RunChecks<dim>::results() const
+  {
+    std::vector<CheckResult> list;
+    const auto of  = [&](const Check check) -> const Suspect  &{ return worst[static_cast<unsigned int>(check)]; };
+    const auto add = [&](const Check check, const bool applies, const std::string &value, const std::string &bound) {
+      const bool is_exceeded = is_wrong(check, of(check).value);
+      if (has_looked && applies)
+        list.push_back({ value, bound, is_exceeded, is_exceeded ? text(check, of(check)) : "" });
+    };
+    const std::string deepest  = short_text(of(Check::depth).found);
+    const std::string fastest  = short_text(std::max(1., of(Check::speed).value));
+    const std::string smallest = short_text(of(Check::shrinkage).value > 0. ? of(Check::shrinkage).found : 1.);
+    const std::string largest  = short_text(of(Check::dilation).found);
+    const std::string highest  = short_text(of(Check::stress).value);
+    const bool has_dilated = of(Check::dilation).value > 1., has_weight = has_soil && gravity.norm() > 0.;
+    add(Check::depth,
+        bed != nullptr,
+        "deepest point " + deepest + " m below the bed",
+        short_text(bounds[1] * grid.cell_size()) + " m");
+    add(Check::lost, has_soil, "points of soil lost " + short_text(of(Check::lost).found), "0");
+    add(Check::speed,
+        true,
+        "fastest point " + fastest + " times the largest 99.9 % quantile of the speeds",
+        short_text(bounds[0]));
+    add(Check::shrinkage, has_soil, "smallest V/V_0 " + smallest, short_text(1. / bounds[2]));
+    add(Check::dilation, has_dilated, "largest V/V_0 in contact " + largest, short_text(bounds[3]));
+    add(Check::stress, has_weight, "largest stress " + highest + " of rho g H", short_text(bounds[4]));
+    return list;
+  }
+
+  template class RunChecks<2>;
+  template class RunChecks<3>;
+
+
+  namespace
+  {
+    // Rounding stays far below the first two; doc/studies has the last.
+    constexpr double bound_of_mass = 1e-6, bound_of_momentum = 1e-6, bound_of_gain = 0.005;
+
+    constexpr double bound_of_motion = 1e-3; // doc/theory/single_phase.md
+
+    /// Of the bodies that can move, of all ranks, kg. Collective.
+    template <int dim>
+    double mass_of_soil(const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
+    {
+      double mass = 0.;
+      for (const auto &body : bodies)
+        if (!body.is_rigid)
+          for_each_point(body.points, [&](const auto &point) { mass += point.properties[body.layout.mass]; });
+      return Utilities::MPI::sum(mass, communicator);
+    }
+
+
+    /// Of all ranks, kg. Collective.
+    template <int dim>
+    double mass_of_water(const std::list<WaterPhase<dim>> &water, const MPI_Comm communicator)
+    {
+      double mass = 0.;
+      for (const auto &part : water)
+        for_each_point(part.points(), [&](const auto &point) { mass += point.properties[part.layout.mass]; });
+      return Utilities::MPI::sum(mass, communicator);
+    }
+
+    /// The larger one; what is no number is largest.
+    double worse(const double so_far, const double value)
+    {
+      return value <= so_far ? so_far : std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+    }
+  } // namespace
+
+
+  template <int dim>
+  BalanceChecks<dim>::BalanceChecks(const BackgroundGrid<dim> &grid, const BodyForces<dim> &forces)
+      : grid(grid)
+      , gravity(forces.gravity())
+      , energy_is_closed(forces.is_gravity_alone())
+      , mass_scaling(forces.mass_scaling())
+  {
+  }
+
+
+  template <int dim>
+  void BalanceChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
+                                const std::list<WaterPhase<dim>> &water,
+                                const RunBalance<dim> &local,
+                                const double time)
+  {
+    const MPI_Comm communicator  = grid.communicator();
+    const RunBalance<dim> totals = local.sum_over_ranks(communicator);
+    PointSums<dim> sums(bodies, water, gravity, communicator);
+    sums.kinetic *= mass_scaling;
+    sums.momentum *= mass_scaling;
+    const double soil_now      = mass_of_soil(bodies, communicator);
+    const double mass_now      = mass_of_water(water, communicator);
+    const double energy        = sums.kinetic + sums.potential + sums.elastic;
+    const double own_potential = sums.potential + totals.lost_energy - totals.entered_energy;
+    if (!has_start)
+      {
+        has_start       = true;
+        soil_mass       = soil_now + totals.lost_mass - totals.entered_mass;
+        water_mass      = mass_now + totals.lost_water_mass - totals.entered_water_mass;
+        start_momentum  = sums.momentum - totals.impulse();
+        start_energy    = energy + totals.energy_taken();
+        start_kinetic   = sums.kinetic;
+        start_potential = least_potential = own_potential;
+        start_time = last_time = time;
+      }
+    const auto look_at_mass = [&](const double start, const double now, const double lost, const double entered) {
+      if (const double all = start + entered; all > 0.)
+        mass_error = worse(mass_error, std::abs(now + lost - entered - start) / all);
+    };
+    look_at_mass(soil_mass, soil_now, totals.lost_mass, totals.entered_mass);
+    look_at_mass(water_mass, mass_now, totals.lost_water_mass, totals.entered_water_mass);
+
+    momentum_residual = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
+    momentum_scale    = std::max({ momentum_scale,
+                                   totals.balance.body_impulse.norm(),
+                                   std::sqrt(2. * mass_scaling * (soil_now + mass_now) * sums.kinetic) });
+
+    const Budget<dim> &balance = totals.balance;
+    least_potential            = std::min(least_potential, own_potential);
+    largest_work =
+        std::max(largest_work, std::abs(balance.load_work + balance.correction_work + balance.obstacle_energy()));
+    dissipation = start_energy - energy - totals.energy_taken();
+    // What a channel gives back is a gain, too: the numerical dissipation does not show it. Plastic dissipation is
+    // left out: with hardening it can fall. So are walls with an inflow: they push what enters.
+    const bool has_entered = totals.entered_mass + totals.entered_water_mass > 0.;
+    std::vector<std::pair<std::string, double>> channels{ { "", dissipation },
+                                                          { ", of the walls",
+                                                            has_entered ? 0. : balance.wall_dissipation },
+                                                          { ", of the bed", balance.bed_dissipation },
+                                                          { ", of contact", balance.contact_dissipation },
+                                                          { ", of drag", balance.drag_dissipation },
+                                                          { ", of viscosity", balance.viscous_dissipation } };
+    for (unsigned int o = 0; o < balance.obstacles.size(); ++o)
+      channels.emplace_back(", of obstacle " + std::to_string(o + 1), balance.obstacles[o].dissipation);
+    largest_dissipations.resize(channels.size(), -std::numeric_limits<double>::infinity());
+    for (unsigned int c = 0; c < channels.size(); ++c)
+      {
+        const auto &[channel, value] = channels[c];
+        largest_dissipations[c]      = std::max(largest_dissipations[c], value);
+        if (const double with_channel = worse(gain, largest_dissipations[c] - value); with_channel > gain)
+          {
+            gain         = with_channel;
+            gain_channel = channel;
+          }
+      }
+
+    const double work_now = start_potential - own_potential + balance.load_work + balance.obstacle_energy();
+    work_in_time += 0.5 * (work + work_now) * (time - last_time);
+    work      = work_now;
+    last_time = time;
+    motion    = balance.motion;
+  }
+
+
+  template <int dim>
+  double BalanceChecks<dim>::least_energy() const
+  {
+    constexpr double of_a_cell = 1e-3; // a fall of this part of the cell size
+    return of_a_cell * (soil_mass + water_mass) * gravity.norm() * grid.cell_size();
+  }
+
+
+  template <int dim>
+  double BalanceChecks<dim>::released_energy() const
+  {
+    // Motion and elasticity of the start, fall, work. Scenes at rest release next to nothing.
+    const double stored   = start_energy - start_kinetic - start_potential; // elastic
+    const double set_free = start_kinetic + start_potential - least_potential + largest_work;
+    return set_free > least_energy() || gravity.norm() == 0. ? set_free + stored : 0.;
+  }
+
+
+  template <int dim>
+  CheckResult BalanceChecks<dim>::check_of_motion() const
+  {
+    const double waited = std::abs(work * (last_time - start_time) - work_in_time); // J s
+    if (!(std::abs(work) > least_energy()) || waited == 0.)
+      return { "kinetic energy with \"Mass scaling\" not judged: hardly any work", "", false, "" };
+    const double share = motion / waited;
+    return { "mean kinetic energy " + short_text(100. * share) + " % of the work, with masses times " +
+                 short_text(mass_scaling) + "; " + short_text(100. * share / mass_scaling) + " % with true ones",
+             short_text(100. * bound_of_motion) + " %, else \"Mass scaling\" is too large",
+             !(share <= bound_of_motion),
+             "" };
+  }
+
+
+  template <int dim>
+  std::vector<CheckResult> BalanceChecks<dim>::results() const
+  {
+    std::vector<CheckResult> list;
+    if (!has_start)
+      return list;
+    list.push_back(
+        { "mass balance " + short_text(mass_error), short_text(bound_of_mass), mass_error > bound_of_mass, "" });
+    if (momentum_scale > 0.)
+      {
+        const double error = momentum_residual / momentum_scale;
+        list.push_back(
+            { "momentum balance " + short_text(error), short_text(bound_of_momentum), error > bound_of_momentum, "" });
+      }
+    if (const double released = released_energy(); energy_is_closed && released > 0.)
+      {
+        list.push_back({ "largest energy gain " + short_text(100. * gain / released) + " %" + gain_channel,
+                         short_text(100. * bound_of_gain) + " %",
+                         gain > bound_of_gain * released,
+                         "" });
+        list.push_back(
+            { "numerical dissipation " + short_text(100. * dissipation / released) + " % of the released energy",
+              "",
+              false,
+              "" });
+      }
+    if (mass_scaling > 1.)
+      list.push_back(check_of_motion());
+    return list;
+  }
+
+  template class BalanceChecks<2>;
+  template class BalanceChecks<3>;
+} // namespace scree
