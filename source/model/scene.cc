@@ -859,7 +859,7 @@ namespace scree
             std::string fault;
             for_each_point(body.points, [&](const auto &point) {
               if (fault.empty() && obstacle.contains(point.location))
-                fault = entry_message({ body.name, entry, region },
+                fault = entry_message({ body.name, place.first, place.second },
                                       "it reaches into " + quoted(ObstacleParameters::prefix + obstacle.name) +
                                           ", for instance at " + number_text(point.location) +
                                           " m. Let it end where the obstacle begins.");
