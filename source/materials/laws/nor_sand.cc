@@ -53,7 +53,6 @@ namespace scree
   {
     require_entry(shear_modulus > 0, subsection, "Shear modulus", shear_modulus, positive);
     require_entry(reference_pressure > 0, subsection, "Reference pressure", reference_pressure, positive);
-    require_entry(critical_stress_ratio > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
     require_entry(
         minimum_pressure > 0, subsection, "Minimum pressure", minimum_pressure, std::string(positive) + " 1 Pa does.");
   }
@@ -106,6 +105,7 @@ namespace scree
   {
     check_positive(subsection);
     require_entry(swelling_index > 0, subsection, "Swelling index", swelling_index, positive);
+    require_entry(critical_stress_ratio > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
     require_entry(compression_index > swelling_index,
                   subsection,
                   "Compression index",
@@ -202,7 +202,7 @@ namespace scree
                   "Modulus exponent",
                   modulus_exponent,
                   "write a value from 0 to less than 1; sand has about 0.5.");
-    require_entry(critical_stress_ratio < 3,
+    require_entry(critical_stress_ratio > 0 && critical_stress_ratio < 3,
                   subsection,
                   "Critical stress ratio M",
                   critical_stress_ratio,
