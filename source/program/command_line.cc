@@ -356,7 +356,7 @@ namespace scree
           const std::string text        = files_of(name).front().text;
           const std::size_t first       = text.find_first_not_of("# ");
           const std::string description = text.substr(first, text.find('\n') - first);
-          list += "  " + name + std::string(std::max<std::size_t>(10, name.size() + 1) - name.size(), ' ') +
+          list += "  " + name + std::string(std::max<std::size_t>(12, name.size() + 1) - name.size(), ' ') +
                   description + '\n';
         }
       return list;
