@@ -28,9 +28,10 @@ FACTOR = {"doc/tutorials/debris_flow.md": 10}  # here the soil must have entered
 DEFAULT_FACTOR = 200
 NOT_RUN = {
     "cmake --build build --target scree scree-element": "the test build/test_programs, on which this one depends, is this command",
-    "cmake --build build-portable --target scree scree-element": "compiles everything again",
-    "cd build-portable && cpack -G DEB": "needs the programs of the line before",
-    "podman build -t scree -f doc/Containerfile .": "downloads a system; the page says that it is not tested",
+    "cmake --preset package": "tests/debian13.sh runs it",
+    "cmake --build --preset package --target scree scree-element": "compiles everything again",
+    "cd build-package && cpack -G DEB": "needs the programs of the line before",
+    "podman build -t scree -f doc/Containerfile .": "downloads a system; the page says what is tested",
     'podman run --rm -v "$PWD:/run" -w /run scree mpirun -np 2 scree case.prm': "needs the image of the line before",
     "spack install dealii@9.5 +mpi +p4est +trilinos +muparser": "compiles for hours; the page says that it is not tested",
     "spack load dealii": "needs the package of the line before",
