@@ -148,7 +148,7 @@ namespace scree
       return;
     const TimedPart part(timer, TimerSection::bed);
     for (OfSegment &segment : of_segments)
-      segment.viscous = Tensor<1, dim>();
+      segment.soil = segment.water = Tensor<1, dim>();
     if (!any_holds_water)
       return;
     holding.clear();
@@ -198,7 +198,7 @@ namespace scree
   CutCellContact<dim>::take_viscous_force(const NodalField<dim> &motion, const double viscosity, const double time_step)
   {
     for (const unsigned int s : holding)
-      of_segments[s].viscous -= time_step * viscous_force(s, motion, 1., viscosity);
+      of_segments[s].water -= time_step * viscous_force(s, motion, 1., viscosity);
   }
 
 
@@ -236,38 +236,37 @@ namespace scree
       {
         OfSegment &segment                                                          = of_segments[row.segment];
         (row.phase == Phase::soil ? segment.soil_traction : segment.water_traction) = row.traction;
+        (row.phase == Phase::soil ? segment.soil : segment.water) += time_step * row.area * row.traction;
+        balance.pressure_impulse += time_step * row.area * row.traction; // which the corrector has booked there
       }
-    count(nodes, time_step, balance);
+    count(nodes, balance);
   }
 
 
   template <int dim>
-  void CutCellContact<dim>::count(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance) const
+  void CutCellContact<dim>::count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const
   {
     balance.obstacles.resize(n_obstacles);
     for (unsigned int s = 0; s < of_segments.size(); ++s)
       {
-        const OfSegment &taken       = of_segments[s];
+        const OfSegment &taken = of_segments[s];
+        if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
+          continue;
         const CutFacet<dim> &segment = cut_cells->segments()[s];
         const unsigned int *of_cell  = grid.nodes(segment.cell);
         Tensor<1, dim> impulse;
         double dissipation = 0.;
-        // Of an impulse of a row, and of a viscous one.
-        const auto add = [&](const NodalField<dim> &field,
-                             const Tensor<1, dim> &of_row,
-                             const Tensor<1, dim> &viscous) {
-          if (of_row.norm_square() + viscous.norm_square() == 0.)
+        const auto add     = [&](const NodalField<dim> &field, const Tensor<1, dim> &of_phase) {
+          if (of_phase.norm_square() == 0.)
             return;
           constexpr unsigned int last =
               NodalField<dim>::n_components - 4; // The change of velocity ends a node's values.
-          double share = 0., of_mass = 0.; // of the impulse that nodes take, and as momentum: the rest is of no mass
+          double share = 0.;
           NodeRow motions{}, last_values{};
           for (unsigned int i = 0; i < segment.shapes.size(); ++i)
             {
               const double *values = field[of_cell[i]];
               const double shape   = values[NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
-              if (shape > 0.)
-                of_mass += shape / nodes.pores[of_cell[i]][PoreField<dim>::pressed_share];
               share += shape;
               motions += shape * load_row(values + NodalField<dim>::velocity);
               last_values += shape * load_row(values + last);
@@ -275,15 +274,11 @@ namespace scree
           Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
           for (unsigned int c = 0; c < dim; ++c)
             velocity[c] = motions[c] - 0.5 * last_values[NodalField<dim>::velocity_change - last + c];
-          impulse -= of_mass * of_row + share * viscous;
-          balance.pressure_impulse += of_mass * of_row; // The corrector has booked it there.
-          dissipation += (of_row + viscous) * velocity;
+          impulse -= share * of_phase;
+          dissipation += of_phase * velocity;
         };
-        const double of_traction = time_step * segment.area; // N s/Pa
-        add(nodes.soil, of_traction * taken.soil_traction, {});
-        add(nodes.water, of_traction * taken.water_traction, taken.viscous);
-        if (impulse.norm_square() == 0.)
-          continue;
+        add(nodes.soil, taken.soil);
+        add(nodes.water, taken.water);
         if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
           {
             const double work = impulse * cut_cells->velocity(segment);

@@ -88,12 +88,12 @@ namespace scree
     /// Of a segment.
     struct OfSegment
     {
-      dealii::Tensor<1, dim> viscous;                       // N s, out of the open, of add_viscous_force() in this step
+      dealii::Tensor<1, dim> soil, water;                   // N s, out of the open: impulses of this step
       dealii::Tensor<1, dim> soil_traction, water_traction; // Pa, of the last solve, with which the next one begins
     };
 
     /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
-    void count(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance) const;
+    void count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
 
     /// Calls `act(segment)` for the segments in a cell.
     template <typename Function>
