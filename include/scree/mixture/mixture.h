@@ -25,10 +25,9 @@ namespace scree
     /// Smallest porosity in the flow between grains: where grains crowd, water shall not race.
     constexpr double least_porosity = 0.01;
 
-    /// Inertia that the pressure moves at a node, over that of water that would fill its surroundings as far as B
-    /// integrates: a lighter phase shares the motion of the other; where both are lighter, they count as so much.
-    /// Without it points that lie on a floor leave nodes above them next to no mass, which p drives to 1e6 m/s: their
-    /// gradient is not small; and soil at such nodes comes to ground at 80 m/s, which gains energy.
+    /// Inertia of a phase that the pressure moves at a node, over that of water that would fill its surroundings as far
+    /// as B integrates. Without it points that lie on a floor leave nodes above them next to no mass, which p drives
+    /// to 1e6 m/s: their gradient is not small.
     constexpr double least_inertia = 0.01;
 
     /// Open fraction of a cut cell; less counts as so much.
