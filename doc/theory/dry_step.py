@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The time step of dry soil in 2D, in the order of doc/theory/single_phase.md: a reference for readers.
+
+Case: prm/columns/mohr_coulomb_collapse.prm, a column of Mohr-Coulomb soil without cohesion and dilation on a fixed base; FLIP, modified F-bar.
+Left out: bed, obstacles, contact of bodies, loads, settling, and the other transfers and laws.
+`python3 doc/theory/dry_step.py` prints results over time, 300 steps a row, and `python3 doc/theory/dry_step.py FILE` also draws them into FILE.
+The scene tests/scenes/reference_scenes.py compares them with those of the program."""
+
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+
+H, CELLS, PER_CELL, WIDTH, HEIGHT = 0.05, np.array([100, 30]), 4, 1., 1.  # cell size, m; cells and points along each axis; column, m
+YOUNG, POISSON, DENSITY, SINE, K0 = 1e6, 0.3, 2650*(1 - 0.4), np.sin(np.radians(30)), 0.5  # Pa, -, kg/m^3, -, -
+GRAVITY, PIC_RATE, TIME_STEP = 9.81, 5., 1e-3  # m/s^2, 1/s, s; the program chooses its time step by the wave speed
+
+SPACING, N_NODES = H/PER_CELL, (CELLS + 2).prod()
+SHEAR, LAME = YOUNG/(2*(1 + POISSON)), YOUNG*POISSON/((1 + POISSON)*(1 - 2*POISSON))  # Pa
+COLUMN, ROW = np.arange(N_NODES) % (CELLS[0] + 2), np.arange(N_NODES)//(CELLS[0] + 2)  # of the nodes
+SLOW = [0, np.sqrt(2*.5*GRAVITY*H)]  # m/s; approach to a smooth and to a fixed wall below which it acts at once (Wall gaps)
+
+
+def shapes(x):
+    """Cells of the points, places in them, and functions as [point, 9 nodes]: numbers of the nodes, splines phi_i and their slopes."""
+    cell = (x/H).astype(int)
+    place, axes = x/H - cell, []
+    for a in range(2):
+        s, l, r = place[:, a], np.where(cell[:, a] == 0, 1, .5), np.where(cell[:, a] == CELLS[a] - 1, 1, .5)
+        axes.append([np.stack(three, 1) for three in ([l*(1 - s)**2, 1 - l*(1 - s)**2 - r*s**2, r*s**2],
+                                                      [-2*l*(1 - s)/H, (2*l*(1 - s) - 2*r*s)/H, 2*r*s/H])])
+    both = lambda of_x, of_y: (axes[1][of_y][:, :, None]*axes[0][of_x][:, None]).reshape(-1, 9)
+    first = cell@[1, CELLS[0] + 2]
+    node = first[:, None] + (np.arange(3)[:, None]*(CELLS[0] + 2) + np.arange(3)).ravel()
+    return SimpleNamespace(number=cell@[1, CELLS[0]], place=place, node=node, phi=both(0, 0), slopes=(both(1, 0), both(0, 1)))
+
+
+def at_nodes(at, values):
+    """Sums of [point, 9 nodes] over the points."""
+    return np.bincount(at.node.ravel(), values.ravel(), N_NODES)
+
+
+def hold(v, v_free, at):
+    """Walls: smooth sides, fixed bottom, open top. A wall acts on a node that a point has reached (Wall gaps)."""
+    for a, side, nodes in ((0, 0, COLUMN == 0), (0, 1, COLUMN == CELLS[0] + 1), (1, 0, ROW == 0)):
+        nearest, beside = np.full(N_NODES, np.inf), nodes[at.node].any(1)  # of the points in the cells of a node
+        place = at.place[beside, a]
+        np.minimum.at(nearest, at.node[beside].ravel(), np.repeat(1 - place if side else place, 9))
+        gap = nearest*H - .6*SPACING
+        approach = v_free[:, a]*(1 if side else -1)
+        is_far = nodes & (gap > 0) & (approach > SLOW[a])
+        held = nodes & ~(is_far & (approach*TIME_STEP <= gap))
+        v[held, a] = 0
+        if a == 1:
+            v[held, 0] = 0  # fixed
+        closes = held & is_far
+        v[closes, a] = (1 if side else -1)*gap[closes]/TIME_STEP
+
+
+def f_bar(soil, at, dF):
+    """Modified F-bar: one trial elastic volume ratio in a cell. The scale of dF, also along the third axis, and the change of volume."""
+    change = np.linalg.det(dF)
+    ratio = np.sqrt(soil.b.prod(1) - soil.b_xy**2*soil.b[:, 2])  # J_e
+    is_loaded = (soil.stress**2).sum(1) > 0
+    volume, unloaded = (np.bincount(at.number, np.where(is_loaded, soil.V*one, 0), CELLS.prod())[at.number] for one in (change, 1/ratio))
+    averaged = np.where(is_loaded, volume/np.where(is_loaded, unloaded, 1)/ratio, change)
+    return np.cbrt(averaged/change), averaged
+
+
+def mohr_coulomb(strain):
+    """Logarithmic strain and Kirchhoff stress of the trial strain, principal values [point, 3]; no cohesion, no dilation."""
+    volume = strain.sum(1, keepdims=True)
+    order = np.argsort(-strain, 1)
+    trial = np.take_along_axis(2*SHEAR*strain + LAME*volume, order, 1)
+    mean, ratio = trial.mean(1), (1 + SINE)/(1 - SINE)
+    excess = np.maximum(0, (1 + SINE)*trial[:, 0] - (1 - SINE)*trial[:, 2])/2
+    stress = trial + excess[:, None]*[-1, 0, 1]  # the face f_13; the mean stays
+    edge = np.where(stress[:, 1] > stress[:, 0], mean*3/(2 + ratio), mean*3/(1 + 2*ratio))  # largest stress on an edge
+    on_edge = (excess > 0) & ((stress[:, 1] > stress[:, 0]) | (stress[:, 1] < stress[:, 2]))
+    middle = np.where(stress[:, 1] > stress[:, 0], edge, ratio*edge)
+    stress = np.where(on_edge[:, None], np.stack([edge, middle, ratio*edge], 1), stress)
+    np.put_along_axis(returned := np.empty_like(stress), order, stress, 1)
+    is_apart = volume >= 0  # the gap stays as isotropic strain
+    elastic = volume/3 + (returned - mean[:, None])/(2*SHEAR)
+    return np.where(is_apart, volume/3, elastic), np.where(is_apart, 0, returned)
+
+
+def update_stress(soil, dF, scale):
+    """Trial b_e, principal values and axes, the law, and back (Kinematics)."""
+    F = scale[:, None, None]*dF
+    b = F@np.stack([soil.b[:, 0], soil.b_xy, soil.b_xy, soil.b[:, 1]], 1).reshape(-1, 2, 2)@F.transpose(0, 2, 1)
+    half, middle = (b[:, 0, 0] - b[:, 1, 1])/2, (b[:, 0, 0] + b[:, 1, 1])/2
+    radius = np.hypot(half, b[:, 0, 1])
+    cosine, sine = (np.where(radius > 0, one/np.where(radius > 0, radius, 1), unit) for one, unit in ((half, 1), (b[:, 0, 1], 0)))
+    determinant = b[:, 0, 0]*b[:, 1, 1] - b[:, 0, 1]**2
+    trial = np.log(np.stack([middle + radius, determinant/(middle + radius), soil.b[:, 2]*scale**2], 1))/2
+    strain, tau = mohr_coulomb(trial)
+    soil.shear += np.sqrt(2/3*(((trial - strain) - (trial - strain).mean(1, keepdims=True))**2).sum(1))*(strain.sum(1) < 0)
+    components = lambda p: (np.stack([(p[:, 0] + p[:, 1])/2 + s*cosine*(p[:, 0] - p[:, 1])/2 for s in (1, -1)] + [p[:, 2]], 1),
+                            sine*(p[:, 0] - p[:, 1])/2)
+    soil.b, soil.b_xy = components(np.exp(2*strain))
+    soil.stress, soil.stress_xy = components(tau*(soil.V0/soil.V)[:, None])  # sigma = tau/J
+
+
+def step(soil):
+    """Advances the points by a time step."""
+    at = shapes(soil.x)
+    # Points to nodes: mass, momentum, forces of stress and weight; explicit update; walls.
+    mass = at_nodes(at, soil.m[:, None]*at.phi)
+    inverse = np.where(mass > 0, 1/np.where(mass > 0, mass, 1), 0)[:, None]
+    v_n = inverse*np.stack([at_nodes(at, (soil.m*soil.v[:, c])[:, None]*at.phi) for c in range(2)], 1)
+    rows = ((soil.stress[:, 0], soil.stress_xy), (soil.stress_xy, soil.stress[:, 1]))
+    force = -np.stack([at_nodes(at, sum((soil.V*of_axis)[:, None]*slope for of_axis, slope in zip(row, at.slopes))) for row in rows], 1)
+    v_free = v_n + TIME_STEP*(inverse*force + np.array([0, -GRAVITY])*(mass > 0)[:, None])
+    v = v_free.copy()
+    hold(v, v_free, at)
+    # Nodes to points: FLIP.
+    v_bar, change = (np.einsum("pi,pic->pc", at.phi, one[at.node]) for one in (v, v - v_n))
+    L = np.stack([np.einsum("pi,pic->pc", slope, v[at.node]) for slope in at.slopes], 2)
+    kept = np.exp(-PIC_RATE*TIME_STEP)
+    soil.v = kept*(soil.v + change) + (1 - kept)*v_bar
+    soil.x = soil.x + TIME_STEP*v_bar
+    dF = np.eye(2) + TIME_STEP*L
+    scale, change_of_volume = f_bar(soil, at, dF)
+    soil.V = soil.V*change_of_volume
+    update_stress(soil, dF, scale)
+
+
+def start():
+    """Points on a lattice, at rest, under the weight of the soil above (K0)."""
+    x = (np.stack(np.meshgrid(*map(np.arange, CELLS*PER_CELL)), -1).reshape(-1, 2) + .5)*SPACING
+    x = x[(x[:, 0] < WIDTH) & (x[:, 1] < HEIGHT)]
+    stress = -DENSITY*GRAVITY*(HEIGHT - x[:, [1]])*[K0, 1, K0]
+    strain = (stress*(1 + POISSON) - POISSON*stress.sum(1, keepdims=True))/YOUNG
+    V = np.full(len(x), SPACING**2)
+    return SimpleNamespace(x=x, v=0*x, V=V, V0=V, m=DENSITY*V, b=np.exp(2*strain), b_xy=0*V, stress=stress, stress_xy=0*V, shear=0*V)
+
+
+def kinetic_energy(soil):
+    """J per m."""
+    return (soil.m*(soil.v**2).sum(1)).sum()/2
+
+
+if __name__ == "__main__":
+    column = start()
+    pictures = []
+    print("time (s)   kinetic energy (J)   90 % front (m)   99 % front (m)")
+    for step_number in range(3001):
+        if step_number % 300 == 0:
+            fronts = np.quantile(column.x[:, 0], [.9, .99])
+            print(f"{step_number*TIME_STEP:8.2f}{kinetic_energy(column):21.6f}{fronts[0]:17.4f}{fronts[1]:17.4f}", flush=True)
+            pictures.append((step_number*TIME_STEP, column.x, column.shear.copy()))
+        step(column)
+    if len(sys.argv) > 1:
+        import matplotlib.pyplot as plt
+        figure, panels = plt.subplots(3, 1, figsize=(7, 6), sharex=True, constrained_layout=True)
+        for panel, (time, x, shear) in zip(panels, (pictures[1], pictures[2], pictures[-1])):
+            colours = panel.scatter(*x.T, s=1, c=shear, vmin=0, vmax=3)
+            panel.set(title=f"t = {time:.1f} s", xlim=(0, 3), ylim=(0, 1.05), aspect="equal", ylabel="y (m)")
+        panels[-1].set_xlabel("x (m)")
+        figure.colorbar(colours, ax=panels, label="plastic shear strain")
+        figure.savefig(sys.argv[1], dpi=120)
