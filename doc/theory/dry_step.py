@@ -3,8 +3,9 @@
 
 Case: prm/columns/mohr_coulomb_collapse.prm, a column of Mohr-Coulomb soil without cohesion and dilation on a fixed base; FLIP, modified F-bar.
 Left out: bed, obstacles, contact of bodies, loads, settling, and the other transfers and laws.
-`python3 doc/theory/dry_step.py` prints results over time, 300 steps a row, and `python3 doc/theory/dry_step.py FILE` also draws them into FILE.
-The scene tests/scenes/reference_scenes.py compares them with those of the program."""
+`python3 doc/theory/dry_step.py` prints results over time; `dry_step.py PICTURE results/mohr_coulomb_collapse/statistics.csv` draws them beside those
+of the program. The scene tests/scenes/reference_scenes.py compares both.
+Components of tensors are xx, yy, zz, with xy apart; [point, 9 nodes] tells what an array runs over."""
 
 import sys
 from types import SimpleNamespace
@@ -141,22 +142,33 @@ def kinetic_energy(soil):
     return (soil.m*(soil.v**2).sum(1)).sum()/2
 
 
+def draw(rows, soil, picture, program):
+    """The history of the reference beside that of the program (statistics.csv), and the points at the end."""
+    import matplotlib.pyplot as plt
+    of_program = np.genfromtxt(program, delimiter=",", names=True, deletechars="")
+    figure, panels = plt.subplots(3, 1, figsize=(7, 7), constrained_layout=True, height_ratios=(1, 1, 1.3))
+    time, energy, *fronts = np.transpose(rows)
+    name_of = lambda start: next(name for name in of_program.dtype.names if name.startswith(start))
+    for panel, label, curves in ((panels[0], "kinetic energy (J)", [(energy, "Kinetic")]),
+                                 (panels[1], "front (m)", [(fronts[0], "Front_90"), (fronts[1], "Front_99_")])):
+        for values, column in curves:
+            panel.plot(of_program[name_of("Time")], of_program[name_of(column)], "C0", label="program")
+            panel.plot(time, values, "k.", label="dry_step.py")
+        panel.set(xlabel="time (s)", ylabel=label, xlim=(0, 3))
+    panels[0].legend()
+    colours = panels[2].scatter(*soil.x.T, s=1, c=soil.shear, vmin=0, vmax=3)
+    panels[2].set(xlim=(0, 3), ylim=(0, 1.05), aspect="equal", xlabel="x (m)", ylabel="y (m)")
+    figure.colorbar(colours, ax=panels[2], label="plastic shear strain")
+    figure.savefig(picture, dpi=110)
+
+
 if __name__ == "__main__":
-    column = start()
-    pictures = []
+    column, history = start(), []
     print("time (s)   kinetic energy (J)   90 % front (m)   99 % front (m)")
     for step_number in range(3001):
-        if step_number % 300 == 0:
-            fronts = np.quantile(column.x[:, 0], [.9, .99])
-            print(f"{step_number*TIME_STEP:8.2f}{kinetic_energy(column):21.6f}{fronts[0]:17.4f}{fronts[1]:17.4f}", flush=True)
-            pictures.append((step_number*TIME_STEP, column.x, column.shear.copy()))
+        if step_number % 100 == 0:
+            history.append([step_number*TIME_STEP, kinetic_energy(column), *np.quantile(column.x[:, 0], [.9, .99])])
+            print("%8.2f%21.6f%17.4f%17.4f" % tuple(history[-1]), flush=True)
         step(column)
     if len(sys.argv) > 1:
-        import matplotlib.pyplot as plt
-        figure, panels = plt.subplots(3, 1, figsize=(7, 6), sharex=True, constrained_layout=True)
-        for panel, (time, x, shear) in zip(panels, (pictures[1], pictures[2], pictures[-1])):
-            colours = panel.scatter(*x.T, s=1, c=shear, vmin=0, vmax=3)
-            panel.set(title=f"t = {time:.1f} s", xlim=(0, 3), ylim=(0, 1.05), aspect="equal", ylabel="y (m)")
-        panels[-1].set_xlabel("x (m)")
-        figure.colorbar(colours, ax=panels, label="plastic shear strain")
-        figure.savefig(sys.argv[1], dpi=120)
+        draw(history, column, *sys.argv[1:])

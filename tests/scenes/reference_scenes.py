@@ -12,9 +12,11 @@ from scene_tools import ROOT, check, main, run
 sys.path.insert(0, os.path.join(ROOT, "doc", "theory"))
 sys.dont_write_bytecode = True
 
+import dry_step as dry_reference  # pylint: disable=wrong-import-position
 import wet_step as reference  # pylint: disable=wrong-import-position
 
 STEPS, STEPS_PER_ROW = 70, 10  # light nodes occur from step 57 on
+DRY_STEPS = 50
 
 
 def nearest(points, places):
@@ -53,6 +55,30 @@ def wet_step(scree):
               np.abs(picture.arrays["velocity"][match, :2] - points.v).max()/np.abs(points.v).max(), 0, 1e-6)
     check("pressure of the water points: largest difference over the largest one",
           np.abs(picture.arrays["pressure"][match] - phases[1].p).max()/phases[1].p.max(), 0, 1e-6)
+
+
+def dry_step(scree):
+    """The step of dry soil: kinetic energy to 1e-9, points, stress and strain to the single precision of pictures."""
+    table = run(scree, "columns/mohr_coulomb_collapse", "dry_step", {
+        "End time": DRY_STEPS*dry_reference.TIME_STEP, "Gravity": f"0, {-dry_reference.GRAVITY}",
+        "Time step/Courant number": 2, "Time step/Advection number": 1, "Time step/Maximum time step": dry_reference.TIME_STEP,
+        "Output/Graphics": "points", "Output/Interval": DRY_STEPS*dry_reference.TIME_STEP, "Output/Statistics interval": STEPS_PER_ROW*dry_reference.TIME_STEP})
+    soil = dry_reference.start()
+    for row in range(1, DRY_STEPS//STEPS_PER_ROW + 1):
+        for _ in range(STEPS_PER_ROW):
+            dry_reference.step(soil)
+        check(f"kinetic energy after {row*STEPS_PER_ROW} steps: relative difference",
+              abs(table["Kinetic energy (J)"][row]/dry_reference.kinetic_energy(soil) - 1), 0, 1e-9)
+    check("steps of the program: difference", abs(table["Step"][-1] - DRY_STEPS), 0, 0)
+    picture = read_points("dry_step")
+    match = nearest(picture, soil.x)
+    check("points of soil: number of those without one of the program", len(soil.x) - len(np.unique(match)), 0, 0)
+    for name, values, of_program, scale in (
+            ("positions", soil.x, picture.positions[match, :2], soil.x.max()),
+            ("velocities", soil.v, picture.arrays["velocity"][match, :2], np.abs(soil.v).max()),
+            ("mean effective stress", -soil.stress.mean(1), picture.arrays["mean_effective_stress"][match], np.abs(soil.stress).max()),
+            ("plastic shear strain", soil.shear, picture.arrays["plastic_shear_strain"][match], soil.shear.max())):
+        check(f"{name}: largest difference over their scale", np.abs(of_program - values).max()/scale, 0, 1e-6)
 
 
 if __name__ == "__main__":
