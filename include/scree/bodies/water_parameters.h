@@ -230,6 +230,8 @@ namespace scree
       seepage_start.add_parameters(prm);
     }
     void add_drag_parameters(dealii::ParameterHandler &prm);
+
+    /// Alone it gives the drag.
     void check_grain_diameter() const
     {
       const std::string grains = "\"Grain diameter\" = " + number_text(grain_diameter);

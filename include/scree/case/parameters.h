@@ -254,6 +254,7 @@ namespace scree
     /// Fills `unread_laws`. Throws EntryError if no entry Material chooses the law that is read instead.
     void find_unread_laws(const dealii::ParameterHandler &defaults);
 
+    /// m/s^2
     double size_of_gravity() const
     {
       double square = 0;

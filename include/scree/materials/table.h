@@ -24,6 +24,8 @@ namespace scree
     }
     MaterialParameters(const MaterialParameters &other); ///< copies the entries of all laws
     MaterialParameters(MaterialParameters &&) = default; ///< takes the entries of all laws
+
+    /// Copies or takes the entries of all laws.
     MaterialParameters &operator=(MaterialParameters other)
     {
       std::swap(law, other.law);

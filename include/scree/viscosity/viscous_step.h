@@ -99,6 +99,7 @@ namespace scree
     /// Largest rate of all ranks, 1/s.
     double largest_rate() const;
 
+    /// Of all ranks.
     double product(const Vector &a, const Vector &b) const
     {
       double sum = 0;
