@@ -54,26 +54,6 @@ namespace scree
 
 
   template <int dim>
-  template <typename Function>
-  void Rain<dim>::for_columns_near(const Point<dim> &x, const double reach, const Function &act) const
-  {
-    std::array<int, dim - 1> first, last;
-    for (unsigned int a = 0; a + 1 < dim; ++a)
-      {
-        const double at = (x[a] - grid.lower_corner()[a]) / spacing - 0.5;
-        first[a]        = std::max(0, int(std::ceil(at - reach / spacing)));
-        last[a]         = std::min(int(n[a]) - 1, int(std::floor(at + reach / spacing)));
-      }
-    for (int i = first[0]; i <= last[0]; ++i)
-      if constexpr (dim == 2)
-        act(i);
-      else
-        for (int j = first[1]; j <= last[1]; ++j)
-          act(i + int(n[0]) * j);
-  }
-
-
-  template <int dim>
   std::vector<typename Rain<dim>::Drop> Rain<dim>::drops(const Columns &columns)
   {
     std::vector<Drop> result;

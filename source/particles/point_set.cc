@@ -76,6 +76,25 @@ namespace scree
 
 
   template <int dim>
+  PointSet<dim>::PointSet(const Triangulation<dim> &triangulation,
+                          const Mapping<dim> &mapping,
+                          const unsigned int n_properties)
+      : mesh(triangulation)
+      , n_properties(n_properties)
+      , particle_handler(triangulation, mapping, n_properties)
+      , lists(particle_handler, table)
+      , refinement_signal(triangulation.signals.any_change.connect([this] { table.clear(); }))
+      , repartition_signal(triangulation.signals.post_distributed_repartition.connect([this] { table.clear(); }))
+      , emigrants(triangulation)
+  {
+    particle_handler.signals.particle_lost.connect([this](const auto &point, const auto &) {
+      const auto properties = point->get_properties();
+      lost_points.push_back({ point->get_location(), { properties.begin(), properties.end() } });
+    });
+  }
+
+
+  template <int dim>
   PointSet<dim>::~PointSet() = default;
 
 

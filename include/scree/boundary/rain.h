@@ -228,7 +228,22 @@ namespace scree
 
     /// Calls `act(column)` for the columns whose middle is at most `reach` away from `x` along each axis.
     template <typename Function>
-    void for_columns_near(const dealii::Point<dim> &x, const double reach, const Function &act) const;
+    void for_columns_near(const dealii::Point<dim> &x, const double reach, const Function &act) const
+    {
+      std::array<int, dim - 1> first, last;
+      for (unsigned int a = 0; a + 1 < dim; ++a)
+        {
+          const double at = (x[a] - grid.lower_corner()[a]) / spacing - 0.5;
+          first[a]        = std::max(0, int(std::ceil(at - reach / spacing)));
+          last[a]         = std::min(int(n[a]) - 1, int(std::floor(at + reach / spacing)));
+        }
+      for (int i = first[0]; i <= last[0]; ++i)
+        if constexpr (dim == 2)
+          act(i);
+        else
+          for (int j = first[1]; j <= last[1]; ++j)
+            act(i + int(n[0]) * j);
+    }
 
     /// Height of the soil's surface in a column.
     double surface(const unsigned int column, const Columns &columns) const
